@@ -1,0 +1,182 @@
+//! The cost of a whole step per element: laws, hourglass controls, instruction sets, sizes, ranks; beside it the
+//! machine's bandwidth measured in the same run. `cargo bench --bench step`; a word as argument picks sections.
+
+use std::hint::black_box;
+use std::time::Instant;
+use urto::comm::{Communicator, Serial, run_threads};
+use urto::lanes::InstructionSet;
+use urto::material::{Elastic, ElasticPlastic, Law};
+use urto::mesh::{Block, Mesh, NodeSet};
+use urto::model::*;
+use urto::partition::Decomposition;
+use urto::solver::{Body, Request, Solver};
+
+/// A box of n³ cubes of edge 1; node set 1 is the side x = 0.
+fn cubes(n: usize) -> Mesh {
+    let m = n + 1;
+    let at = |i: usize, j: usize, k: usize| ((k * m + j) * m + i) as u32;
+    let range = |n: usize| (0..n).flat_map(move |k| (0..n).flat_map(move |j| (0..n).map(move |i| (i, j, k))));
+    let corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)];
+    let connectivity: Vec<[u32; 8]> =
+        range(n).map(|(i, j, k)| corners.map(|(a, b, c)| at(i + a, j + b, k + c))).collect();
+    Mesh {
+        coordinates: range(m).map(|(i, j, k)| [i as f64, j as f64, k as f64]).collect(),
+        node_sets: vec![NodeSet {
+            id: 1,
+            nodes: range(m).filter(|p| p.0 == 0).map(|(i, j, k)| at(i, j, k)).collect(),
+            ..Default::default()
+        }],
+        node_ids: (1..=(m * m * m) as i64).collect(),
+        element_ids: (1..=connectivity.len() as i64).collect(),
+        blocks: vec![Block { id: 1, connectivity, ..Default::default() }],
+        ..Default::default()
+    }
+}
+
+fn elastic() -> Law {
+    Law::Elastic(Elastic { young: 1.0, poisson: 0.3 })
+}
+
+/// Yields in the first steps, so that the return really works.
+fn plastic() -> Law {
+    Law::ElasticPlastic(ElasticPlastic { young: 1.0, poisson: 0.3, yield_stress: 1e-4, hardening: 0.01, beta: 1.0 })
+}
+
+const FB: Hourglass = Hourglass::FlanaganBelytschko { stiffness: 0.05, viscosity: 0.0 };
+const ASSUMED: Hourglass = Hourglass::AssumedStrain { factor: 1.0 };
+
+fn model(law: Law, hourglass: Hourglass) -> Model {
+    Model {
+        title: String::new(),
+        termination_time: 1e9,
+        output_interval: 1e9,
+        plot: PlotSchedule { interval: None, start: 0.0, stop: 0.0 },
+        time_step: TimeStepControl { scale: 0.9, softening: 1.0, growth: 1.1, moduli: StepModuli::Elastic },
+        bulk_viscosity: BulkViscosity { linear: 0.06, quadratic: 1.2 },
+        hourglass,
+        functions: vec![],
+        materials: vec![BlockMaterial { block: 1, density: 1.0, law }],
+        no_displacements: vec![NoDisplacement { direction: Direction::X, node_set: 1 }],
+        prescribed_motions: vec![],
+        prescribed_forces: vec![],
+        pressures: vec![],
+        gravities: vec![],
+        initial_velocities: vec![InitialVelocity::Material { block: 1, velocity: [1e-2, 3e-3, 0.0] }],
+        rigid_surfaces: vec![],
+        plot_requests: PlotRequests::default(),
+    }
+}
+
+fn take_steps(solver: &mut Solver, comm: &mut dyn Communicator, steps: usize) {
+    for _ in 0..steps {
+        if let Err(stop) = solver.prepare(Request::Continue, comm) {
+            panic!("the benchmark's problem failed: {stop}");
+        }
+        solver.advance();
+    }
+}
+
+/// Nanoseconds per element and step: the best of several bursts, on `ranks` ranks.
+fn grind(n: usize, law: Law, hourglass: Hourglass, instructions: InstructionSet, ranks: usize) -> f64 {
+    let (mesh, model) = (cubes(n), model(law, hourglass));
+    let body = Body::new(&mesh, &model);
+    let cut = body.cut(ranks);
+    let contributors = body.contributors(&cut);
+    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
+    let burst = (4_000_000 / (n * n * n)).clamp(3, 200);
+    let run = |comm: &mut dyn Communicator| {
+        let mut solver = Solver::new(&mesh, &model, &body, &decomposition.share(comm.rank()), comm);
+        solver.use_instructions(instructions);
+        take_steps(&mut solver, comm, burst);
+        let mut best = f64::INFINITY;
+        for _ in 0..6 {
+            comm.barrier();
+            let begun = Instant::now();
+            take_steps(&mut solver, comm, burst);
+            comm.barrier();
+            best = best.min(begun.elapsed().as_secs_f64());
+        }
+        best
+    };
+    let seconds = if ranks == 1 {
+        run(&mut Serial)
+    } else {
+        match run_threads(ranks, |comm| Ok::<f64, ()>(run(comm))) {
+            Ok(times) => times.into_iter().fold(0.0, f64::max),
+            Err(_) => f64::NAN,
+        }
+    };
+    seconds * 1e9 / (burst * n * n * n) as f64
+}
+
+/// Seconds per byte of reading and writing an array of so many bytes, counting both directions.
+fn seconds_per_byte(bytes: usize) -> f64 {
+    let mut array = vec![1.0f64; bytes / 8];
+    let mut best = f64::INFINITY;
+    for _ in 0..8 {
+        let begun = Instant::now();
+        for x in &mut array {
+            *x *= 1.000_000_1;
+        }
+        black_box(&mut array);
+        best = best.min(begun.elapsed().as_secs_f64());
+    }
+    best / (2 * bytes) as f64
+}
+
+/// Bytes that a step must move per element when nothing is fetched twice: state and nodes both ways in the element
+/// pass, nodes and forces both ways in the update; connectivity and mass in.
+fn bytes_per_element(law_rows: usize) -> f64 {
+    let state = 2 * 8 * (32 + law_rows);
+    let element_pass = state + 8 + 32 + 64 + 2 * 32;
+    let update = 2 * 64 + 2 * 32;
+    (element_pass + update) as f64
+}
+
+fn laws() {
+    let n = 64;
+    println!("{n}³ elements, one rank, no output: ns per element and step");
+    let per_byte = seconds_per_byte(n * n * n * 600);
+    println!("  bandwidth, read and write: {:.1} GB/s", 1e-9 / per_byte);
+    println!("  {:<34}{:>10}{:>10}{:>10}{:>14}{:>10}", "", "AVX-512", "AVX2", "portable", "streaming", "ratio");
+    let widest = InstructionSet::detect();
+    for (name, law, rows, hourglass) in [
+        ("elastic, Flanagan-Belytschko", elastic(), 0, FB),
+        ("elastic, assumed strain", elastic(), 0, ASSUMED),
+        ("elastic plastic, F.-B.", plastic(), 1, FB),
+        ("elastic plastic, assumed strain", plastic(), 1, ASSUMED),
+    ] {
+        let time = |set: InstructionSet| grind(n, law, hourglass, set, 1);
+        let wide = if widest == InstructionSet::Avx512 { time(InstructionSet::Avx512) } else { f64::NAN };
+        let half = if widest != InstructionSet::Portable { time(InstructionSet::Avx2) } else { f64::NAN };
+        let portable = time(InstructionSet::Portable);
+        let streaming = bytes_per_element(rows) * per_byte * 1e9;
+        let best = wide.min(half).min(portable);
+        println!("  {name:<34}{wide:>10.1}{half:>10.1}{portable:>10.1}{streaming:>14.1}{:>10.2}", best / streaming);
+    }
+}
+
+fn sizes() {
+    println!("elastic, Flanagan-Belytschko, one rank, by size: ns per element and step");
+    for n in [22, 32, 64, 100, 159] {
+        println!("  {:>9} elements {:>8.1}", n * n * n, grind(n, elastic(), FB, InstructionSet::detect(), 1));
+    }
+}
+
+fn ranks() {
+    println!("elastic, assumed strain, 64³ elements by thread ranks: ns per element and step");
+    let one = grind(64, elastic(), ASSUMED, InstructionSet::detect(), 1);
+    for ranks in [1, 2] {
+        let time = grind(64, elastic(), ASSUMED, InstructionSet::detect(), ranks);
+        println!("  {ranks} rank(s) {time:>8.1}   speed-up {:.2}", one / time);
+    }
+}
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    for (name, section) in [("laws", laws as fn()), ("sizes", sizes), ("ranks", ranks)] {
+        if wanted.is_empty() || wanted.iter().any(|w| w == name) {
+            section();
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! `urto check`: what would be modelled, the first time step, memory and time to expect.
+
+use super::input::Given;
+use super::terminal::{complain, say};
+use super::{DONE, Failure, options};
+use crate::comm::Serial;
+use crate::output::print::{self, scientific};
+use crate::partition::Decomposition;
+use crate::solver::elements::hex8::rows;
+use crate::solver::{Body, Request, Solver, state_names};
+use std::time::Instant;
+
+/// Steps that are timed to estimate the cost of a run.
+const TRIAL_STEPS: u32 = 5;
+
+/// Reads, checks and reports.
+pub fn check(options: &options::Check) -> Result<u8, Failure> {
+    let given = Given::read(&options.input)?;
+    if let Some(warnings) = given.warnings() {
+        complain(format_args!("{warnings}\n"));
+    }
+    let model = &given.problem.model;
+    for note in given.problem.diagnostics.notes() {
+        say(format_args!("assumed: {}", note.message));
+    }
+    say(model.title.trim());
+    let body = Body::new(&given.mesh, model);
+    say(modelled(&given, &body));
+    say(trial(&given, &body)?);
+    Ok(DONE)
+}
+
+/// What is modelled, block by block.
+fn modelled(given: &Given, body: &Body) -> String {
+    let (mesh, model) = (&given.mesh, &given.problem.model);
+    let masses = body.block_masses(mesh.blocks.len());
+    let mut out = format!(
+        "mesh {}: {} nodes, {} elements, {} node sets, {} side sets\n",
+        given.mesh_path.display(),
+        mesh.coordinates.len(),
+        mesh.element_count(),
+        mesh.node_sets.len(),
+        mesh.side_sets.len()
+    );
+    for (index, block) in mesh.blocks.iter().enumerate() {
+        let material = &model.materials[body.block_material[index]];
+        let modulus = material.law.moduli().dilatational();
+        out += &format!(
+            "  block {}: {} elements of {}, mass {}, dilatational wave speed {}\n",
+            block.id,
+            block.connectivity.len(),
+            material.law.entry().name,
+            scientific(masses[index], 4),
+            scientific((modulus / material.density).sqrt(), 4)
+        );
+    }
+    let parts = print::features(model, mesh).into_iter().map(|part| format!("  {:<44}{}\n", part.what, part.asked_by));
+    out + "what is modelled, and which command asked for it\n" + &parts.collect::<String>()
+}
+
+/// Prepares the run, takes a few steps without writing anything, and says what the whole would take.
+fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
+    let (mesh, model) = (&given.mesh, &given.problem.model);
+    let cut = body.cut(1);
+    let contributors = body.contributors(&cut);
+    let share = Decomposition::new(&contributors, mesh.coordinates.len(), 1).share(0);
+    let comm = &mut Serial;
+    let mut solver = Solver::new(mesh, model, body, &share, comm);
+    let stopped = |stop| Failure::run(format_args!("error: the run would stop at once: {stop}"));
+    solver.prepare(Request::Continue, comm).map_err(stopped)?;
+    let place = solver.controlling_element(comm);
+    let first = solver.time_step;
+    let begun = Instant::now();
+    for _ in 0..TRIAL_STEPS {
+        solver.advance();
+        solver.prepare(Request::Continue, comm).map_err(stopped)?;
+    }
+    let per_step = begun.elapsed().as_secs_f64() / f64::from(TRIAL_STEPS);
+    let steps = (model.termination_time / first).ceil();
+    let [x, y, z] = place.centre.map(|coordinate| scientific(coordinate, 3));
+    let elements = mesh.element_count() as f64;
+    Ok(format!(
+        "first time step {}, set by element {} of block {} at ({x}, {y}, {z})\n\
+         at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
+         {:.0} ns per element and cycle on one core: at least {} there\n\
+         about {} of memory, {:.0} bytes per element\n\
+         deck and mesh are sound",
+        scientific(first, 4),
+        place.element,
+        place.block,
+        per_step * 1e9 / elements,
+        duration(per_step * steps),
+        bytes(memory(given)),
+        memory(given) / elements,
+    ))
+}
+
+/// Bytes of element and node state, by the sizes of what is stored.
+fn memory(given: &Given) -> f64 {
+    let (mesh, model) = (&given.mesh, &given.problem.model);
+    let elements: usize = mesh
+        .blocks
+        .iter()
+        .map(|block| {
+            let law_rows =
+                model.materials.iter().find(|m| m.block == block.id).map_or(0, |m| state_names(&m.law).len());
+            // State, mass, connectivity; place, file number, analyst's number and canonical number.
+            block.connectivity.len() * (8 * (rows::LAW + law_rows) + 8 + 32 + 4 + 4 + 8 + 4)
+        })
+        .sum();
+    // A node's record, force, initial position, file number and ownership.
+    (elements + mesh.coordinates.len() * (64 + 32 + 24 + 4 + 1)) as f64
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.1 => "less than 0.1 s".to_string(),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+fn bytes(count: f64) -> String {
+    match count {
+        b if b < 1e6 => format!("{:.0} kB", b / 1e3),
+        b if b < 1e9 => format!("{:.0} MB", b / 1e6),
+        b => format!("{:.1} GB", b / 1e9),
+    }
+}

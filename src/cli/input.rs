@@ -1,0 +1,130 @@
+//! Finds and reads deck and mesh.
+
+use super::terminal::complain;
+use super::{Failure, options};
+use crate::deck::{Diagnostics, Source};
+use crate::exodus::read_mesh;
+use crate::mesh::{Mesh, check::unreferenced_nodes};
+use crate::mesher;
+use crate::model::{Problem, examine};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// A deck and its mesh, read and checked against each other.
+pub struct Given {
+    /// The deck's path.
+    pub deck: PathBuf,
+    /// The mesh's path.
+    pub mesh_path: PathBuf,
+    /// The problem.
+    pub problem: Problem,
+    /// The mesh.
+    pub mesh: Mesh,
+}
+
+impl Given {
+    /// Reads both, or returns every mistake of both.
+    pub fn read(input: &options::Input) -> Result<Given, Failure> {
+        let deck = deck_path(&input.deck)?;
+        let source = Source::open(&deck)
+            .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
+        let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read_or_make(&path)?, path)));
+        // Mistakes in the deck are shown also when there is no mesh to hold it against.
+        match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
+            (Ok(problem), Ok((mesh, mesh_path))) => Ok(Given { deck, mesh_path, problem, mesh }),
+            (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
+            (Ok(_), Err(failure)) => Err(failure),
+            (Err(mistakes), Err(failure)) => {
+                Err(Failure::input(format_args!("{}\n{}", render(&mistakes), failure.message)))
+            }
+        }
+    }
+
+    /// Warnings that the user should see.
+    pub fn warnings(&self) -> Option<String> {
+        let found = &self.problem.diagnostics;
+        let deck = found.warnings().next().is_some().then(|| render(found));
+        let warnings: Vec<String> = deck.into_iter().chain(self.idle_nodes()).collect();
+        (!warnings.is_empty()).then(|| warnings.join("\n"))
+    }
+
+    /// A warning about nodes that belong to no element: they have no mass and take no part.
+    fn idle_nodes(&self) -> Option<String> {
+        let idle = unreferenced_nodes(&self.mesh);
+        let first: Vec<String> =
+            idle.iter().take(5).map(|&node| self.mesh.node_ids[node as usize].to_string()).collect();
+        let more = if idle.len() > first.len() { ", ..." } else { "" };
+        (!idle.is_empty()).then(|| {
+            format!(
+                "warning: {}: {} nodes belong to no element and take no part: {}{more}",
+                self.mesh_path.display(),
+                idle.len(),
+                first.join(", ")
+            )
+        })
+    }
+}
+
+/// Messages as text, coloured on a terminal.
+pub fn render(diagnostics: &Diagnostics) -> String {
+    let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    diagnostics.render(color).trim_end().to_string()
+}
+
+/// The deck as named, or with its suffix added.
+pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
+    let with_suffix = PathBuf::from(format!("{}.i", named.display()));
+    let missing = || match named.extension() {
+        Some(suffix) if suffix == "i" => format!("error: there is no deck {}", named.display()),
+        _ => format!("error: there is no deck {}, nor {}", named.display(), with_suffix.display()),
+    };
+    [named, &with_suffix]
+        .into_iter()
+        .find(|path| path.is_file())
+        .map(Path::to_path_buf)
+        .ok_or_else(|| Failure::input(missing()))
+}
+
+/// The mesh of a file: read, or made when the file is a recipe.
+fn read_or_make(path: &Path) -> Result<Mesh, Failure> {
+    if path.extension().is_some_and(|suffix| suffix == "mesh") {
+        return make_mesh(path, 1);
+    }
+    read_mesh(path).map_err(Failure::input)
+}
+
+/// The mesh that a recipe describes; warnings go to the standard error.
+pub fn make_mesh(recipe: &Path, refine: u32) -> Result<Mesh, Failure> {
+    let source = Source::open(recipe)
+        .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
+    let (mesh, found) =
+        mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))?;
+    if !found.is_empty() {
+        complain(render(&found));
+    }
+    Ok(mesh)
+}
+
+/// The mesh as named, or `x.g` beside the deck, or in `meshes/` beside the deck's folder, or its recipe there.
+fn mesh_path(deck: &Path, named: Option<&Path>) -> Result<PathBuf, Failure> {
+    if let Some(path) = named {
+        return Ok(path.to_path_buf());
+    }
+    let beside = deck.with_extension("g");
+    let folder = deck.parent().unwrap_or(Path::new(""));
+    let shelf = match (folder.file_name(), folder.parent()) {
+        (Some(_), Some(parent)) => parent.join("meshes"),
+        _ => folder.join("..").join("meshes"),
+    };
+    let shelved = beside.file_name().map(|name| shelf.join(name)).unwrap_or_default();
+    let places = [beside.clone(), shelved.clone(), beside.with_extension("mesh"), shelved.with_extension("mesh")];
+    places.into_iter().find(|path| path.is_file()).ok_or_else(|| {
+        Failure::input(format_args!(
+            "error: no mesh for {}: neither {} nor {} exists, and no recipe with suffix .mesh either\n\
+             help: name it with --mesh, or make one with urto mesh",
+            deck.display(),
+            beside.display(),
+            shelved.display()
+        ))
+    })
+}

@@ -1,0 +1,183 @@
+//! The man page urto.1, made from the option table: the program, each of its verbs, then what is common to them.
+
+use crate::output::GLOBAL_VARIABLES;
+use clap::Command;
+use clap_mangen::Man;
+use std::io::Write;
+
+/// The page, in roff.
+pub fn manual() -> String {
+    // The examples of `--help` have a section of their own here.
+    let mut command = super::command().after_long_help("").after_help("").disable_help_subcommand(true);
+    command.build();
+    let mut out = Vec::new();
+    // Writing to memory does not fail.
+    let page = Man::new(command.clone()).title("URTO").section("1").manual("urto manual");
+    let _ = page.render_title(&mut out);
+    let _ = page.render_name_section(&mut out);
+    let _ = write!(out, "{SYNOPSIS}");
+    let _ = page.render_description_section(&mut out);
+    for verb in command.get_subcommands().filter(|verb| !verb.is_hide_set()) {
+        let _ = verb_sections(verb, &mut out);
+    }
+    let _ = write!(out, "{}{CLOSING}", written());
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// One section with a verb's synopsis, what it does, and its options as subsections.
+fn verb_sections(verb: &Command, out: &mut Vec<u8>) -> std::io::Result<()> {
+    let page = Man::new(verb.clone());
+    let mut part = Vec::new();
+    page.render_synopsis_section(&mut part)?;
+    page.render_description_section(&mut part)?;
+    page.render_options_section(&mut part)?;
+    writeln!(out, ".SH \"URTO {}\"", verb.get_name().to_uppercase())?;
+    for line in String::from_utf8_lossy(&part).lines() {
+        match line.strip_prefix(".SH ") {
+            Some("OPTIONS") => writeln!(out, ".PP")?,
+            // The heading of the verb stands for both.
+            Some("SYNOPSIS") => {}
+            Some("DESCRIPTION") => writeln!(out, ".PP")?,
+            _ => writeln!(out, "{line}")?,
+        }
+    }
+    Ok(())
+}
+
+const SYNOPSIS: &str = r".SH SYNOPSIS
+.B urto
+.I DECK
+[\fIoptions of run\fR]
+.br
+.B urto
+\fIVERB\fR [\fIoptions\fR]
+.br
+.B mpiexec \-n
+.I N
+.B urto
+.I DECK
+";
+
+/// Columns of the print log, in its order.
+const COLUMNS: [(&str, &str); 17] = [
+    ("TIME STEP NUMBER", "steps taken"),
+    ("CURRENT TIME", "time of the line"),
+    ("KINETIC ENERGY", "of all nodes"),
+    ("SECONDS PER ELEMENT CYCLE", "wall clock per element and step since the last line"),
+    ("TIME DILATATION FACTOR", "seconds of wall clock per unit of problem time since the last line"),
+    ("TIME STEP", "size of the next step"),
+    ("SET BY ELEMENT", "number in the mesh of the element that limits the step"),
+    ("OF BLOCK", "the block of that element"),
+    ("INTERNAL ENERGY", "work of stresses, elastic and dissipated"),
+    ("HOURGLASS ENERGY", "work of hourglass resistance; small beside the internal energy in a sound run"),
+    ("BULK VISC. ENERGY", "dissipated by bulk viscosity"),
+    ("FRICTION ENERGY", "dissipated by friction"),
+    ("EXTERNAL WORK", "work of loads and prescribed motions"),
+    ("CONTACT WORK", "work of normal contact forces; negative where impacts took energy out"),
+    ("ERODED ENERGY", "energy of eroded elements"),
+    ("ENERGY ERROR", "energy accounted for minus energy supplied, over the largest account; should stay near zero"),
+    ("SECONDS TO GO", "wall clock to the termination time at the present rate"),
+];
+
+/// The sections on what a run writes down in numbers.
+fn written() -> String {
+    let terms = |list: &[(&str, &str)]| -> String {
+        list.iter().map(|(name, meaning)| format!(".TP\n.B {name}\n{meaning}\n")).collect()
+    };
+    format!(
+        ".SH \"THE PRINT LOG\"\nThe log has one line per OUTPUT TIME, with the columns\n{}\
+         .SH \"GLOBAL VARIABLES\"\nEvery state of the plot file has these numbers of the whole body:\n{}",
+        terms(&COLUMNS),
+        terms(&GLOBAL_VARIABLES)
+    )
+}
+
+const CLOSING: &str = r#".SH FILES
+All files of a run have one base name: the deck's, or that of
+.BR \-\-output .
+.TP
+.B BASE.i
+The deck, see
+.BR urto\-deck (5).
+.TP
+.B BASE.g
+The mesh: EXODUS II (GENESIS) with eight\-node hexahedra, in any netCDF format.
+.TP
+.B BASE.mesh
+A recipe, from which
+.B urto mesh
+makes BASE.g.
+.TP
+.B BASE.o
+The print log: the deck, what is modelled, masses, one line per OUTPUT TIME, the energy balance, where the time went.
+Older ones are kept as BASE.o.1, BASE.o.2 and so on.
+.TP
+.B BASE.e
+The plot states, EXODUS II: for ParaView, VTK, netCDF and
+.BR "urto view" .
+It can be read at any instant, also while the run goes on and after it was killed.
+.TP
+.B BASE.shutdown
+When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one
+left from before at the start.
+.SH "EXIT STATUS"
+.TP
+.B 0
+Done; also when the shutdown file ended the run. For
+.BR diff ,
+the files are the same.
+.TP
+.B 1
+The run failed: an inverted element, a motion that is no longer a number, a collapsing time step, energy running away,
+a file that cannot be written. The last state is written and the cause named. For
+.BR diff ,
+the files differ.
+.TP
+.B 2
+The deck, the mesh or the command line is wrong. For
+.BR diff ,
+the files cannot be compared.
+.TP
+.BR 130 ", " 143
+Stopped by SIGINT, by SIGTERM, after a last state was written. A second signal of the same kind ends the program at
+once.
+.SH ENVIRONMENT
+.TP
+.B NO_COLOR
+When set, messages have no colours. They have none either when they do not go to a terminal.
+.TP
+.B URTO_SIMD
+The widest vector instructions to use:
+.BR portable ", " avx2 " or " avx512 .
+Results do not depend on it.
+.TP
+.BR OMPI_COMM_WORLD_SIZE ", " PMI_SIZE " and their kin"
+Set by MPI launchers. When one is there, ranks are the processes of the job, which needs a program built with the
+feature
+.BR mpi .
+.SH EXAMPLES
+.TP
+.B urto check decks/taylor_bar.i
+What would be modelled, the first time step, and what the run would cost.
+.TP
+.B urto decks/taylor_bar.i \-\-output out/case1
+Runs the deck on all cores; writes out/case1.o and out/case1.e.
+.TP
+.B mpiexec \-n 4 urto decks/taylor_bar.i
+The same on four MPI processes, with the same bits.
+.TP
+.B urto view out/case1.e \-\-variable EQPS \-\-mirror xy
+Draws the last state, coloured by equivalent plastic strain, with the mirror images of a quarter model.
+.TP
+.B urto explain INITIAL VELOCITY MATERIAL
+A command of the deck: form, fields, units, defaults, an example.
+.TP
+.B urto mesh meshes/taylor_bar.mesh \-o fine.g \-\-refine 2
+A mesh with twice as many elements along each edge.
+.TP
+.B urto diff a.e b.e \-\-tolerance 1e\-6 \-\-floor 1e\-12
+Whether two runs agree to six digits.
+.SH "SEE ALSO"
+.BR urto\-deck (5),
+.BR mpiexec (1)
+"#;

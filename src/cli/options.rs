@@ -1,0 +1,206 @@
+//! The option table: what `--help` and the man page are made of.
+
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Explicit transient dynamics of solids: PRONTO decks in, EXODUS results out
+///
+/// An analyst's deck in PRONTO's command language and a GENESIS mesh go in; a parallel Lagrangian finite element
+/// code integrates the motion; EXODUS results come out. `urto DECK` is short for `urto run DECK`.
+#[derive(Debug, Parser)]
+#[command(
+    name = "urto",
+    version,
+    override_usage = "urto DECK [OPTIONS OF RUN]\n       urto VERB ...",
+    after_help = "Exit codes: 0 done, 1 the run failed or files differ, 2 the input is wrong, 130 and 143 stopped by \
+                  SIGINT and SIGTERM.",
+    after_long_help = AFTER_HELP
+)]
+pub struct Options {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// What stands below the options in the long help of the program.
+const AFTER_HELP: &str = "\
+Examples:
+  urto check decks/taylor_bar.i             what would be modelled, and what it would cost
+  urto decks/taylor_bar.i                   runs it on all cores
+  urto view taylor_bar.e -v EQPS            draws the last state
+  urto explain INITIAL VELOCITY MATERIAL    a command of the deck
+  mpiexec -n 4 urto decks/taylor_bar.i      the same bits, over MPI
+
+Exit codes: 0 done, 1 the run failed or files differ, 2 the input is wrong, 130 and 143 stopped by SIGINT and SIGTERM.";
+
+/// What can be done. Each verb's own type says what it does, in short and at length.
+#[derive(Debug, Subcommand)]
+#[allow(missing_docs)] // A text here would hide the verbs' own.
+pub enum Verb {
+    Run(Run),
+    Check(Check),
+    Explain(Explain),
+    Mesh(Mesh),
+    View(View),
+    Diff(Diff),
+    #[command(hide = true)]
+    Generate(Generate),
+}
+
+/// Where deck and mesh are.
+#[derive(Debug, Args)]
+pub struct Input {
+    /// The deck, x.i; the suffix may be left out
+    pub deck: PathBuf,
+    /// The mesh, or a recipe of one; else x.g or x.mesh beside the deck, or in meshes/ beside the deck's folder
+    #[arg(short, long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+}
+
+/// Runs a deck
+///
+/// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2
+/// and so on. Results are the same to the bit on any number of ranks. To stop a run in good order, create a file
+/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// Where deck and mesh are.
+    #[command(flatten)]
+    pub input: Input,
+    /// Number of ranks, as threads of this process; else as many as there are cores [under mpiexec: its processes]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub ranks: Option<u32>,
+    /// Base name of everything written, with its folder, which is made; a suffix .e, .o, .i or .g is dropped; else the
+    /// deck's name, here
+    #[arg(short, long, value_name = "BASE")]
+    pub output: Option<PathBuf>,
+    /// Nothing on the terminal but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Reads deck and mesh and says what would be modelled; runs nothing
+///
+/// Prints what is modelled and why, the first time step and the element that controls it, and the memory and time to
+/// expect.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Where deck and mesh are.
+    #[command(flatten)]
+    pub input: Input,
+}
+
+/// Explains a command of decks or mesh recipes
+///
+/// Syntax, arguments, units, defaults, an example and where the form comes from. Without a command, lists all.
+/// Names of material models, of their properties and of plot variables lead to the page that they stand on.
+#[derive(Debug, Args)]
+pub struct Explain {
+    /// The command's words, quoted or not: urto explain INITIAL VELOCITY MATERIAL
+    pub words: Vec<String>,
+}
+
+/// Makes a mesh from a recipe
+///
+/// A recipe lists parts (boxes, cylinders, tubes, spheres), transformations and sets in the manner of a deck. See
+/// meshes/*.mesh for examples.
+#[derive(Debug, Args)]
+pub struct Mesh {
+    /// The recipe, x.mesh
+    pub recipe: PathBuf,
+    /// The mesh to write; else the recipe's name with .g, here
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Multiplies every number of elements along an edge
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub refine: u32,
+}
+
+/// Draws a picture of results
+///
+/// A PNG of the deformed outer surface coloured by a variable; needs no display. A file without states, such as the
+/// mesh x.g, is drawn as it is, coloured by block.
+#[derive(Debug, Args)]
+pub struct View {
+    /// The results, x.e, or a mesh, x.g
+    pub results: PathBuf,
+    /// The picture to write; else the results' name with .png (.gif for an animation), here
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Variable that colours it: a nodal or element variable, or a vector such as VEL
+    #[arg(short, long, value_name = "NAME")]
+    pub variable: Option<String>,
+    /// State: its number from 1, last, t=TIME for the nearest one, or mesh for the mesh before the run [default: last]
+    #[arg(short, long, value_name = "STATE", conflicts_with = "time")]
+    pub state: Option<String>,
+    /// State nearest to a time
+    #[arg(short, long, value_name = "T")]
+    pub time: Option<f64>,
+    /// Side to look from: front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION in degrees
+    #[arg(short, long, value_name = "SIDE", default_value = "iso", allow_hyphen_values = true)]
+    pub from: String,
+    /// Factor on displacements
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub magnify: f64,
+    /// Shows the mirror image of a half or quarter model too: any of x, y, z
+    #[arg(long, value_name = "AXES", default_value = "", hide_default_value = true)]
+    pub mirror: String,
+    /// Range of colours: LOW,HIGH
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
+    pub range: Option<String>,
+    /// Size in pixels: WIDTHxHEIGHT
+    #[arg(long, value_name = "SIZE", default_value = "1200x900")]
+    pub size: String,
+    /// Leaves out element edges
+    #[arg(long)]
+    pub no_edges: bool,
+    /// All states as an animated GIF
+    #[arg(long)]
+    pub animate: bool,
+}
+
+/// Compares two EXODUS files: 0 same, 1 differ, 2 cannot compare
+///
+/// Says where the largest difference of each variable is. Variables and states that only one file has count as
+/// differences; titles, QA and info records do not. Meshes of different shape cannot be compared. Without a tolerance,
+/// values must be equal to the bit.
+#[derive(Debug, Args)]
+pub struct Diff {
+    /// One file
+    pub first: PathBuf,
+    /// The other
+    pub second: PathBuf,
+    /// Relative difference |a - b| / max(|a|, |b|) that counts as none
+    #[arg(short, long, value_name = "T", default_value_t = 0.0)]
+    pub tolerance: f64,
+    /// Values both below this count as equal
+    #[arg(long, value_name = "F", default_value_t = 0.0)]
+    pub floor: f64,
+}
+
+/// Prints man pages and shell completions.
+#[derive(Debug, Args)]
+pub struct Generate {
+    /// What to print
+    pub what: Generated,
+}
+
+/// What `generate` prints.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Generated {
+    /// urto.1
+    Man,
+    /// urto-deck.5
+    ManDeck,
+    /// Completion for bash
+    Bash,
+    /// Completion for zsh
+    Zsh,
+    /// Completion for fish
+    Fish,
+}
+
+/// The command line as clap knows it.
+pub fn command() -> clap::Command {
+    Options::command()
+}

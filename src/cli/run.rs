@@ -1,0 +1,251 @@
+//! `urto run`.
+
+use super::input::Given;
+use super::signals::Wishes;
+use super::terminal::{complain, say};
+use super::{DONE, FAILED, Failure, date, display, options};
+use crate::comm::{self, RankFailure, launched_by_mpi};
+use crate::output::print::scientific;
+use crate::partition::Decomposition;
+use crate::run::{self, Display, Ended, Files, Job, Quiet, RunError};
+use crate::solver::{Body, Request};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// Runs a deck, on threads of this process or as one process of an MPI job.
+pub fn run(options: &options::Run) -> Result<u8, Failure> {
+    match launched_by_mpi() {
+        Some(processes) => under_mpi(options, processes),
+        None => on_threads(options),
+    }
+}
+
+/// What a run needs besides its communicator.
+struct Prepared {
+    given: Given,
+    body: Body,
+    ranks: usize,
+    files: Files,
+    banner: Vec<String>,
+    qa: [String; 4],
+    clock: [Instant; 2],
+}
+
+impl Prepared {
+    fn new(options: &options::Run, ranks: usize, transport: &str) -> Result<Prepared, Failure> {
+        let begun = Instant::now();
+        let given = Given::read(&options.input)?;
+        let clock = [begun, Instant::now()];
+        let body = Body::new(&given.mesh, &given.problem.model);
+        let base = base(options.output.as_deref(), &given.deck);
+        let (day, date, time) = date::now();
+        let banner = vec![
+            format!("urto {}   {}", env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_DESCRIPTION")),
+            format!(
+                "run on {day} at {time} UTC, {} as {transport}, {} vectors",
+                ranks_in_words(ranks),
+                crate::lanes::InstructionSet::detect().name()
+            ),
+            format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
+        ];
+        let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
+        Ok(Prepared { given, body, ranks, files: Files::of(&base), banner, qa, clock })
+    }
+
+    /// Makes room for the results: their folder, and the old print log out of the way.
+    fn make_room(&self) -> Result<(), Failure> {
+        let folder = self.files.print.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder {
+            std::fs::create_dir_all(folder)
+                .map_err(|e| Failure::run(format_args!("error: cannot make the folder {}: {e}", folder.display())))?;
+        }
+        run::keep_old_print_files(&self.files.print)
+            .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))
+    }
+
+    /// Says on the terminal what will run.
+    fn announce(&self, quiet: bool) {
+        if quiet {
+            return;
+        }
+        if let Some(warnings) = self.given.warnings() {
+            complain(warnings);
+        }
+        let elements = self.given.mesh.element_count();
+        say(format_args!(
+            "{}: {elements} elements on {}",
+            self.given.problem.model.title.trim(),
+            ranks_in_words(self.ranks)
+        ));
+    }
+}
+
+fn ranks_in_words(ranks: usize) -> String {
+    if ranks == 1 { "1 rank".into() } else { format!("{ranks} ranks") }
+}
+
+/// The base name of everything written: as asked, in a folder as asked, or the deck's name here.
+fn base(asked: Option<&Path>, deck: &Path) -> PathBuf {
+    let name = deck.file_stem().unwrap_or_default();
+    match asked {
+        None => PathBuf::from(name),
+        Some(folder) if folder.is_dir() || folder.as_os_str().to_string_lossy().ends_with('/') => folder.join(name),
+        // The name of one of the files names them all.
+        Some(file) if file.extension().is_some_and(|suffix| ["e", "o", "i", "g"].iter().any(|s| suffix == *s)) => {
+            file.with_extension("")
+        }
+        Some(base) => base.to_path_buf(),
+    }
+}
+
+/// Does `work` with everything that ranks share: the job, cut for `prepared.ranks` ranks.
+fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: impl FnOnce(&Job) -> T) -> T {
+    let problem = &prepared.given.problem;
+    let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
+    let warnings: Vec<String> = problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect();
+    let cut = prepared.body.cut(prepared.ranks);
+    let contributors = prepared.body.contributors(&cut);
+    let nodes = prepared.given.mesh.coordinates.len();
+    work(&Job {
+        mesh: &prepared.given.mesh,
+        model: &problem.model,
+        deck: problem.deck.source.text(),
+        assumed: &assumed,
+        warnings: &warnings,
+        clock: prepared.clock,
+        banner: &prepared.banner,
+        qa: prepared.qa.clone(),
+        files: &prepared.files,
+        body: &prepared.body,
+        decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
+        wish,
+    })
+}
+
+fn listen(prepared: &Prepared) -> Result<Wishes, Failure> {
+    Wishes::listen(prepared.files.shutdown.clone())
+        .map_err(|e| Failure::run(format_args!("error: cannot listen for signals and the shutdown file: {e}")))
+}
+
+fn screen(prepared: &Prepared, quiet: bool) -> Box<dyn Display + Send> {
+    let given = &prepared.given;
+    display::display(quiet, given.problem.model.termination_time, given.mesh.element_count())
+}
+
+fn on_threads(options: &options::Run) -> Result<u8, Failure> {
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let ranks = options.ranks.map_or(cores, |n| n as usize);
+    let prepared = Prepared::new(options, ranks, "threads")?;
+    prepared.make_room()?;
+    prepared.announce(options.quiet);
+    let wishes = listen(&prepared)?;
+    let screen = Mutex::new(Some(screen(&prepared, options.quiet)));
+    let outcome = with_job(&prepared, &|| wishes.now(), |job| {
+        comm::run_threads(ranks, |comm| {
+            let own = if comm.rank() == 0 { screen.lock().ok().and_then(|mut screen| screen.take()) } else { None };
+            run::run(job, comm, own.unwrap_or(Box::new(Quiet)).as_mut())
+        })
+    });
+    match outcome {
+        Ok(ended) => {
+            wishes.obeyed();
+            Ok(report(&prepared, options.quiet, ended.first()))
+        }
+        Err(RankFailure::Failed { error, .. }) => Err(failure(&error)),
+        Err(other) => Err(Failure::run(format_args!("error: {other}"))),
+    }
+}
+
+#[cfg(feature = "mpi")]
+fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
+    use crate::comm::Communicator;
+    let mut world =
+        comm::mpi::World::start().map_err(|e| Failure::run(format_args!("error: cannot start MPI: {e}")))?;
+    let (rank, ranks) = (world.rank(), world.size());
+    if options.ranks.is_some_and(|asked| asked as usize != ranks) {
+        return all_leave(
+            rank,
+            Failure::input("error: under mpiexec the number of ranks is that of its processes; leave --ranks out"),
+        );
+    }
+    let prepared = Prepared::new(options, ranks, "MPI processes").and_then(|prepared| {
+        if rank == 0 {
+            prepared.make_room()?;
+            prepared.announce(options.quiet);
+        }
+        let wishes = listen(&prepared)?;
+        Ok((prepared, wishes))
+    });
+    // One process may fail to read what the others could: all leave together.
+    let mut good = [if prepared.is_ok() { 1.0 } else { 0.0 }];
+    world.all_min(&mut good);
+    let (prepared, wishes) = match prepared {
+        Ok(_) if good[0] == 0.0 => return Ok(super::WRONG_INPUT),
+        Ok(prepared) => prepared,
+        Err(failure) => return all_leave(rank, failure),
+    };
+    let mut screen = screen(&prepared, options.quiet || rank != 0);
+    let outcome = with_job(&prepared, &|| wishes.now(), |job| run::run(job, &mut world, screen.as_mut()));
+    match outcome {
+        Ok(ended) => {
+            wishes.obeyed();
+            Ok(report(&prepared, options.quiet || rank != 0, Some(&ended)))
+        }
+        Err(error) => all_leave(rank, failure(&error)),
+    }
+}
+
+/// The same failure on every rank is told once.
+#[cfg(feature = "mpi")]
+fn all_leave(rank: usize, failure: Failure) -> Result<u8, Failure> {
+    if rank == 0 { Err(failure) } else { Ok(failure.code) }
+}
+
+#[cfg(not(feature = "mpi"))]
+fn under_mpi(options: &options::Run, processes: usize) -> Result<u8, Failure> {
+    if processes > 1 {
+        return Err(Failure::input(
+            "error: started by an MPI launcher, but this urto was built without MPI\n\
+             help: build it with `cargo build --release --features mpi`, or run it without mpiexec: it uses all cores",
+        ));
+    }
+    on_threads(options)
+}
+
+/// Tells how the run ended and picks the exit code.
+fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
+    let Some(ended) = ended else { return FAILED };
+    if !quiet {
+        let how = match ended.by {
+            Request::Continue => "done",
+            _ => "stopped on request",
+        };
+        say(format_args!(
+            "{how}: {} steps to time {} in {:.2} s, {:.0} ns per element and cycle, energy error {}",
+            ended.steps,
+            scientific(ended.time, 6),
+            ended.wall,
+            ended.grind * 1e9,
+            scientific(ended.energy_error, 1)
+        ));
+        let (plot, print) = (prepared.files.plot.display(), prepared.files.print.display());
+        say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+    }
+    match ended.by {
+        Request::Continue | Request::Shutdown => DONE,
+        Request::Interrupt => 130,
+        Request::Terminate => 143,
+    }
+}
+
+fn failure(error: &RunError) -> Failure {
+    match error {
+        RunError::Stopped { stop, unwritten, .. } => {
+            let lost =
+                unwritten.as_ref().map_or(String::new(), |e| format!("\nerror: its last state is not written: {e}"));
+            Failure::run(format_args!("error: {error}{lost}\nhelp: {}", stop.advice()))
+        }
+        _ => Failure::run(format_args!("error: {error}")),
+    }
+}

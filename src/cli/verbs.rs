@@ -1,0 +1,137 @@
+//! The smaller verbs: explain, mesh, view, diff, generate.
+
+use super::options::{self, Generated};
+use super::terminal::say;
+use super::{DONE, FAILED, Failure};
+use crate::output::GLOBAL_VARIABLES;
+use crate::view::{Direction, StateChoice, ViewOptions};
+use crate::{deck, exodus, mesher, view};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// `urto explain`
+pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
+    let words = options.words.join(" ");
+    if words.trim().is_empty() {
+        print(&overview());
+        return Ok(DONE);
+    }
+    let global = GLOBAL_VARIABLES.iter().find(|(name, _)| name.eq_ignore_ascii_case(words.trim()));
+    if let Some((name, meaning)) = global {
+        print(&format!("{name}\n   Global variable of the plot file, always written: {meaning}.\n"));
+        return Ok(DONE);
+    }
+    // A name that both languages have is most likely the deck's.
+    let text = deck::explain(&words).or_else(|unknown| {
+        let recipe = deck::explain_in(mesher::language(), &words);
+        recipe.map_err(|other| if unknown.near.is_some() { unknown } else { other })
+    });
+    print(&text.map_err(|e| Failure::input(format_args!("error: {e}")))?);
+    Ok(DONE)
+}
+
+/// All commands of decks, then those of recipes.
+fn overview() -> String {
+    let list = |text: Result<String, _>| text.unwrap_or_else(|e: deck::UnknownTopic| e.to_string());
+    format!("{}\nmesh recipes\n{}", list(deck::explain("")), list(deck::explain_in(mesher::language(), "")))
+}
+
+/// `urto mesh`
+pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
+    let recipe = &options.recipe;
+    let mesh = super::input::make_mesh(recipe, options.refine)?;
+    let output = options
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(recipe.file_name().unwrap_or_default()).with_extension("g"));
+    exodus::write_mesh(&output, &mesh).map_err(|e| Failure::run(format_args!("error: {e}")))?;
+    let (nodes, elements, blocks) = (mesh.coordinates.len(), mesh.element_count(), mesh.blocks.len());
+    say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s)", output.display()));
+    Ok(DONE)
+}
+
+/// `urto view`
+pub fn view(options: &options::View) -> Result<u8, Failure> {
+    let suffix = if options.animate { "gif" } else { "png" };
+    let output = options
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(options.results.file_name().unwrap_or_default()).with_extension(suffix));
+    let kinds = if options.animate { &["gif", "png"][..] } else { &["png"] };
+    if !kinds.iter().any(|kind| output.extension().is_some_and(|given| given.eq_ignore_ascii_case(kind))) {
+        let wrong =
+            format_args!("error: cannot draw into {}; expected a name with .{suffix}", output.display()).to_string();
+        let help = if options.animate { "" } else { "\nhelp: --animate makes a moving .gif of all states" };
+        return Err(Failure::input(wrong + help));
+    }
+    let wanted = view_options(options)?;
+    if options.animate {
+        let frames = view::draw_many(&options.results, &output, std::num::NonZeroUsize::MIN, &wanted)
+            .map_err(Failure::input_error)?;
+        say(format_args!("{}: {} states", output.display(), frames.len()));
+        return Ok(DONE);
+    }
+    let summary = view::draw(&options.results, &output, &wanted).map_err(Failure::input_error)?;
+    let variable = summary.variable.unwrap_or("blocks".into());
+    let time = summary.time.map_or(String::new(), |t| format!(" at time {t:.6e}"));
+    say(format_args!("{}: {variable}{time}", summary.path.display()));
+    Ok(DONE)
+}
+
+fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
+    let pair = |name: &str, text: &str, separator: char| {
+        let numbers = text
+            .split_once(separator)
+            .and_then(|(a, b)| Some((a.trim().parse::<f64>().ok()?, b.trim().parse::<f64>().ok()?)));
+        numbers.ok_or_else(|| {
+            Failure::input(format_args!("error: --{name} is {text}; expected two numbers with {separator:?} between"))
+        })
+    };
+    let (width, height) = pair("size", &options.size, 'x')?;
+    if let Some(other) = options.mirror.chars().find(|c| !"xyzXYZ".contains(*c)) {
+        return Err(Failure::input(format_args!("error: --mirror has {other:?}; expected any of x, y and z")));
+    }
+    Ok(ViewOptions {
+        variable: options.variable.clone(),
+        state: match (&options.state, options.time) {
+            (Some(text), _) => text.parse::<StateChoice>().map_err(Failure::input_error)?,
+            (None, Some(time)) => StateChoice::Nearest(time),
+            (None, None) => StateChoice::Last,
+        },
+        from: options.from.parse::<Direction>().map_err(Failure::input_error)?,
+        size: (width as u32, height as u32),
+        magnify: options.magnify,
+        mirror: ['x', 'y', 'z'].map(|axis| options.mirror.to_ascii_lowercase().contains(axis)),
+        range: options.range.as_deref().map(|text| pair("range", text, ',')).transpose()?,
+        edges: !options.no_edges,
+        ..ViewOptions::default()
+    })
+}
+
+/// `urto diff`
+pub fn diff(options: &options::Diff) -> Result<u8, Failure> {
+    let tolerance = exodus::Tolerance { relative: options.tolerance, floor: options.floor };
+    let comparison = exodus::compare(&options.first, &options.second, &tolerance).map_err(Failure::input_error)?;
+    say(&comparison);
+    Ok(if comparison.is_same() { DONE } else { FAILED })
+}
+
+/// `urto generate`
+pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
+    let mut out = Vec::new();
+    let mut complete = |shell| clap_complete::generate(shell, &mut super::command(), "urto", &mut out);
+    match options.what {
+        Generated::Man => out = super::manual().into_bytes(),
+        Generated::ManDeck => out = deck::manual().into_bytes(),
+        Generated::Bash => complete(clap_complete::Shell::Bash),
+        Generated::Zsh => complete(clap_complete::Shell::Zsh),
+        Generated::Fish => complete(clap_complete::Shell::Fish),
+    }
+    print(&String::from_utf8_lossy(&out));
+    Ok(DONE)
+}
+
+/// Prints and forgets when nobody reads: `urto explain | head` is no error.
+fn print(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}

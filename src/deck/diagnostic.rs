@@ -1,0 +1,196 @@
+//! Messages about a deck: where, what was read, what was expected, what to do. All of them are gathered first.
+
+use std::{fmt, sync::Arc};
+
+use annotate_snippets::{AnnotationKind, Group, Level as Rank, Origin, Renderer, Snippet, renderer::DecorStyle};
+
+use super::source::{Source, Span};
+
+/// How much a message matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// The run cannot start.
+    Error,
+    /// The run can start, but look at this.
+    Warning,
+    /// Something was assumed; kept for the print log.
+    Note,
+}
+
+/// A remark at a place of the deck.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// The text to underline.
+    pub span: Span,
+    /// What stands beside the underline.
+    pub text: String,
+}
+
+/// One message.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How much it matters.
+    pub level: Level,
+    /// The message in one line: what is wrong, with what was read.
+    pub message: String,
+    /// Places in the deck; the first is where the message points to.
+    pub labels: Vec<Label>,
+    /// What to do, one line each.
+    pub help: Vec<String>,
+}
+
+impl Diagnostic {
+    fn new(level: Level, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { level, message: message.into(), labels: Vec::new(), help: Vec::new() }
+    }
+
+    /// A message that stops the run.
+    pub fn error(message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(Level::Error, message)
+    }
+
+    /// A message that does not stop the run.
+    pub fn warning(message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(Level::Warning, message)
+    }
+
+    /// An assumption.
+    pub fn note(message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(Level::Note, message)
+    }
+
+    /// Adds a place with a remark, which may be empty; the first one added is the main one.
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Adds a line of advice; an empty one is left out.
+    pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
+        let text = text.into();
+        if !text.is_empty() {
+            self.help.push(text);
+        }
+        self
+    }
+}
+
+/// All messages about one source.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostics {
+    source: Arc<Source>,
+    list: Vec<Diagnostic>,
+}
+
+/// Messages printed at most; a deck with more mistakes has one cause for most of them.
+const PRINTED_AT_MOST: usize = 50;
+
+impl Diagnostics {
+    /// No messages yet.
+    pub fn new(source: Arc<Source>) -> Diagnostics {
+        Diagnostics { source, list: Vec::new() }
+    }
+
+    /// The text the messages are about.
+    pub fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// Adds a message.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.list.push(diagnostic);
+    }
+
+    /// Adds all messages of another collection about the same source.
+    pub fn append(&mut self, other: Diagnostics) {
+        self.list.extend(other.list);
+    }
+
+    /// Messages that stop the run.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.of(Level::Error)
+    }
+
+    /// Messages that do not stop the run.
+    pub fn warnings(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.of(Level::Warning)
+    }
+
+    /// Assumptions, for the print log.
+    pub fn notes(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.of(Level::Note)
+    }
+
+    /// Whether anything stops the run.
+    pub fn has_errors(&self) -> bool {
+        self.errors().next().is_some()
+    }
+
+    /// Whether there is nothing to say, assumptions aside.
+    pub fn is_empty(&self) -> bool {
+        self.list.iter().all(|d| d.level == Level::Note)
+    }
+
+    fn of(&self, level: Level) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter().filter(move |d| d.level == level)
+    }
+
+    /// Errors and warnings in the order of the deck, those without a place last, as text for a terminal; plain
+    /// ASCII without `color`. Ends with a line that counts them; empty when there are none.
+    pub fn render(&self, color: bool) -> String {
+        let mut shown: Vec<&Diagnostic> = self.list.iter().filter(|d| d.level != Level::Note).collect();
+        if shown.is_empty() {
+            return String::new();
+        }
+        shown.sort_by_key(|d| d.labels.first().map_or(usize::MAX, |label| label.span.start));
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
+        let mut text = String::new();
+        for diagnostic in shown.iter().take(PRINTED_AT_MOST) {
+            text += &renderer.render(&[self.group(diagnostic)]);
+            text += "\n\n";
+        }
+        if shown.len() > PRINTED_AT_MOST {
+            text += &format!("... and {} more\n\n", shown.len() - PRINTED_AT_MOST);
+        }
+        text += &format!("{}: {}\n", self.source.name(), self.count());
+        text
+    }
+
+    /// "2 errors, 1 warning".
+    fn count(&self) -> String {
+        let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+        match (self.errors().count(), self.warnings().count()) {
+            (errors, 0) => plural(errors, "error"),
+            (0, warnings) => plural(warnings, "warning"),
+            (errors, warnings) => format!("{}, {}", plural(errors, "error"), plural(warnings, "warning")),
+        }
+    }
+
+    fn group<'a>(&'a self, diagnostic: &'a Diagnostic) -> Group<'a> {
+        let rank = match diagnostic.level {
+            Level::Error => Rank::ERROR,
+            Level::Warning => Rank::WARNING,
+            Level::Note => Rank::NOTE,
+        };
+        let mut group = Group::with_title(rank.primary_title(diagnostic.message.as_str()));
+        if diagnostic.labels.is_empty() {
+            group = group.element(Origin::path(self.source.name()));
+        } else {
+            let annotations = diagnostic.labels.iter().enumerate().map(|(i, label)| {
+                let kind = if i == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
+                kind.span(label.span.start..label.span.end).label(label.text.as_str())
+            });
+            let snippet = Snippet::source(self.source.text()).path(self.source.name()).annotations(annotations);
+            group = group.element(snippet);
+        }
+        group.elements(diagnostic.help.iter().map(|help| Rank::HELP.message(help.as_str())))
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -1,0 +1,248 @@
+//! `urto explain`: what a command or a material model does, from the same tables that the reader works from.
+
+use std::fmt::Write;
+
+use super::{
+    grammar::{Entry, Form, Grammar, Kind, Standing, Status},
+    language,
+    lexer::{Field, Lexer},
+    page::{self, Body, Page},
+    source::Source,
+    spelling::{self, Spelled},
+};
+use crate::material::MATERIALS;
+
+/// Nothing is known by these words.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("there is no command or material model {words}{}", hint(.near))]
+pub struct UnknownTopic {
+    /// The words asked for.
+    pub words: String,
+    /// The name that was perhaps meant.
+    pub near: Option<String>,
+}
+
+fn hint(near: &Option<String>) -> String {
+    near.as_ref().map_or("; `urto explain` without words lists all".into(), |near| format!("; did you mean {near}?"))
+}
+
+/// What a page can be about.
+#[derive(Clone, Copy, PartialEq)]
+enum Topic {
+    Entry(usize),
+    Material(usize),
+}
+
+/// The text about a command or a material model, which may be abbreviated. A property, a state variable or a plot
+/// variable leads to the page that it stands on. Words that begin several names give a list of these; no words give the
+/// list of all commands.
+pub fn explain(words: &str) -> Result<String, UnknownTopic> {
+    let source = asked(words);
+    let Some(record) = Lexer::new(&source).next_record() else { return Ok(overview()) };
+    match spelling::recognise(&record.fields, topics()) {
+        Spelled::As { what, .. } => Ok(text(&page_of(what))),
+        _ => several(language(), source.text()).or_else(|| parts_named(&record.fields)).ok_or_else(|| {
+            let names = topics().map(|(name, _)| name).chain(parts().into_iter().map(|(name, _)| name));
+            UnknownTopic::new(source.text(), names.collect())
+        }),
+    }
+}
+
+/// As [`explain`], for the commands of another language, such as that of mesh recipes.
+pub fn explain_in(grammar: &'static Grammar, words: &str) -> Result<String, UnknownTopic> {
+    let source = asked(words);
+    let commands = || grammar.entries.iter().enumerate().flat_map(|(i, e)| e.spellings().map(move |name| (name, i)));
+    let Some(record) = Lexer::new(&source).next_record() else {
+        return Ok(grammar.entries.iter().map(line).collect());
+    };
+    match spelling::recognise(&record.fields, commands()) {
+        Spelled::As { what, .. } => Ok(text(&page::of_entry(&grammar.entries[what]))),
+        _ => several(grammar, source.text())
+            .ok_or_else(|| UnknownTopic::new(source.text(), commands().map(|(name, _)| name).collect())),
+    }
+}
+
+fn asked(words: &str) -> Source {
+    let words = words.replace(['\'', '"'], " ").to_uppercase();
+    Source::new("", words.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+impl UnknownTopic {
+    /// The hint is the nearest name, or else the first name with a word that is near.
+    fn new(words: &str, names: Vec<&str>) -> UnknownTopic {
+        let by_word = || {
+            let near = spelling::nearest(words, names.iter().flat_map(|name| name.split(' ')))?;
+            names.iter().copied().find(|name| name.split(' ').any(|word| word == near))
+        };
+        let near = spelling::nearest(words, names.iter().copied()).or_else(by_word);
+        UnknownTopic { near: near.map(str::to_string), words: words.to_string() }
+    }
+}
+
+fn page_of(topic: Topic) -> Page {
+    match topic {
+        Topic::Entry(index) => page::of_entry(&language().entries[index]),
+        Topic::Material(index) => page::of_material(MATERIALS[index]),
+    }
+}
+
+/// What stands on a page under a name of its own: properties and state variables of materials, and the variables that
+/// a plot command chooses from, with the names of their components.
+fn parts() -> Vec<(&'static str, Topic)> {
+    let mut parts = Vec::new();
+    for (i, material) in MATERIALS.iter().enumerate() {
+        parts.extend(material.properties.iter().map(|p| (p.keyword, Topic::Material(i))));
+        parts.extend(material.state.iter().map(|v| (v.name, Topic::Material(i))));
+    }
+    for (i, entry) in language().entries.iter().enumerate().filter(|(_, e)| e.name.starts_with("PLOT ")) {
+        for rule in &entry.fields {
+            let Kind::Choice(choices) = &rule.kind else { continue };
+            for choice in choices.iter().filter(|c| c.standing == Standing::Built) {
+                let components = choice.meaning.split(|c: char| !c.is_ascii_alphanumeric());
+                let components = components.filter(|w| w.len() > 1 && w.chars().all(|c| c.is_ascii_uppercase()));
+                parts.push((choice.name.as_str(), Topic::Entry(i)));
+                parts.extend(components.map(|name| (name, Topic::Entry(i))));
+            }
+        }
+    }
+    parts
+}
+
+/// The page on which these words stand, or the list of such pages.
+fn parts_named(fields: &[Field]) -> Option<String> {
+    let parts = parts();
+    let mut found: Vec<Topic> = Vec::new();
+    for (name, topic) in &parts {
+        if spelling::word_count(name) == fields.len() && spelling::agreement(fields, name).is_some() {
+            found.extend((!found.contains(topic)).then_some(*topic));
+        }
+    }
+    match found[..] {
+        [] => None,
+        [one] => Some(text(&page_of(one))),
+        _ => Some(found.into_iter().map(page_of).map(|p| format!("   {:<28}{}\n", p.title, p.summary)).collect()),
+    }
+}
+
+fn topics() -> impl Iterator<Item = (&'static str, Topic)> {
+    let entries = language().entries.iter().enumerate();
+    let entries = entries.flat_map(|(i, e)| e.spellings().map(move |name| (name, Topic::Entry(i))));
+    let materials = MATERIALS.iter().enumerate();
+    let materials = materials.flat_map(|(i, m)| {
+        std::iter::once(m.name).chain(m.aliases.iter().copied()).map(move |name| (name, Topic::Material(i)))
+    });
+    entries.chain(materials)
+}
+
+/// The entries whose names begin with these words.
+fn several(grammar: &Grammar, words: &str) -> Option<String> {
+    let lines: Vec<String> = grammar.entries.iter().filter(|e| e.name.starts_with(words)).map(line).collect();
+    (!lines.is_empty()).then(|| lines.concat())
+}
+
+/// All commands by family, and the material models.
+fn overview() -> String {
+    let mut text = String::new();
+    let mut family = "";
+    for entry in language().entries.iter().filter(|e| e.form != Form::Material) {
+        if entry.family != family {
+            family = &entry.family;
+            let _ = writeln!(text, "{}{family}", if text.is_empty() { "" } else { "\n" });
+        }
+        text += &line(entry);
+    }
+    text += "\nmaterial models\n";
+    for material in MATERIALS {
+        let _ = writeln!(text, "   {:<28}{}", material.name, material.summary);
+    }
+    for entry in language().entries.iter().filter(|e| e.form == Form::Material) {
+        text += &line(entry);
+    }
+    text += "\n * known, but not built yet. `urto explain 'PLOT TIME'` tells more of a command.\n";
+    text
+}
+
+fn line(entry: &Entry) -> String {
+    let mark = if entry.status == Status::Built { ' ' } else { '*' };
+    format!(" {mark} {:<28}{}\n", entry.name, entry.does)
+}
+
+/// A page for a terminal.
+fn text(page: &Page) -> String {
+    let mut text = format!("{}\n{}", page.title, wrap(&page.summary, 3));
+    for (heading, body) in &page.sections {
+        let _ = write!(text, "\n {heading}\n");
+        match body {
+            Body::Text(lines) => text.extend(lines.iter().map(|line| wrap(line, 3))),
+            Body::Lines(lines) => text.extend(lines.iter().map(|line| format!("   {line}\n"))),
+            Body::Terms(terms) => {
+                let width = terms.iter().map(|(term, _)| term.len()).max().unwrap_or(0) + 2;
+                text.extend(terms.iter().map(|(term, meaning)| {
+                    let meaning: String = meaning.lines().map(|line| wrap(line, 3 + width)).collect();
+                    format!("   {term:<width$}{}", meaning.trim_start())
+                }));
+            }
+        }
+    }
+    text
+}
+
+/// Width of a terminal that everybody has.
+const WIDTH: usize = 80;
+
+/// Breaks a text into lines with an indent.
+fn wrap(text: &str, indent: usize) -> String {
+    let mut lines = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && indent + line.len() + 1 + word.len() > WIDTH {
+            let _ = writeln!(lines, "{:indent$}{line}", "");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line += word;
+    }
+    let _ = writeln!(lines, "{:indent$}{line}", "");
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_is_explained_with_its_fields() {
+        let text = explain("'initial vel mat'").expect("an abbreviation");
+        assert!(text.starts_with("INITIAL VELOCITY MATERIAL\n   Gives every node of an element block"), "{text}");
+        assert!(text.contains("INITIAL VELOCITY MATERIAL, block, vx, vy, <vz [0.0]>"), "{text}");
+        assert!(text.contains("vz     Velocity in z [length/time]. Default 0.0."), "{text}");
+        assert!(text.lines().all(|line| line.len() <= 100));
+    }
+
+    #[test]
+    fn a_material_is_explained_with_properties_and_state() {
+        let text = explain("ELASTIC PLASTIC").expect("a material");
+        assert!(text.contains("YIELD STRESS") && text.contains("EQPS"), "{text}");
+        assert!(explain("LOW DENSITY FOAM").expect("planned").contains("not built yet"));
+    }
+
+    #[test]
+    fn what_stands_on_a_page_leads_there() {
+        assert!(explain("EQPS").is_ok_and(|page| page.starts_with("ELASTIC PLASTIC\n")));
+        assert!(explain("sigxx").is_ok_and(|page| page.starts_with("PLOT ELEMENT\n")));
+        let pages = explain("POISSONS RATIO").expect("a property");
+        assert!(pages.contains("   ELASTIC ") && pages.contains("   ELASTIC PLASTIC "), "{pages}");
+    }
+
+    #[test]
+    fn beginnings_list_and_unknown_words_hint() {
+        assert_eq!(explain("TIME STEP").map(|text| text.lines().count()), Ok(3));
+        assert!(explain("").expect("the list").contains(" * CONTACT SURFACE"));
+        assert_eq!(explain("PLOT TIEM").map_err(|e| e.near), Err(Some("PLOT TIME".into())));
+        assert_eq!(explain("VELOCTY").map_err(|e| e.near), Err(Some("VELOCITY".into())));
+        let message = explain("FROBNICATE").map_err(|e| e.to_string());
+        assert!(message.is_err_and(|m| m.starts_with("there is no command or material model FROBNICATE; `urto")));
+    }
+}

@@ -1,0 +1,141 @@
+//! The manual page urto-deck(5), made from the tables that the reader works from.
+
+use std::fmt::Write;
+
+use super::{
+    grammar::{Form, Grammar, Status},
+    language,
+    page::{self, Body, Page},
+};
+use crate::material::MATERIALS;
+
+/// What stands before the commands: the rules of writing.
+const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"
+.SH NAME
+urto-deck \- the command language of urto
+.SH DESCRIPTION
+A deck is a text file that describes a problem in commands, one on each line, in the manner of PRONTO.
+The order of commands does not matter, but the lines of a group stand between its first line and END.
+.SS Lines
+A line that ends in
+.B *
+goes on in the next one; what stands between the
+.B *
+and the end of the line is dropped.
+A
+.B $
+starts a remark, which runs to the end of the line.
+Empty lines mean nothing. Lines may have any length.
+.SS Fields
+Fields are separated by a comma, an equal sign or blanks:
+.BR A=5 ", " "A = 5" ", " "A, 5" " and " "A 5"
+are the same.
+Two separators in a row hold an empty field between them, and an empty field takes its default, as does one that is left
+out at the end of a line.
+Small and capital letters are the same, except in a field that starts with a quote
+.RB ( ' )
+and runs to the next one; there, two quotes stand for one.
+.SS Numbers
+Numbers are written as in FORTRAN:
+.BR 5 ", " 5. ", " .5 ", " \-1.2E\-3 ", " 1.D\-3 ", " 1.5+3 .
+A number with the value of a whole number counts as one.
+.SS Words
+Each word of a command, a material model or a keyword may be shortened to its first letters, three at least, if it stays
+clear what is meant. What was assumed is noted in the print log.
+.SS Units
+Any consistent set of units will do. Square brackets below give dimensions.
+.SS Numbers of things
+Blocks, node sets and side sets are called by the numbers they have in the mesh; functions by the number in FUNCTION.
+"#;
+
+/// Headings of the families, in the order of the card files.
+const HEADINGS: &[(&str, &str)] = &[
+    ("control", "CONTROL OF THE RUN"),
+    ("material", "MATERIALS"),
+    ("function", "FUNCTIONS"),
+    ("boundary", "MOTIONS AND LOADS"),
+    ("initial", "INITIAL STATE"),
+    ("contact", "CONTACT AND RIGID SURFACES"),
+    ("element", "ELEMENTS"),
+    ("output", "OUTPUT"),
+];
+
+/// The manual page in roff.
+pub fn manual() -> String {
+    let grammar = language();
+    let mut text = RULES.to_string();
+    for (family, heading) in HEADINGS {
+        let built = grammar.commands().filter(|e| e.family == *family && e.status == Status::Built);
+        let mut pages: Vec<Page> = built.map(page::of_entry).collect();
+        if *family == "material" {
+            pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
+        }
+        if !pages.is_empty() {
+            let _ = writeln!(text, ".SH {heading}");
+        }
+        text.extend(pages.iter().map(roff));
+    }
+    text + &not_built(grammar) + ".SH SEE ALSO\n.BR urto (1)\n"
+}
+
+/// The list of what is known but cannot be used.
+fn not_built(grammar: &Grammar) -> String {
+    let mut text = String::from(
+        ".SH NOT BUILT YET\nThese are known. A deck that has one does not run, unless it only changes what is written.\n",
+    );
+    for entry in grammar.entries.iter().filter(|e| e.status != Status::Built) {
+        let what = if entry.form == Form::Material { " (material model)" } else { "" };
+        let why = match &entry.status {
+            Status::Planned { physics: false } => " Changes only what is written.",
+            Status::Refused(_) => " Will not be built.",
+            _ => "",
+        };
+        let _ = write!(text, ".TP\n.B {}{what}\n{}{why}\n", escape(&entry.name), escape(&entry.does));
+    }
+    text
+}
+
+fn roff(page: &Page) -> String {
+    let mut text = format!(".SS {}\n{}\n", escape(&page.title), escape(&page.summary));
+    for (heading, body) in &page.sections {
+        let _ = match body {
+            Body::Lines(lines) => {
+                let lines: Vec<String> = lines.iter().map(|line| escape(line)).collect();
+                write!(text, ".PP\n{heading}:\n.PP\n.RS\n.nf\n{}\n.fi\n.RE\n", lines.join("\n"))
+            }
+            Body::Text(lines) => {
+                let lines: Vec<String> = lines.iter().map(|line| escape(line)).collect();
+                write!(text, ".PP\n{heading}: {}\n", lines.join("\n"))
+            }
+            Body::Terms(terms) => write!(text, ".PP\n{heading}:\n{}", terms.iter().map(term).collect::<String>()),
+        };
+    }
+    text
+}
+
+fn term((term, meaning): &(String, String)) -> String {
+    let lines: Vec<String> = meaning.lines().map(escape).collect();
+    format!(".TP\n.B {}\n{}\n", escape(term), lines.join("\n.br\n"))
+}
+
+/// Protects what roff would take as its own: backslashes, hyphens, and points and quotes at the start of a line.
+fn escape(text: &str) -> String {
+    let text = text.replace('\\', "\\e").replace('-', "\\-");
+    if text.starts_with(['.', '\'']) { format!("\\&{text}") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_family_has_a_heading() {
+        let families: Vec<&str> = HEADINGS.iter().map(|(family, _)| *family).collect();
+        assert_eq!(families, super::super::CARDS.iter().map(|(family, _)| *family).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn roff_keeps_what_is_written() {
+        assert_eq!(escape(".5 -1 a\\b"), "\\&.5 \\-1 a\\eb");
+    }
+}

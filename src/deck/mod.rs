@@ -1,0 +1,34 @@
+//! Text → cards: the command language, which knows no physics.
+//!
+//! A [`Grammar`] lists the commands of a language as data. [`Deck::read`] turns a [`Source`] into [`Card`]s with
+//! named, typed fields, and gathers every mistake in [`Diagnostics`]. The decks of `urto run` and the recipes of
+//! `urto mesh` are two languages for the same engine.
+
+mod card;
+mod diagnostic;
+mod explain;
+mod fields;
+mod grammar;
+mod identify;
+mod language;
+mod lexer;
+mod manual;
+mod number;
+mod page;
+mod reader;
+mod source;
+pub mod spelling;
+mod value;
+
+pub use card::{Card, Item, Row, Value};
+pub use diagnostic::{Diagnostic, Diagnostics, Label, Level};
+pub use explain::{UnknownTopic, explain, explain_in};
+pub use fields::FieldReader;
+pub use grammar::{Absent, Choice, Entry, FieldRule, Form, Grammar, Kind, Standing, Status};
+pub use language::{CARDS, language};
+pub use lexer::{Field, FieldKind, Lexer, Record};
+pub use manual::manual;
+pub use number::Number;
+pub use reader::Deck;
+pub use source::{Source, Span};
+pub use spelling::{Agreement, Spelled};

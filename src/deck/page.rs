@@ -1,0 +1,165 @@
+//! What there is to say about a command or a material model, ready to be printed as text or as a manual page.
+
+use super::{
+    fields::range_in_words,
+    grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
+};
+use crate::material::{self, MATERIALS, Origin, Property};
+
+/// A page about one entry.
+pub(super) struct Page {
+    /// The name of the entry.
+    pub title: String,
+    /// What it does, with what it is not able to do yet.
+    pub summary: String,
+    /// The parts that have something to say, in order.
+    pub sections: Vec<(String, Body)>,
+}
+
+/// What stands under a heading.
+pub(super) enum Body {
+    /// Sentences.
+    Text(Vec<String>),
+    /// Lines of a deck.
+    Lines(Vec<String>),
+    /// Terms, each with what it may be and what it means.
+    Terms(Vec<(String, String)>),
+}
+
+impl Body {
+    fn is_empty(&self) -> bool {
+        match self {
+            Body::Text(lines) | Body::Lines(lines) => lines.is_empty(),
+            Body::Terms(terms) => terms.is_empty(),
+        }
+    }
+}
+
+impl Page {
+    fn new(title: &str, summary: String, sections: Vec<(&str, Body)>) -> Page {
+        let sections = sections.into_iter().filter(|(_, body)| !body.is_empty());
+        let sections = sections.map(|(heading, body)| (heading.to_string(), body)).collect();
+        Page { title: title.to_string(), summary, sections }
+    }
+}
+
+/// The page of a command, a group or a name that is planned.
+pub(super) fn of_entry(entry: &Entry) -> Page {
+    let built = entry.status == Status::Built;
+    let mut form = vec![entry.syntax()];
+    match (entry.form, entry.columns.is_empty()) {
+        (Form::Group, true) => form.extend(["KEYWORD = value".to_string(), "END".to_string()]),
+        (Form::Group, false) => {
+            let columns: Vec<String> = entry.columns.iter().map(FieldRule::syntax).collect();
+            form.extend([columns.join(", "), "END".to_string()]);
+        }
+        _ => (),
+    }
+    let models: Vec<(String, String)> = if entry.name == "MATERIAL" {
+        MATERIALS.iter().map(|m| (m.name.to_string(), m.summary.to_string())).collect()
+    } else {
+        Vec::new()
+    };
+    let summary = match &entry.status {
+        Status::Built => entry.does.clone(),
+        Status::Planned { physics: true } => {
+            format!("{} Known, but not built yet: a deck with it does not run.", entry.does)
+        }
+        Status::Planned { physics: false } => {
+            format!("{} Known, but not built yet: a deck with it runs without it.", entry.does)
+        }
+        Status::Refused(why) => format!("{} Refused: {why}.", entry.does),
+    };
+    Page::new(
+        &entry.name,
+        summary,
+        vec![
+            ("Form", Body::Lines(if built { form } else { Vec::new() })),
+            ("Fields", Body::Terms(entry.fields.iter().map(field).collect())),
+            ("On each line until END", Body::Terms(entry.columns.iter().map(field).collect())),
+            ("Models", Body::Terms(models)),
+            ("Notes", Body::Text(entry.notes.clone())),
+            ("Example", Body::Lines(entry.example.clone())),
+            ("Other spellings", Body::Text(entry.aliases.clone())),
+            ("See also", Body::Text(if entry.see.is_empty() { Vec::new() } else { vec![entry.see.join(", ")] })),
+            ("Spelling", Body::Text(vec![origin(entry.from).to_string()])),
+        ],
+    )
+}
+
+/// The page of a material model.
+pub(super) fn of_material(entry: &material::Entry) -> Page {
+    let mut form = vec![format!("MATERIAL, block, {}, density", entry.name)];
+    form.extend(entry.properties.iter().map(|p| match p.default {
+        None => format!("{} = {}", p.keyword, p.symbol),
+        Some(default) => format!("{} = <{} [{default:?}]>", p.keyword, p.symbol),
+    }));
+    form.push("END".into());
+    let state = entry.state.iter().map(|v| (v.name.to_string(), v.meaning.to_string())).collect();
+    Page::new(
+        entry.name,
+        entry.summary.to_string(),
+        vec![
+            ("Form", Body::Lines(form)),
+            ("Properties", Body::Terms(entry.properties.iter().map(property).collect())),
+            ("State variables, for PLOT STATE", Body::Terms(state)),
+            ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
+            ("See also", Body::Text(vec!["MATERIAL, PLOT STATE".into()])),
+            ("Spelling", Body::Text(vec![origin(entry.origin).to_string()])),
+        ],
+    )
+}
+
+fn field(rule: &FieldRule) -> (String, String) {
+    let name = rule.label() + if rule.repeats { ", ..." } else { "" };
+    let mut text = sentence(&rule.meaning, &rule.unit);
+    match &rule.kind {
+        Kind::Choice(choices) => {
+            let built = choices.iter().filter(|c| c.standing == Standing::Built);
+            for choice in built {
+                let meaning = if choice.meaning.is_empty() { String::new() } else { format!(": {}", choice.meaning) };
+                text += &format!("\n{}{meaning}", choice.name);
+            }
+        }
+        Kind::NextLine => text += " Stands on the next line.",
+        Kind::Integer => text += &format!(" {}.", capital(&rule.expected())),
+        Kind::Number => text += &range_in_words(rule.range).map_or(String::new(), |r| format!(" {}.", capital(&r))),
+        Kind::Id(_) | Kind::Words | Kind::Name => (),
+    }
+    let default = match &rule.default {
+        Absent::Required => String::new(),
+        Absent::Optional => " May be left out.".into(),
+        Absent::Value(value) | Absent::Follows(value) => format!(" Default {value}."),
+    };
+    // Defaults belong to the first line, before the list of choices.
+    let text = match text.split_once('\n') {
+        Some((first, choices)) => format!("{first}{default}\n{choices}"),
+        None => text + &default,
+    };
+    (name, text)
+}
+
+fn property(property: &Property) -> (String, String) {
+    let range = range_in_words(property.range).map_or(String::new(), |range| format!(" {}.", capital(&range)));
+    let default = property.default.map_or(String::new(), |default| format!(" Default {default:?}."));
+    (property.keyword.to_string(), sentence(property.meaning, property.dimension) + &range + &default)
+}
+
+/// A meaning with its unit, as a sentence.
+fn sentence(meaning: &str, unit: &str) -> String {
+    let meaning = capital(meaning.trim_end_matches('.'));
+    if unit.is_empty() || unit == "-" { format!("{meaning}.") } else { format!("{meaning} [{unit}].") }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn origin(origin: Origin) -> &'static str {
+    match origin {
+        Origin::Verified => "As in decks and print files of PRONTO2D 3.4.",
+        Origin::Recalled => "As remembered from PRONTO's manuals; not seen in a genuine deck.",
+        Origin::Ours => "An addition of urto, not in PRONTO.",
+    }
+}

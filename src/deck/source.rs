@@ -1,0 +1,97 @@
+//! The text of a deck with the places in it: byte spans, lines and columns.
+
+/// A file's name and text. Spans are byte offsets into the text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    name: String,
+    text: String,
+    line_starts: Vec<usize>,
+}
+
+/// A stretch of the text, from byte `start` up to but not including byte `end`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+impl Span {
+    /// The shortest span that covers both.
+    pub fn join(self, other: Span) -> Span {
+        Span { start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+}
+
+impl Source {
+    /// A source from text in memory; `name` is what messages call it.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
+        let text = text.into();
+        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        Source { name: name.into(), text, line_starts }
+    }
+
+    /// A source from the bytes of a file. Bytes that are not UTF-8 (an umlaut in an old comment) become U+FFFD.
+    pub fn from_bytes(name: impl Into<String>, bytes: &[u8]) -> Source {
+        Source::new(name, String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    /// Reads a file.
+    pub fn open(path: &std::path::Path) -> std::io::Result<Source> {
+        Ok(Source::from_bytes(path.display().to_string(), &std::fs::read(path)?))
+    }
+
+    /// The name that messages use.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Number of lines; a line feed at the very end starts no further line.
+    pub fn line_count(&self) -> usize {
+        let last_is_empty = self.line_starts.last().is_some_and(|&start| start == self.text.len());
+        self.line_starts.len() - usize::from(last_is_empty)
+    }
+
+    /// Span of a zero-based line without its end of line.
+    pub fn line_span(&self, line: usize) -> Span {
+        let start = self.line_starts.get(line).copied().unwrap_or(self.text.len());
+        let end = self.line_starts.get(line + 1).map_or(self.text.len(), |next| next - 1);
+        let end = if self.text[start..end].ends_with('\r') { end - 1 } else { end };
+        Span { start, end }
+    }
+
+    /// The text of a span; empty when the span does not fit this source.
+    pub fn slice(&self, span: Span) -> &str {
+        self.text.get(span.start..span.end).unwrap_or("")
+    }
+
+    /// Line and column of a byte, both counted from one; columns count characters.
+    pub fn position(&self, offset: usize) -> (usize, usize) {
+        let line = self.line_starts.partition_point(|&start| start <= offset).max(1);
+        let start = self.line_starts[line - 1];
+        let column = self.text.get(start..offset).map_or(1, |before| before.chars().count() + 1);
+        (line, column)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters_from_one() {
+        let source = Source::new("x.i", "ab\r\nµcd\n");
+        assert_eq!(source.position(0), (1, 1));
+        assert_eq!(source.position(4), (2, 1));
+        assert_eq!(source.position(6), (2, 2)); // µ takes two bytes
+        assert_eq!(source.line_count(), 2);
+        assert_eq!(source.slice(source.line_span(0)), "ab");
+        assert_eq!(source.slice(source.line_span(1)), "µcd");
+    }
+}

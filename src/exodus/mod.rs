@@ -1,0 +1,24 @@
+//! EXODUS II files: meshes read and written, results appended, read and compared. Bytes become arrays here; nothing
+//! here knows mechanics.
+//!
+//! A mesh is read in two steps: the file's arrays as they stand ([`tables`]), then, after every check, a
+//! [`Mesh`](crate::mesh::Mesh). The netCDF library serialises all calls in a process, so one rank should read and
+//! write for all.
+
+mod arrays;
+mod compare;
+pub mod container;
+mod error;
+mod names;
+mod read;
+mod results;
+mod results_writer;
+pub mod tables;
+mod write;
+
+pub use compare::{Comparison, Difference, Place, Tolerance, compare};
+pub use error::{MeshError, ResultsError};
+pub use read::read_mesh;
+pub use results::Results;
+pub use results_writer::{ResultsHeader, ResultsWriter};
+pub use write::write_mesh;

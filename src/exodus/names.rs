@@ -1,0 +1,99 @@
+//! Every name that EXODUS II gives to a netCDF attribute, dimension or variable, once.
+//!
+//! Positions of blocks, sets and variables in the file are one-based in the names; the functions here take them
+//! zero-based, as the rest of the program counts.
+
+// Global attributes. Files of version 2.01 and older spell two of them with blanks.
+pub const API_VERSION: &str = "api_version";
+pub const VERSION: &str = "version";
+pub const WORD_SIZE: &str = "floating_point_word_size";
+pub const FILE_SIZE: &str = "file_size";
+pub const MAXIMUM_NAME_LENGTH: &str = "maximum_name_length";
+pub const INT64_STATUS: &str = "int64_status";
+pub const TITLE: &str = "title";
+/// A file without any of these global attributes was not written by an EXODUS program.
+pub const SIGNS_OF_EXODUS: [&str; 4] = [API_VERSION, "api version", VERSION, TITLE];
+
+// Dimensions.
+pub const TIME_STEP: &str = "time_step";
+pub const LEN_STRING: &str = "len_string";
+pub const LEN_LINE: &str = "len_line";
+pub const LEN_NAME: &str = "len_name";
+pub const FOUR: &str = "four";
+pub const NUM_DIM: &str = "num_dim";
+pub const NUM_NODES: &str = "num_nodes";
+pub const NUM_ELEM: &str = "num_elem";
+pub const NUM_BLOCKS: &str = "num_el_blk";
+pub const NUM_NODE_SETS: &str = "num_node_sets";
+pub const NUM_SIDE_SETS: &str = "num_side_sets";
+pub const NUM_QA: &str = "num_qa_rec";
+pub const NUM_INFO: &str = "num_info";
+pub const NUM_GLOBAL_VARIABLES: &str = "num_glo_var";
+pub const NUM_NODAL_VARIABLES: &str = "num_nod_var";
+pub const NUM_ELEMENT_VARIABLES: &str = "num_elem_var";
+
+// Variables that stand alone.
+pub const TIME: &str = "time_whole";
+/// All coordinates in one array, as files without large-model layout have them.
+pub const PACKED_COORDINATES: &str = "coord";
+pub const COORDINATES: [&str; 3] = ["coordx", "coordy", "coordz"];
+pub const COORDINATE_NAMES: &str = "coor_names";
+pub const NODE_IDS: &str = "node_num_map";
+pub const ELEMENT_IDS: &str = "elem_num_map";
+pub const QA: &str = "qa_records";
+pub const INFO: &str = "info_records";
+pub const GLOBAL_NAMES: &str = "name_glo_var";
+pub const GLOBAL_VALUES: &str = "vals_glo_var";
+pub const NODAL_NAMES: &str = "name_nod_var";
+/// All nodal variables in one array, as files without large-model layout have them.
+pub const PACKED_NODAL_VALUES: &str = "vals_nod_var";
+pub const ELEMENT_NAMES: &str = "name_elem_var";
+pub const TRUTH_TABLE: &str = "elem_var_tab";
+
+/// Attribute of the `connect` variables that holds the element type.
+pub const ELEMENT_TYPE: &str = "elem_type";
+/// Attribute that says what a property array is, and the value that marks the numbers of blocks and sets.
+pub const PROPERTY_NAME: (&str, &str) = ("name", "ID");
+
+/// A family of numbered objects: how many, their status, numbers and names.
+pub struct Family {
+    pub count: &'static str,
+    pub status: &'static str,
+    pub ids: &'static str,
+    pub names: &'static str,
+}
+
+pub const BLOCKS: Family = Family { count: NUM_BLOCKS, status: "eb_status", ids: "eb_prop1", names: "eb_names" };
+pub const NODE_SETS: Family = Family { count: NUM_NODE_SETS, status: "ns_status", ids: "ns_prop1", names: "ns_names" };
+pub const SIDE_SETS: Family = Family { count: NUM_SIDE_SETS, status: "ss_status", ids: "ss_prop1", names: "ss_names" };
+
+pub fn block_elements(block: usize) -> String {
+    format!("num_el_in_blk{}", block + 1)
+}
+pub fn block_nodes_per_element(block: usize) -> String {
+    format!("num_nod_per_el{}", block + 1)
+}
+pub fn connectivity(block: usize) -> String {
+    format!("connect{}", block + 1)
+}
+pub fn node_set_size(set: usize) -> String {
+    format!("num_nod_ns{}", set + 1)
+}
+pub fn node_set_nodes(set: usize) -> String {
+    format!("node_ns{}", set + 1)
+}
+pub fn side_set_size(set: usize) -> String {
+    format!("num_side_ss{}", set + 1)
+}
+pub fn side_set_elements(set: usize) -> String {
+    format!("elem_ss{}", set + 1)
+}
+pub fn side_set_sides(set: usize) -> String {
+    format!("side_ss{}", set + 1)
+}
+pub fn nodal_values(variable: usize) -> String {
+    format!("vals_nod_var{}", variable + 1)
+}
+pub fn element_values(variable: usize, block: usize) -> String {
+    format!("vals_elem_var{}eb{}", variable + 1, block + 1)
+}

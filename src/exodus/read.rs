@@ -1,0 +1,243 @@
+//! An EXODUS II or GENESIS file becomes a mesh.
+//!
+//! The file is read to the format's conventions, whichever program wrote it: any netCDF container, packed or separate
+//! coordinates, integers and reals of any width, missing maps and names, null blocks and sets.
+
+use std::path::Path;
+
+use super::arrays::Arrays;
+use super::container::{Container, inspect};
+use super::error::MeshError;
+use super::names::{self, Family};
+use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
+use crate::mesh::Mesh;
+use crate::mesh::check::{self, Problem, Problems, counted};
+
+/// Reads a mesh and checks that it can be computed with.
+///
+/// # Errors
+/// [`MeshError`] holds every problem found, in the analyst's numbers: of the file (missing, cut short, not EXODUS,
+/// arrays missing or of the wrong shape), of its numbers (out of range, given twice), of its elements (of a kind
+/// that is not supported, without positive volume).
+pub fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
+    let mesh = read_mesh_unchecked(path)?;
+    let problems = check::geometry(&mesh);
+    if problems.is_empty() { Ok(mesh) } else { Err(MeshError { path: path.to_owned(), problems }) }
+}
+
+/// Reads a mesh whose geometry nobody needs to compute with, as that of a results file.
+pub(super) fn read_mesh_unchecked(path: &Path) -> Result<Mesh, MeshError> {
+    assemble(path, &open(path)?)
+}
+
+/// The mesh of a file that is open already.
+pub(super) fn assemble(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+    let mut problems = Problems::default();
+    let tables = Reader { arrays, problems: &mut problems }.tables();
+    // Arrays that are missing would be missed again by all that refers to them, so they are told alone.
+    let assembled = if problems.is_empty() { tables.assemble() } else { Err(problems) };
+    assembled.map_err(|problems| MeshError { path: path.to_owned(), problems })
+}
+
+/// Opens a file after a look at its first bytes.
+pub(super) fn open(path: &Path) -> Result<Arrays, MeshError> {
+    let refuse = |what: &str, help: &str| MeshError::single(path, what, help);
+    let container = inspect(path).map_err(|e| refuse(&format!("cannot be read: {e}"), ""))?;
+    match &container {
+        Container::FortranRecords => {
+            return Err(refuse(
+                "this is an EXODUS I file (Fortran records), which urto does not read yet",
+                "convert it to EXODUS II, for example with ex1ex2v2",
+            ));
+        }
+        Container::Unknown(reason) => {
+            return Err(refuse(
+                &format!("this is no EXODUS file: {reason}"),
+                "meshes and results are EXODUS II files (GENESIS): netCDF classic, 64-bit offset, CDF-5 or netCDF-4",
+            ));
+        }
+        Container::Classic(layout) if layout.length < layout.promised => {
+            return Err(refuse(
+                &format!("the file is cut short: it has {} of {} bytes", layout.length, layout.promised),
+                "copy or write it again",
+            ));
+        }
+        Container::Classic(_) | Container::Hdf5 => {}
+    }
+    let length = std::fs::metadata(path).map_err(|e| refuse(&format!("cannot be read: {e}"), ""))?.len();
+    let arrays = Arrays::open(path, length).map_err(|e| {
+        refuse(&format!("cannot be opened: {e}"), "the file is damaged or not complete; write it again")
+    })?;
+    if !names::SIGNS_OF_EXODUS.iter().any(|name| arrays.has_attribute(name)) && !arrays.has(names::BLOCKS.ids) {
+        return Err(refuse(
+            "this is a netCDF file but no EXODUS file: it has neither version nor title nor element blocks",
+            "export the mesh as EXODUS II (GENESIS)",
+        ));
+    }
+    Ok(arrays)
+}
+
+/// Quality-assurance records: four texts each.
+pub(super) fn qa_records(arrays: &Arrays) -> Vec<[String; 4]> {
+    let mut texts = arrays.texts(names::QA).into_iter();
+    std::iter::from_fn(|| Some([texts.next()?, texts.next()?, texts.next()?, texts.next()?])).collect()
+}
+
+/// Number of nodes, from whatever speaks of it.
+pub(super) fn node_count(arrays: &Arrays) -> usize {
+    let last = |name| arrays.shape(name).and_then(|shape| shape.last().copied());
+    let said = arrays.dimension(names::NUM_NODES);
+    said.or_else(|| last(names::COORDINATES[0])).or_else(|| last(names::PACKED_COORDINATES)).unwrap_or(0)
+}
+
+/// Reads the arrays and notes what is missing.
+struct Reader<'a> {
+    arrays: &'a Arrays,
+    problems: &'a mut Problems,
+}
+
+impl Reader<'_> {
+    fn tables(&mut self) -> Tables {
+        let dimensions = self.arrays.dimension(names::NUM_DIM).unwrap_or(3);
+        Tables {
+            title: self.arrays.text(names::TITLE).unwrap_or_default(),
+            dimensions,
+            // A flat mesh is refused for being flat, not for its missing z.
+            coordinates: if dimensions == 3 { self.coordinates() } else { Default::default() },
+            node_count: self.arrays.dimension(names::NUM_NODES),
+            element_count: self.arrays.dimension(names::NUM_ELEM),
+            blocks: self.family(&names::BLOCKS, "block", Self::block),
+            node_sets: self.family(&names::NODE_SETS, "node set", Self::node_set),
+            side_sets: self.family(&names::SIDE_SETS, "side set", Self::side_set),
+            node_ids: self.integers(names::NODE_IDS),
+            element_ids: self.integers(names::ELEMENT_IDS),
+            qa: qa_records(self.arrays),
+        }
+    }
+
+    fn problem(&mut self, what: impl Into<String>) {
+        self.problems.add(|| Problem::new(what, "write the mesh again; a program or a copy left it incomplete"));
+    }
+
+    /// An optional array of integers; what cannot be read counts as missing and is noted.
+    fn integers(&mut self, name: &str) -> Option<Vec<i64>> {
+        self.arrays.integers(name).unwrap_or_else(|reason| {
+            self.problem(reason);
+            None
+        })
+    }
+
+    /// An array of integers that must be there.
+    fn required(&mut self, name: &str, place: &str) -> Vec<i64> {
+        match self.arrays.integers(name) {
+            Ok(Some(values)) => return values,
+            Ok(None) => self.problem(format!("{place}: {name} is missing")),
+            Err(reason) => self.problem(format!("{place}: {reason}")),
+        }
+        Vec::new()
+    }
+
+    fn coordinates(&mut self) -> [Vec<f64>; 3] {
+        if let Some(shape) = self.arrays.shape(names::PACKED_COORDINATES) {
+            return self.packed_coordinates(&shape);
+        }
+        names::COORDINATES.map(|name| match self.arrays.reals(name) {
+            Ok(Some(values)) => values,
+            Ok(None) => {
+                self.problem(format!("{name} is missing"));
+                Vec::new()
+            }
+            Err(reason) => {
+                self.problem(reason);
+                Vec::new()
+            }
+        })
+    }
+
+    fn packed_coordinates(&mut self, shape: &[usize]) -> [Vec<f64>; 3] {
+        match (shape, self.arrays.reals(names::PACKED_COORDINATES)) {
+            (&[3, nodes], Ok(Some(mut x))) if x.len() == 3 * nodes => {
+                let z = x.split_off(2 * nodes);
+                let y = x.split_off(nodes);
+                [x, y, z]
+            }
+            (_, Err(reason)) => {
+                self.problem(reason);
+                Default::default()
+            }
+            _ => {
+                self.problem(format!("coord has the shape {shape:?}, it must be 3 by the number of nodes"));
+                Default::default()
+            }
+        }
+    }
+
+    /// All members of a family, each read by `read` from its position, number and name.
+    fn family<T>(
+        &mut self,
+        family: &Family,
+        kind: &str,
+        read: impl Fn(&mut Self, usize, bool, i64, String) -> T,
+    ) -> Vec<T> {
+        let status = self.integers(family.status);
+        let ids = self.integers(family.ids);
+        let lengths = [self.arrays.dimension(family.count), ids.as_ref().map(Vec::len)];
+        let count = lengths.into_iter().flatten().next().unwrap_or(0);
+        for (name, array) in [(family.status, &status), (family.ids, &ids)] {
+            if let Some(length) = array.as_ref().map(Vec::len).filter(|&length| length != count) {
+                self.problem(format!(
+                    "the mesh has {}, but {name} has {}",
+                    counted(count, kind),
+                    counted(length, "value")
+                ));
+                return Vec::new();
+            }
+        }
+        let mut texts = self.arrays.texts(family.names).into_iter();
+        (0..count)
+            .map(|n| {
+                let id = ids.as_ref().map_or(n as i64 + 1, |ids| ids[n]);
+                let null = status.as_ref().is_some_and(|status| status[n] == 0);
+                read(self, n, null, id, texts.next().unwrap_or_default())
+            })
+            .collect()
+    }
+
+    fn block(&mut self, n: usize, null: bool, id: i64, name: String) -> BlockTable {
+        let mut block = BlockTable { id, name, ..BlockTable::default() };
+        let variable = names::connectivity(n);
+        let absent = self.arrays.dimension(&names::block_elements(n)).is_none() && !self.arrays.has(&variable);
+        if null || absent {
+            return block;
+        }
+        block.element_type = self.arrays.variable_text(&variable, names::ELEMENT_TYPE).unwrap_or_default();
+        match self.arrays.shape(&variable).as_deref() {
+            Some(&[_, nodes_per_element]) => {
+                block.nodes_per_element = nodes_per_element;
+                block.connectivity = self.required(&variable, &format!("block {id}"));
+            }
+            Some(shape) => {
+                self.problem(format!("block {id}: {variable} has the shape {shape:?}, it must be elements by nodes"))
+            }
+            None => self.problem(format!("block {id}: {variable} is missing")),
+        }
+        block
+    }
+
+    fn node_set(&mut self, n: usize, null: bool, id: i64, name: String) -> NodeSetTable {
+        let variable = names::node_set_nodes(n);
+        let absent = self.arrays.dimension(&names::node_set_size(n)).is_none() && !self.arrays.has(&variable);
+        let nodes = if null || absent { Vec::new() } else { self.required(&variable, &format!("node set {id}")) };
+        NodeSetTable { id, name, nodes }
+    }
+
+    fn side_set(&mut self, n: usize, null: bool, id: i64, name: String) -> SideSetTable {
+        let (elements, sides) = (names::side_set_elements(n), names::side_set_sides(n));
+        let absent = self.arrays.dimension(&names::side_set_size(n)).is_none() && !self.arrays.has(&elements);
+        if null || absent {
+            return SideSetTable { id, name, ..SideSetTable::default() };
+        }
+        let place = format!("side set {id}");
+        SideSetTable { id, name, elements: self.required(&elements, &place), sides: self.required(&sides, &place) }
+    }
+}

@@ -1,0 +1,171 @@
+//! A results file seen from outside: its states, variables and mesh.
+
+use std::path::{Path, PathBuf};
+
+use netcdf::{Extent, Extents};
+
+use super::arrays::{Arrays, Reason};
+use super::error::{MeshError, ResultsError};
+use super::{names, read};
+use crate::mesh::Mesh;
+
+/// An EXODUS II file opened for reading its results. Files without states are fine: they have no times.
+pub struct Results {
+    path: PathBuf,
+    arrays: Arrays,
+    times: Vec<f64>,
+    global_names: Vec<String>,
+    nodal_names: Vec<String>,
+    element_names: Vec<String>,
+    nodes: usize,
+    /// Elements of each block.
+    block_sizes: Vec<usize>,
+}
+
+impl Results {
+    /// Opens a results file of any container and any program.
+    ///
+    /// # Errors
+    /// When it is not an EXODUS file, is cut short, or its times cannot be read.
+    pub fn open(path: &Path) -> Result<Self, ResultsError> {
+        let arrays = read::open(path)?;
+        let times = arrays.reals(names::TIME).map_err(|what| unusable(path, what))?.unwrap_or_default();
+        let blocks = arrays.dimension(names::NUM_BLOCKS).unwrap_or(0);
+        let status = arrays.integers(names::BLOCKS.status).ok().flatten().unwrap_or_default();
+        let size = |b: usize| match arrays.shape(&names::connectivity(b)).as_deref() {
+            Some(&[elements, _]) if status.get(b) != Some(&0) => elements,
+            _ => 0,
+        };
+        Ok(Results {
+            path: path.to_owned(),
+            times,
+            global_names: arrays.texts(names::GLOBAL_NAMES),
+            nodal_names: arrays.texts(names::NODAL_NAMES),
+            element_names: arrays.texts(names::ELEMENT_NAMES),
+            nodes: read::node_count(&arrays),
+            block_sizes: (0..blocks).map(size).collect(),
+            arrays,
+        })
+    }
+
+    /// The file's title.
+    pub fn title(&self) -> String {
+        self.arrays.text(names::TITLE).unwrap_or_default()
+    }
+
+    /// The times of the states.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Names of the global variables, as the file spells them.
+    pub fn global_names(&self) -> &[String] {
+        &self.global_names
+    }
+
+    /// Names of the nodal variables, as the file spells them.
+    pub fn nodal_names(&self) -> &[String] {
+        &self.nodal_names
+    }
+
+    /// Names of the element variables, as the file spells them.
+    pub fn element_names(&self) -> &[String] {
+        &self.element_names
+    }
+
+    /// Quality-assurance records: program, version, date, time.
+    pub fn qa(&self) -> Vec<[String; 4]> {
+        read::qa_records(&self.arrays)
+    }
+
+    /// Info lines.
+    pub fn info(&self) -> Vec<String> {
+        self.arrays.texts(names::INFO)
+    }
+
+    /// The undeformed mesh. Its numbers are checked, its geometry is not.
+    ///
+    /// # Errors
+    /// When the mesh is damaged or holds elements that are not supported.
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        read::assemble(&self.path, &self.arrays)
+    }
+
+    /// All global values of a state, in the order of [`Results::global_names`].
+    ///
+    /// # Errors
+    /// When there is no such state, or the values cannot be read.
+    pub fn global(&self, state: usize) -> Result<Vec<f64>, ResultsError> {
+        self.check(state)?;
+        if self.global_names.is_empty() {
+            return Ok(Vec::new());
+        }
+        self.read(names::GLOBAL_VALUES, &[at(state), ALL], self.global_names.len())
+    }
+
+    /// The values of a nodal variable in a state, one per node. Names compare without case.
+    ///
+    /// # Errors
+    /// When there is no such variable or state, or the values cannot be read.
+    pub fn nodal(&self, name: &str, state: usize) -> Result<Vec<f64>, ResultsError> {
+        self.check(state)?;
+        let variable = self.find("nodal", &self.nodal_names, name)?;
+        if self.arrays.has(names::PACKED_NODAL_VALUES) {
+            return self.read(names::PACKED_NODAL_VALUES, &[at(state), at(variable), ALL], self.nodes);
+        }
+        self.read(&names::nodal_values(variable), &[at(state), ALL], self.nodes)
+    }
+
+    /// The values of an element variable in a state, one per element in file order; NaN in blocks that do not have
+    /// the variable. Names compare without case.
+    ///
+    /// # Errors
+    /// When there is no such variable or state, or the values cannot be read.
+    pub fn element(&self, name: &str, state: usize) -> Result<Vec<f64>, ResultsError> {
+        self.check(state)?;
+        let variable = self.find("element", &self.element_names, name)?;
+        let mut values = Vec::with_capacity(self.block_sizes.iter().sum());
+        for (block, &size) in self.block_sizes.iter().enumerate() {
+            let array = names::element_values(variable, block);
+            if size > 0 && self.arrays.has(&array) {
+                values.extend(self.read(&array, &[at(state), ALL], size)?);
+            } else {
+                values.resize(values.len() + size, f64::NAN);
+            }
+        }
+        Ok(values)
+    }
+
+    fn read(&self, array: &str, part: &[Extent], length: usize) -> Result<Vec<f64>, ResultsError> {
+        let values =
+            self.arrays.part_of_reals(array, &Extents::from(part)).map_err(|what| unusable(&self.path, what))?;
+        if values.len() == length {
+            return Ok(values);
+        }
+        Err(unusable(&self.path, format!("{array} has {} values where {length} belong", values.len())))
+    }
+
+    fn check(&self, state: usize) -> Result<(), ResultsError> {
+        let count = self.times.len();
+        if state < count { Ok(()) } else { Err(ResultsError::NoState { path: self.path.clone(), state, count }) }
+    }
+
+    fn find(&self, kind: &'static str, known: &[String], name: &str) -> Result<usize, ResultsError> {
+        known.iter().position(|known| known.eq_ignore_ascii_case(name)).ok_or_else(|| ResultsError::NoVariable {
+            path: self.path.clone(),
+            kind,
+            name: name.to_owned(),
+            known: known.to_vec(),
+        })
+    }
+}
+
+const ALL: Extent = Extent::Slice { start: 0, stride: 1 };
+
+fn at(index: usize) -> Extent {
+    Extent::Index(index)
+}
+
+fn unusable(path: &Path, what: Reason) -> ResultsError {
+    ResultsError::Unusable { path: path.to_owned(), what }
+}

@@ -1,0 +1,94 @@
+//! Four lanes in one 256-bit register; a chunk is worked off in two parts.
+//!
+//! SAFETY, for the whole file: as in `avx512.rs`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the four
+//! numbers from `part · 4` lie inside a row of eight; slicing checks it.
+
+use super::{CHUNK, Force, Lanes, Row};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Four doubles.
+#[derive(Clone, Copy)]
+pub struct F64x4(__m256d);
+
+macro_rules! lane_by_lane {
+    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
+        impl $trait for F64x4 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self { F64x4(unsafe { $intrinsic(self.0, other.0) }) }
+        }
+    )+ };
+}
+lane_by_lane!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
+
+impl Neg for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        F64x4(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
+    }
+}
+
+/// Four 4-vectors transposed.
+#[inline(always)]
+fn transpose(r: [__m256d; 4]) -> [F64x4; 4] {
+    unsafe {
+        let (l0, h0) = (_mm256_unpacklo_pd(r[0], r[1]), _mm256_unpackhi_pd(r[0], r[1]));
+        let (l1, h1) = (_mm256_unpacklo_pd(r[2], r[3]), _mm256_unpackhi_pd(r[2], r[3]));
+        [
+            F64x4(_mm256_permute2f128_pd::<0x20>(l0, l1)),
+            F64x4(_mm256_permute2f128_pd::<0x20>(h0, h1)),
+            F64x4(_mm256_permute2f128_pd::<0x31>(l0, l1)),
+            F64x4(_mm256_permute2f128_pd::<0x31>(h0, h1)),
+        ]
+    }
+}
+
+impl Lanes for F64x4 {
+    const COUNT: usize = 4;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        F64x4(unsafe { _mm256_set1_pd(value) })
+    }
+    #[inline(always)]
+    fn load(row: &Row, part: usize) -> Self {
+        F64x4(unsafe { _mm256_load_pd(row.0[part * 4..part * 4 + 4].as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, row: &mut Row, part: usize) {
+        unsafe { _mm256_store_pd(row.0[part * 4..part * 4 + 4].as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        F64x4(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        F64x4(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        F64x4(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        F64x4(unsafe { _mm256_blendv_pd(no.0, yes.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) })
+    }
+    #[inline(always)]
+    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {
+        let half = |i: usize, h: usize| unsafe {
+            _mm256_load_pd(rows[index[part * 4 + i] as usize].0[h * 4..h * 4 + 4].as_ptr())
+        };
+        let first = transpose([half(0, 0), half(1, 0), half(2, 0), half(3, 0)]);
+        let second = transpose([half(0, 1), half(1, 1), half(2, 1), half(3, 1)]);
+        [first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]]
+    }
+    #[inline(always)]
+    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize) {
+        let turned = transpose([force[0].0, force[1].0, force[2].0, unsafe { _mm256_setzero_pd() }]);
+        for (i, vector) in turned.into_iter().enumerate() {
+            unsafe { _mm256_store_pd(out[part * 4 + i][corner].0.as_mut_ptr(), vector.0) }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Eight lanes in one 512-bit register.
+//!
+//! Measured need for `unsafe`: the same kernel left to the compiler's vectoriser takes two to four times as long
+//! and varies with unrelated edits (`docs/performance.md`).
+//!
+//! SAFETY, for the whole file: the intrinsics demand AVX-512 F, DQ and VL. Values of [`F64x8`] are only made inside
+//! kernels that `solver::elements` enters after [`super::InstructionSet::detect`] has found these features. Loads
+//! and stores go through references to eight numbers, so they stay inside their object.
+
+use super::{CHUNK, Force, Lanes, Row};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Eight doubles.
+#[derive(Clone, Copy)]
+pub struct F64x8(__m512d);
+
+macro_rules! lane_by_lane {
+    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
+        impl $trait for F64x8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self { F64x8(unsafe { $intrinsic(self.0, other.0) }) }
+        }
+    )+ };
+}
+lane_by_lane!(Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
+
+impl Neg for F64x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        F64x8(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
+    }
+}
+
+impl Lanes for F64x8 {
+    const COUNT: usize = CHUNK;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        F64x8(unsafe { _mm512_set1_pd(value) })
+    }
+    #[inline(always)]
+    fn load(row: &Row, _part: usize) -> Self {
+        F64x8(unsafe { _mm512_load_pd(row.0.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, row: &mut Row, _part: usize) {
+        unsafe { _mm512_store_pd(row.0.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        F64x8(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        F64x8(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        F64x8(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        F64x8(unsafe { _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), no.0, yes.0) })
+    }
+
+    /// Eight rows, one per lane, transposed in registers: 8 loads and 24 shuffles.
+    #[inline(always)]
+    fn gather(rows: &[Row], index: &[u32; CHUNK], _part: usize) -> [Self; 8] {
+        let row = |i: usize| unsafe { _mm512_load_pd(rows[index[i] as usize].0.as_ptr()) };
+        let r: [__m512d; 8] = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
+        unsafe {
+            let (l0, l1) = (_mm512_unpacklo_pd(r[0], r[1]), _mm512_unpacklo_pd(r[2], r[3]));
+            let (l2, l3) = (_mm512_unpacklo_pd(r[4], r[5]), _mm512_unpacklo_pd(r[6], r[7]));
+            let (h0, h1) = (_mm512_unpackhi_pd(r[0], r[1]), _mm512_unpackhi_pd(r[2], r[3]));
+            let (h2, h3) = (_mm512_unpackhi_pd(r[4], r[5]), _mm512_unpackhi_pd(r[6], r[7]));
+            const EVEN: i32 = 0b10_00_10_00;
+            const ODD: i32 = 0b11_01_11_01;
+            let (a0, a1) = (_mm512_shuffle_f64x2::<EVEN>(l0, l1), _mm512_shuffle_f64x2::<EVEN>(l2, l3));
+            let (b0, b1) = (_mm512_shuffle_f64x2::<ODD>(l0, l1), _mm512_shuffle_f64x2::<ODD>(l2, l3));
+            let (c0, c1) = (_mm512_shuffle_f64x2::<EVEN>(h0, h1), _mm512_shuffle_f64x2::<EVEN>(h2, h3));
+            let (d0, d1) = (_mm512_shuffle_f64x2::<ODD>(h0, h1), _mm512_shuffle_f64x2::<ODD>(h2, h3));
+            [
+                F64x8(_mm512_shuffle_f64x2::<EVEN>(a0, a1)),
+                F64x8(_mm512_shuffle_f64x2::<EVEN>(c0, c1)),
+                F64x8(_mm512_shuffle_f64x2::<EVEN>(b0, b1)),
+                F64x8(_mm512_shuffle_f64x2::<EVEN>(d0, d1)),
+                F64x8(_mm512_shuffle_f64x2::<ODD>(a0, a1)),
+                F64x8(_mm512_shuffle_f64x2::<ODD>(c0, c1)),
+                F64x8(_mm512_shuffle_f64x2::<ODD>(b0, b1)),
+                F64x8(_mm512_shuffle_f64x2::<ODD>(d0, d1)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, _part: usize) {
+        unsafe {
+            let zero = _mm512_setzero_pd();
+            let (a, b) = (_mm512_unpacklo_pd(force[0].0, force[1].0), _mm512_unpackhi_pd(force[0].0, force[1].0));
+            let (p, q) = (_mm512_unpacklo_pd(force[2].0, zero), _mm512_unpackhi_pd(force[2].0, zero));
+            let low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0);
+            let high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
+            // Elements (0, 2), (1, 3), (4, 6), (5, 7).
+            let pairs = [
+                (_mm512_permutex2var_pd(a, low, p), 0, 2),
+                (_mm512_permutex2var_pd(b, low, q), 1, 3),
+                (_mm512_permutex2var_pd(a, high, p), 4, 6),
+                (_mm512_permutex2var_pd(b, high, q), 5, 7),
+            ];
+            for (pair, first, second) in pairs {
+                _mm256_store_pd(out[first][corner].0.as_mut_ptr(), _mm512_castpd512_pd256(pair));
+                _mm256_store_pd(out[second][corner].0.as_mut_ptr(), _mm512_extractf64x4_pd::<1>(pair));
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Eight elements at once: the small vector vocabulary in which the element and material kernels are written.
+//!
+//! A kernel is written once against [`Lanes`]; thin newtypes per instruction set carry it out. Which one runs is
+//! decided when the program starts ([`InstructionSet::detect`]). None of them fuses a multiplication with an
+//! addition, and division and square root are correctly rounded, so that all give the same bits.
+
+/// An array of 3, 4, 6, 7 or 8 entries, each given by an expression in its index, written out at compile time.
+///
+/// Kernels use it instead of `std::array::from_fn`, whose closure is compiled without the caller's vector
+/// instructions and then stays a call.
+macro_rules! array {
+    (@at $i:ident $n:literal $entry:expr) => {{ let $i: usize = $n; $entry }};
+    ($i:ident in 3 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry)]
+    };
+    ($i:ident in 4 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry), array!(@at $i 3 $entry)]
+    };
+    ($i:ident in 6 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry),
+         array!(@at $i 3 $entry), array!(@at $i 4 $entry), array!(@at $i 5 $entry)]
+    };
+    ($i:ident in 7 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry), array!(@at $i 3 $entry),
+         array!(@at $i 4 $entry), array!(@at $i 5 $entry), array!(@at $i 6 $entry)]
+    };
+    ($i:ident in 8 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry), array!(@at $i 3 $entry),
+         array!(@at $i 4 $entry), array!(@at $i 5 $entry), array!(@at $i 6 $entry), array!(@at $i 7 $entry)]
+    };
+}
+
+pub(crate) use array;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod portable;
+mod tensor;
+#[cfg(test)]
+mod tests;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::F64x4;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx512::F64x8;
+pub use portable::Pair;
+pub use tensor::{Matrix3, Sym3, multiply, multiply_transposed};
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Elements per chunk. Element data is stored as rows of this many values, one per element.
+pub const CHUNK: usize = 8;
+
+/// One quantity of the eight elements of a chunk, or the eight numbers of a node; one cache line.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(64))]
+pub struct Row(pub [f64; CHUNK]);
+
+/// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
+#[inline(always)]
+pub fn prefetch(rows: &[Row]) {
+    #[cfg(target_arch = "x86_64")]
+    for row in rows {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(row.0.as_ptr().cast()) }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = rows;
+}
+
+/// A force on a node, `[x, y, z, 0]`; four numbers so that it moves as one vector.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(32))]
+pub struct Force(pub [f64; 4]);
+
+/// A vector of floating-point lanes. Arithmetic is lane by lane; `COUNT` divides [`CHUNK`], and a chunk is worked
+/// off in parts of `COUNT` lanes: part `p` covers elements `p·COUNT ..`.
+pub trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// Lanes per vector.
+    const COUNT: usize;
+    /// The same number in every lane.
+    fn splat(value: f64) -> Self;
+    /// One part of a row.
+    fn load(row: &Row, part: usize) -> Self;
+    /// Writes one part of a row.
+    fn store(self, row: &mut Row, part: usize);
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// `self` where it is less than `other`, else `other` (also where one is NaN).
+    fn min(self, other: Self) -> Self;
+    /// `self` where it is greater than `other`, else `other` (also where one is NaN).
+    fn max(self, other: Self) -> Self;
+    /// `yes` where `a < b`, else `no` (also where one is NaN).
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
+    /// Fetches the rows named by one part of `index` and turns them: component `c` of the result holds number `c`
+    /// of every fetched row.
+    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8];
+    /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
+    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize);
+}
+
+/// Instruction sets for which kernels are compiled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum InstructionSet {
+    /// Whatever the target guarantees.
+    Portable,
+    /// 256-bit vectors.
+    Avx2,
+    /// 512-bit vectors.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// The set to use: the widest this processor has; the environment variable `URTO_SIMD` (`portable`, `avx2`, `avx512`) can
+    /// ask for a narrower one.
+    pub fn detect() -> InstructionSet {
+        let widest = InstructionSet::widest();
+        match std::env::var("URTO_SIMD").as_deref() {
+            Ok("portable") => InstructionSet::Portable,
+            Ok("avx2") if widest != InstructionSet::Portable => InstructionSet::Avx2,
+            _ => widest,
+        }
+    }
+
+    /// The widest set this processor has.
+    #[cfg(target_arch = "x86_64")]
+    pub fn widest() -> InstructionSet {
+        let avx512 = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        if avx512 {
+            InstructionSet::Avx512
+        } else if is_x86_feature_detected!("avx2") {
+            InstructionSet::Avx2
+        } else {
+            InstructionSet::Portable
+        }
+    }
+
+    /// The widest set this processor has.
+    #[cfg(not(target_arch = "x86_64"))]
+    pub fn widest() -> InstructionSet {
+        InstructionSet::Portable
+    }
+
+    /// Name for the print log.
+    pub fn name(self) -> &'static str {
+        match self {
+            InstructionSet::Portable => "portable",
+            InstructionSet::Avx2 => "AVX2",
+            InstructionSet::Avx512 => "AVX-512",
+        }
+    }
+}

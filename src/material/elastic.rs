@@ -1,0 +1,97 @@
+//! ELASTIC: isotropic hypoelasticity in the unrotated frame.
+
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+
+/// Isotropic linear elasticity, σ̇ = λ tr(d) I + 2μ d in the unrotated frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus E, force/length².
+    pub young: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+/// Poisson's ratios for which λ and μ are finite and positive definite.
+const POISSON_RANGE: Range = Range::Between { low: (-1.0, false), high: (0.5, false) };
+
+/// Young's modulus, for every law with elastic constants.
+pub(super) const YOUNGS_MODULUS: Property = Property {
+    keyword: "YOUNGS MODULUS",
+    symbol: "E",
+    dimension: "force/length^2",
+    range: Range::Positive,
+    default: None,
+    meaning: "Young's modulus.",
+};
+
+/// Poisson's ratio, for every law with elastic constants.
+pub(super) const POISSONS_RATIO: Property = Property {
+    keyword: "POISSONS RATIO",
+    symbol: "nu",
+    dimension: "-",
+    range: POISSON_RANGE,
+    default: None,
+    meaning: "Poisson's ratio.",
+};
+
+pub(super) static ENTRY: Entry = Entry {
+    name: "ELASTIC",
+    aliases: &[],
+    summary: "Isotropic linear elasticity in rate form, objective under any rotation.",
+    properties: &[YOUNGS_MODULUS, POISSONS_RATIO],
+    state: &[],
+    origin: Origin::Recalled,
+    build: |v| Ok(Law::Elastic(Elastic { young: v[0], poisson: v[1] })),
+};
+
+impl Elastic {
+    pub(super) fn moduli(&self) -> Moduli {
+        Moduli::from_young(self.young, self.poisson)
+    }
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        vec![self.young, self.poisson]
+    }
+
+    pub(super) fn state(&self, _: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
+        Vec::new()
+    }
+
+    pub(super) fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output {
+        visitor.visit(Hooke::from(self.moduli()))
+    }
+}
+
+/// The elastic kernel, also the trial step of every law built on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hooke {
+    pub lambda: f64,
+    pub two_mu: f64,
+}
+
+impl From<Moduli> for Hooke {
+    fn from(moduli: Moduli) -> Hooke {
+        Hooke { lambda: moduli.lambda, two_mu: moduli.two_mu }
+    }
+}
+
+impl Hooke {
+    /// σ + λ tr(Δε) I + 2μ Δε
+    #[inline(always)]
+    pub fn trial<V: Lanes>(&self, strain: &Sym3<V>, stress: &Sym3<V>) -> Sym3<V> {
+        let two_mu = V::splat(self.two_mu);
+        let volumetric = V::splat(self.lambda) * strain.trace();
+        stress.zip(*strain, |s, e| s + two_mu * e).add_diagonal(volumetric)
+    }
+}
+
+impl Kernel for Hooke {
+    const STATE: &'static [&'static str] = &[];
+
+    #[inline(always)]
+    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+        *stress = self.trial(strain, stress);
+        Response { returned: V::splat(1.0) }
+    }
+}

@@ -1,0 +1,136 @@
+//! Parts put together: one list of nodes, one of elements, and which block each element belongs to.
+
+use std::ops::Range;
+
+use super::{
+    body::{Body, Face, Sides},
+    merge,
+};
+use crate::mesh::{Block, Mesh, check};
+
+/// All parts of a recipe, in its order.
+#[derive(Debug, Clone, Default)]
+pub struct Assembly {
+    coordinates: Vec<[f64; 3]>,
+    hexes: Vec<[u32; 8]>,
+    /// Block number of each element.
+    blocks: Vec<i64>,
+    parts: Vec<Part>,
+}
+
+#[derive(Debug, Clone)]
+struct Part {
+    block: i64,
+    nodes: Range<usize>,
+    elements: Range<usize>,
+    faces: Vec<(Face, Sides)>,
+}
+
+/// A mesh without sets, with the named faces of the shapes it was made of.
+#[derive(Debug, Clone)]
+pub struct Assembled {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// The faces of each part, with the block it was made as.
+    pub faces: Vec<(i64, Vec<(Face, Sides)>)>,
+}
+
+impl Assembly {
+    /// Adds a body as a part of its own.
+    pub fn add(&mut self, block: i64, body: Body) {
+        let (nodes, elements) = (self.coordinates.len(), self.hexes.len());
+        self.coordinates.extend(body.coordinates);
+        self.hexes.extend(body.hexes.iter().map(|hex| hex.map(|node| node + nodes as u32)));
+        self.blocks.resize(self.hexes.len(), block);
+        let mut faces = body.faces;
+        faces.iter_mut().flat_map(|(_, sides)| sides).for_each(|(element, _)| *element += elements as u32);
+        self.parts.push(Part {
+            block,
+            nodes: nodes..self.coordinates.len(),
+            elements: elements..self.hexes.len(),
+            faces,
+        });
+    }
+
+    /// Lengths of the diagonal of the model's bounding box and of its shortest element edge.
+    pub fn lengths(&self) -> (f64, f64) {
+        let diagonal = super::bounds(&self.coordinates).map(|[low, high]| high - low);
+        let mut shortest = f64::INFINITY;
+        for hex in &self.hexes {
+            let x = hex.map(|node| self.coordinates[node as usize]);
+            for (a, b) in super::EDGES {
+                shortest = shortest.min(super::distance(x[a], x[b]));
+            }
+        }
+        (super::distance(diagonal, [0.0; 3]), shortest)
+    }
+
+    /// Joins coincident nodes of the parts made as these blocks, of all parts if there are none. Returns how many
+    /// nodes became others.
+    pub fn merge(&mut self, blocks: &[i64], tolerance: f64) -> usize {
+        let chosen = self.parts.iter().filter(|part| blocks.is_empty() || blocks.contains(&part.block));
+        let ranges: Vec<_> = chosen.map(|part| part.nodes.clone()).collect();
+        let becomes = merge::representatives(&self.coordinates, &ranges, tolerance);
+        self.hexes.iter_mut().flatten().for_each(|node| *node = becomes[*node as usize]);
+        becomes.iter().zip(0..).filter(|&(&becomes, node)| becomes != node).count()
+    }
+
+    /// Puts the elements of a block whose centre lies in a box into another block. Returns how many these are.
+    pub fn split(&mut self, block: i64, new: i64, low: [f64; 3], high: [f64; 3]) -> usize {
+        let mut moved = 0;
+        for (hex, here) in self.hexes.iter().zip(&mut self.blocks).filter(|(_, here)| **here == block) {
+            let centre = [0, 1, 2].map(|i| hex.iter().map(|&n| self.coordinates[n as usize][i]).sum::<f64>() / 8.0);
+            if (0..3).all(|i| low[i] <= centre[i] && centre[i] <= high[i]) {
+                *here = new;
+                moved += 1;
+            }
+        }
+        moved
+    }
+
+    /// The first part with an element that has no positive volume, if there is one.
+    pub fn flat_part(&self) -> Option<usize> {
+        let flat = self.hexes.iter().position(|hex| {
+            let volume = check::hexahedron_volume(&hex.map(|node| self.coordinates[node as usize]));
+            !(volume > 0.0 && volume.is_finite())
+        })?;
+        self.parts.iter().position(|part| part.elements.contains(&flat))
+    }
+
+    /// The mesh: blocks in the order of their numbers, without the nodes that merging left over.
+    pub fn finish(mut self, title: &str) -> Assembled {
+        self.drop_unused_nodes();
+        let mut mesh = Mesh { title: title.to_string(), ..Mesh::default() };
+        let mut ids = self.blocks.clone();
+        ids.sort_unstable();
+        ids.dedup();
+        let mut place = vec![0u32; self.hexes.len()];
+        let mut placed = 0;
+        for id in ids {
+            let mut block = Block { id, name: String::new(), connectivity: Vec::new() };
+            for element in (0..self.hexes.len()).filter(|&element| self.blocks[element] == id) {
+                place[element] = placed;
+                placed += 1;
+                block.connectivity.push(self.hexes[element]);
+            }
+            mesh.blocks.push(block);
+        }
+        for (_, sides) in self.parts.iter_mut().flat_map(|part| &mut part.faces) {
+            sides.iter_mut().for_each(|side| side.0 = place[side.0 as usize]);
+        }
+        mesh.node_ids = (1..=self.coordinates.len() as i64).collect();
+        mesh.element_ids = (1..=self.hexes.len() as i64).collect();
+        mesh.coordinates = self.coordinates;
+        Assembled { mesh, faces: self.parts.into_iter().map(|part| (part.block, part.faces)).collect() }
+    }
+
+    fn drop_unused_nodes(&mut self) {
+        let mut used = vec![false; self.coordinates.len()];
+        self.hexes.iter().flatten().for_each(|&node| used[node as usize] = true);
+        let mut count = 0;
+        let numbers: Vec<u32> = used.iter().map(|&used| (count, count += u32::from(used)).0).collect();
+        let mut used = used.into_iter();
+        self.coordinates.retain(|_| used.next().unwrap_or(false));
+        self.hexes.iter_mut().flatten().for_each(|node| *node = numbers[*node as usize]);
+    }
+}

@@ -1,0 +1,118 @@
+//! Commands that make shapes.
+
+use std::sync::Arc;
+
+use super::{Draft, Part, Place, Setter};
+use crate::{
+    deck::{Card, Diagnostic},
+    mesher::{
+        body::{Extent, Shape},
+        cylinder::Cylinder,
+        hex_box::Hexahedron,
+        spacing::Spacing,
+        sphere::{Sphere, SphereShell},
+        tube::Tube,
+    },
+};
+
+pub(super) const COMMANDS: &[Setter] = &[
+    ("BOX", right_angled),
+    ("HEXAHEDRON", hexahedron),
+    ("CYLINDER", cylinder),
+    ("TUBE", tube),
+    ("SPHERE", sphere),
+    ("SPHERE SHELL", sphere_shell),
+];
+
+fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
+    let (block, shape) = (card.integer("block"), Arc::new(shape));
+    draft.recipe.parts.push(Part { block, shape, moves: Vec::new(), place: Place::of(card) });
+}
+
+/// Cells from two fields; a field that the command does not have grades evenly.
+fn spacing(card: &Card, cells: &str, grading: &str) -> Spacing {
+    Spacing { cells: count(card, cells), grading: super::number_or(card, grading, 1.0) }
+}
+
+fn count(card: &Card, field: &str) -> usize {
+    card.integer(field).try_into().unwrap_or(1)
+}
+
+fn cells_of_hexahedron(card: &Card) -> [Spacing; 3] {
+    [("nx", "gx"), ("ny", "gy"), ("nz", "gz")].map(|(cells, grading)| spacing(card, cells, grading))
+}
+
+fn right_angled(card: &Card, draft: &mut Draft) {
+    let (corner, size) = (card.vector(["x", "y", "z"]), card.vector(["dx", "dy", "dz"]));
+    add(card, draft, Hexahedron::right_angled(corner, size, cells_of_hexahedron(card)));
+}
+
+fn hexahedron(card: &Card, draft: &mut Draft) {
+    let rows = card.rows.iter().filter_map(|row| row.numbers[..].try_into().ok());
+    let corners: Vec<[f64; 3]> = rows.collect();
+    match corners[..].try_into() {
+        Ok(corners) => add(card, draft, Hexahedron { corners, cells: cells_of_hexahedron(card) }),
+        Err(_) => draft.report(
+            Diagnostic::error(format!("HEXAHEDRON: it has {} corners; it must have 8", corners.len()))
+                .at(card.record, "one line with x, y, z for each corner, then END")
+                .help("four around the bottom, counter-clockwise seen from the top, then the four above them"),
+        ),
+    }
+}
+
+fn cylinder(card: &Card, draft: &mut Draft) {
+    let core_cells = count(card, "n");
+    let rings = if card.given("rings") { count(card, "rings") } else { core_cells };
+    let shape = Cylinder {
+        radius: card.number("radius"),
+        length: card.number("length"),
+        core_cells,
+        rings,
+        core: card.number("core"),
+        along: spacing(card, "nz", "gz"),
+        extent: Extent::from_word(card.text("model")),
+    };
+    add(card, draft, shape);
+}
+
+fn tube(card: &Card, draft: &mut Draft) {
+    let Some([inner, outer]) = radii(card, draft) else { return };
+    let (extent, around) = (Extent::from_word(card.text("model")), count(card, "around"));
+    // With fewer cells the wall would be flat.
+    let least = [1, 1, 2, 0, 3][extent.quadrants()];
+    if around < least {
+        let message = format!("TUBE: {around} cells around are not enough; a {} needs {least}", card.text("model"));
+        let diagnostic =
+            Diagnostic::error(message.replace("a FULL", "a FULL circle").replace("a HALF", "a HALF circle"));
+        return draft.report(diagnostic.at(card.place("around"), "cells around the part that is modelled"));
+    }
+    let (through, along) = (spacing(card, "through", "gr"), spacing(card, "nz", "gz"));
+    add(card, draft, Tube { inner, outer, length: card.number("length"), through, around, along, extent });
+}
+
+fn sphere(card: &Card, draft: &mut Draft) {
+    let core_cells = count(card, "n");
+    let rings = if card.given("rings") { count(card, "rings") } else { core_cells };
+    let extent = Extent::from_word(card.text("model"));
+    let (radius, core) = (card.number("radius"), card.number("core"));
+    add(card, draft, Sphere { radius, core_cells, rings, core, extent });
+}
+
+fn sphere_shell(card: &Card, draft: &mut Draft) {
+    let Some([inner, outer]) = radii(card, draft) else { return };
+    let extent = Extent::from_word(card.text("model"));
+    let (around, through) = (count(card, "n"), spacing(card, "through", "gr"));
+    add(card, draft, SphereShell { inner, outer, around, through, extent });
+}
+
+/// Inner and outer radius; reports an outer one that is not larger.
+fn radii(card: &Card, draft: &mut Draft) -> Option<[f64; 2]> {
+    let [inner, outer] = ["inner", "outer"].map(|field| card.number(field));
+    if inner < outer {
+        return Some([inner, outer]);
+    }
+    let message = format!("{}: the outer radius is {outer}; it must be larger than the inner one, {inner}", card.name);
+    let place = card.place("inner").join(card.place("outer"));
+    draft.report(Diagnostic::error(message).at(place, "inner radius, outer radius"));
+    None
+}

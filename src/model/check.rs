@@ -1,0 +1,168 @@
+//! A problem against its mesh: everything that the deck names exists, and every block has a material.
+
+use std::collections::BTreeMap;
+
+use super::{Direction, Problem, RigidSurface, boundary::direction, problem::those_there_are};
+use crate::{
+    deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
+    mesh::Mesh,
+};
+
+/// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
+/// blocks without a material, and nodes that two commands move differently in the same direction.
+pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
+    let mut found = Diagnostics::new(problem.deck.source.clone());
+    for card in problem.deck.cards.iter().filter(|card| card.complete) {
+        references(card, mesh, &mut found);
+    }
+    blocks_without_material(problem, mesh, &mut found);
+    for axis in [Direction::X, Direction::Y, Direction::Z] {
+        conflicts(problem, mesh, axis, &mut found);
+    }
+    for (plane, card) in problem.model.rigid_surfaces.iter().zip(problem.deck.cards_of("RIGID SURFACE")) {
+        behind_the_plane(plane, card, mesh, &mut found);
+    }
+    found
+}
+
+/// Warns of a rigid surface that does not have its body in front of it.
+fn behind_the_plane(plane: &RigidSurface, card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let nodes = mesh.side_set_nodes(plane.side_set);
+    let gap = |node: u32| -> f64 {
+        let x = mesh.coordinates[node as usize];
+        (0..3).map(|i| (x[i] - plane.point[i]) * plane.normal[i]).sum()
+    };
+    let extent = nodes.iter().map(|&node| gap(node).abs()).fold(0.0, f64::max)
+        + (0..3).map(|i| plane.point[i].abs()).fold(0.0, f64::max);
+    let depths: Vec<f64> = nodes.iter().map(|&node| -gap(node)).filter(|&depth| depth > 1e-9 * extent).collect();
+    let deepest = depths.iter().copied().fold(0.0, f64::max);
+    let turned = "the normal must point from the plane to the body; check its sign, and the point";
+    if !depths.is_empty() {
+        let message = format!(
+            "RIGID SURFACE: {} of the {} nodes of side set {} begin behind the plane, the farthest by {deepest:.4e}",
+            depths.len(),
+            nodes.len(),
+            plane.side_set
+        );
+        found.push(
+            Diagnostic::warning(message)
+                .at(card.record, "each is stopped where it begins, not at the plane")
+                .help(turned),
+        );
+    } else if body_is_behind(plane, mesh, gap) {
+        found.push(
+            Diagnostic::warning(format!(
+                "RIGID SURFACE: the body with side set {} lies behind the plane",
+                plane.side_set
+            ))
+            .at(card.record, "nothing will stop its nodes")
+            .help(turned),
+        );
+    }
+}
+
+/// Whether the elements of a plane's side set are, on the mean, behind it.
+fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -> bool {
+    let Some(set) = mesh.side_set(plane.side_set) else { return false };
+    let elements: Vec<&[u32; 8]> = mesh.elements().map(|(_, nodes)| nodes).collect();
+    let corners = set.sides.iter().flat_map(|&(element, _)| elements[element as usize]);
+    corners.map(|&node| gap(node)).sum::<f64>() < 0.0
+}
+
+/// Follows every number in a card that names a part of the mesh; the grammar says which fields do.
+fn references(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let Some(entry) = language().entry(&card.name) else { return };
+    for field in &entry.fields {
+        if let Kind::Id(what @ ("block" | "node set" | "side set")) = field.kind {
+            for item in card.items(&field.name) {
+                reference(card, what, item, mesh, found);
+            }
+        }
+    }
+}
+
+fn reference(card: &Card, what: &str, item: &Item, mesh: &Mesh, found: &mut Diagnostics) {
+    let (Some(id), Some(span)) = (item.value.integer(), item.span) else { return };
+    // Numbers there are, each with how many members it has.
+    let there: Vec<(i64, usize)> = match what {
+        "block" => mesh.blocks.iter().map(|b| (b.id, b.connectivity.len())).collect(),
+        "node set" => mesh.node_sets.iter().map(|s| (s.id, s.nodes.len())).collect(),
+        _ => mesh.side_sets.iter().map(|s| (s.id, s.sides.len())).collect(),
+    };
+    match there.iter().find(|(there, _)| *there == id) {
+        Some((_, 1..)) => (),
+        Some(_) => found.push(
+            Diagnostic::warning(format!("{}: {what} {id} of the mesh is empty", card.name))
+                .at(span, "this command does nothing"),
+        ),
+        None => {
+            let ids: Vec<i64> = there.iter().map(|(id, _)| *id).collect();
+            found.push(
+                Diagnostic::error(format!("{}: the mesh has no {what} {id}", card.name))
+                    .at(span, format!("no {what} of the mesh has this number"))
+                    .help(those_there_are(what, &ids)),
+            );
+        }
+    }
+}
+
+fn blocks_without_material(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let named: Vec<i64> =
+        problem.deck.cards.iter().filter(|c| c.name == "MATERIAL").filter_map(|c| c.maybe_integer("block")).collect();
+    if named.is_empty() {
+        return; // A deck without any MATERIAL has been reported as such.
+    }
+    for block in mesh.blocks.iter().filter(|b| !named.contains(&b.id)) {
+        let name = if block.name.is_empty() { String::new() } else { format!(" ({})", block.name) };
+        let message = format!("element block {}{name} of the mesh has no MATERIAL", block.id);
+        found.push(
+            Diagnostic::error(message)
+                .help(format!("add a group that starts with: MATERIAL, {}, <model>, <density>", block.id))
+                .help(those_there_are("block", &mesh.blocks.iter().map(|b| b.id).collect::<Vec<_>>())),
+        );
+    }
+}
+
+/// Reports pairs of cards that give a node two different motions in one direction.
+fn conflicts(problem: &Problem, mesh: &Mesh, axis: Direction, found: &mut Diagnostics) {
+    let moving: Vec<&Card> = problem.deck.cards.iter().filter(|card| moves(card, axis)).collect();
+    let mut first_at_node: Vec<Option<usize>> = vec![None; mesh.coordinates.len()];
+    let mut clashes: BTreeMap<(usize, usize), (u32, usize)> = BTreeMap::new();
+    for (second, card) in moving.iter().enumerate() {
+        let Some(set) = mesh.node_set(card.integer("node_set")) else { continue };
+        for &node in &set.nodes {
+            match first_at_node.get_mut(node as usize) {
+                Some(Some(first)) if !same_motion(moving[*first], card) => {
+                    clashes.entry((*first, second)).or_insert((node, 0)).1 += 1;
+                }
+                Some(slot @ None) => *slot = Some(second),
+                _ => (),
+            }
+        }
+    }
+    for ((first, second), (node, count)) in clashes {
+        let id = mesh.node_ids.get(node as usize).copied().unwrap_or(i64::from(node) + 1);
+        let (one, other) = (moving[first], moving[second]);
+        let where_ = if count == 1 { format!("at node {id}") } else { format!("at {count} nodes, such as {id}") };
+        found.push(
+            Diagnostic::error(format!("{} contradicts {} in {axis:?} {where_}", other.name, one.name))
+                .at(other.record, format!("says how node {id} moves in {axis:?}"))
+                .at(one.record, "says it in another way")
+                .help("take one of the two out, or make node sets that do not share nodes"),
+        );
+    }
+}
+
+/// Whether a card holds or drives nodes in a direction.
+fn moves(card: &Card, axis: Direction) -> bool {
+    const MOVING: [&str; 4] =
+        ["NO DISPLACEMENT", "PRESCRIBED DISPLACEMENT", "PRESCRIBED VELOCITY", "PRESCRIBED ACCELERATION"];
+    card.complete && MOVING.contains(&card.name.as_str()) && direction(card) == axis
+}
+
+/// Whether two moving cards of one direction ask for the same motion.
+fn same_motion(one: &Card, other: &Card) -> bool {
+    one.name == other.name
+        && one.maybe_integer("function") == other.maybe_integer("function")
+        && one.maybe_number("scale") == other.maybe_number("scale")
+}

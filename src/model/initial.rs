@@ -1,0 +1,41 @@
+//! Velocities at time zero.
+
+use super::{
+    InitialVelocity,
+    contact::unit,
+    problem::{Draft, Setter},
+};
+use crate::deck::{Card, Diagnostic};
+
+pub(super) const COMMANDS: &[Setter] = &[
+    ("INITIAL VELOCITY MATERIAL", of_block),
+    ("INITIAL VELOCITY NODESET", of_node_set),
+    ("INITIAL VELOCITY ANGULAR", angular),
+];
+
+fn of_block(card: &Card, draft: &mut Draft) {
+    let velocity = card.vector(["vx", "vy", "vz"]);
+    draft.model.initial_velocities.push(InitialVelocity::Material { block: card.integer("block"), velocity });
+}
+
+fn of_node_set(card: &Card, draft: &mut Draft) {
+    let velocity = card.vector(["vx", "vy", "vz"]);
+    draft.model.initial_velocities.push(InitialVelocity::NodeSet { node_set: card.integer("node_set"), velocity });
+}
+
+fn angular(card: &Card, draft: &mut Draft) {
+    let Some(axis) = unit(card.vector(["ax", "ay", "az"])) else {
+        let place = card.place("ax").join(card.place("az"));
+        return draft.report(
+            Diagnostic::error("INITIAL VELOCITY ANGULAR: the axis has length zero")
+                .at(place, "a direction is expected here")
+                .help("for a rotation about z, leave the axis out or give 0., 0., 1."),
+        );
+    };
+    draft.model.initial_velocities.push(InitialVelocity::Angular {
+        block: card.integer("block"),
+        omega: card.number("omega"),
+        point: card.vector(["x", "y", "z"]),
+        axis,
+    });
+}

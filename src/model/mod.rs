@@ -1,0 +1,335 @@
+//! What to simulate: the analyst's problem as plain data, checked and resolved.
+//!
+//! A [`Model`] holds no deck words and no arrays per node. The deck's commands fill it (`model::from_deck`),
+//! `model::check` holds it against a mesh, and the solver reads it.
+
+mod boundary;
+mod check;
+mod contact;
+mod control;
+mod function;
+mod initial;
+mod material;
+mod output;
+mod problem;
+
+pub use check::check;
+pub use control::DEFAULT_HOURGLASS;
+pub use problem::{Problem, examine, from_deck};
+
+use crate::material::Law;
+
+/// A whole problem. Ids are the numbers the analyst wrote; `check` proves that the mesh has them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// The deck's title line.
+    pub title: String,
+    /// Time at which the run ends, > 0.
+    pub termination_time: f64,
+    /// Interval between lines of the print log.
+    pub output_interval: f64,
+    /// When plot states are written.
+    pub plot: PlotSchedule,
+    /// How the time step follows from the stable one.
+    pub time_step: TimeStepControl,
+    /// Bulk viscosity coefficients.
+    pub bulk_viscosity: BulkViscosity,
+    /// How hourglass modes are resisted.
+    pub hourglass: Hourglass,
+    /// Piecewise linear functions of time.
+    pub functions: Vec<Function>,
+    /// One entry per element block.
+    pub materials: Vec<BlockMaterial>,
+    /// Directions of node sets held still.
+    pub no_displacements: Vec<NoDisplacement>,
+    /// Motions imposed on node sets.
+    pub prescribed_motions: Vec<PrescribedMotion>,
+    /// Forces on the nodes of node sets.
+    pub prescribed_forces: Vec<PrescribedForce>,
+    /// Pressures on side sets.
+    pub pressures: Vec<Pressure>,
+    /// Body accelerations of the whole model.
+    pub gravities: Vec<Gravity>,
+    /// Velocities at time zero, applied in this order; a later one replaces an earlier one at the same node.
+    pub initial_velocities: Vec<InitialVelocity>,
+    /// Fixed rigid planes.
+    pub rigid_surfaces: Vec<RigidSurface>,
+    /// What the plot file holds.
+    pub plot_requests: PlotRequests,
+}
+
+/// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlotSchedule {
+    /// Interval between states; `None` writes only the first and the last state.
+    pub interval: Option<f64>,
+    /// First time.
+    pub start: f64,
+    /// Last time.
+    pub stop: f64,
+}
+
+/// TIME STEP SCALE and its companions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeStepControl {
+    /// Factor on the stable time step, (0, 1] is safe; the default is 1, as in PRONTO: the bound is rigorous.
+    pub scale: f64,
+    /// Strain softening factor of PRONTO, kept for the echo.
+    pub softening: f64,
+    /// Largest ratio of one step to the one before.
+    pub growth: f64,
+    /// Which moduli make the wave speed.
+    pub moduli: StepModuli,
+}
+
+/// Which moduli the stable step is computed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StepModuli {
+    /// The elastic moduli: a rigorous bound also when a plastic element unloads.
+    #[default]
+    Elastic,
+    /// PRONTO's effective moduli of the last increment: larger steps in plastic flow, no longer a bound.
+    Effective,
+}
+
+/// BULK VISCOSITY.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BulkViscosity {
+    /// Linear coefficient b₁.
+    pub linear: f64,
+    /// Quadratic coefficient b₂.
+    pub quadratic: f64,
+}
+
+/// Hourglass control of the one-point hexahedron.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hourglass {
+    /// Flanagan and Belytschko (1981): an elastic stiffness and a viscosity, both dimensionless.
+    FlanaganBelytschko {
+        /// Stiffness coefficient κ.
+        stiffness: f64,
+        /// Viscosity coefficient ε.
+        viscosity: f64,
+    },
+    /// Belytschko and Bindeman (1993): stiffness from an assumed strain field, following plastic flow.
+    AssumedStrain {
+        /// Factor on the assumed strain stiffness; 1 is the theory.
+        factor: f64,
+    },
+}
+
+/// FUNCTION: piecewise linear, constant outside its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Function {
+    /// The function's number.
+    pub id: i64,
+    /// Points `(t, f)` with increasing `t`; at least one.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// MATERIAL: the law of one element block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockMaterial {
+    /// The element block's number.
+    pub block: i64,
+    /// Mass density ρ₀, mass/length³.
+    pub density: f64,
+    /// The constitutive law with its parameters.
+    pub law: Law,
+}
+
+/// A coordinate direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// x
+    X,
+    /// y
+    Y,
+    /// z
+    Z,
+}
+
+impl Direction {
+    /// 0, 1 or 2.
+    pub fn axis(self) -> usize {
+        self as usize
+    }
+}
+
+/// NO DISPLACEMENT.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoDisplacement {
+    /// Direction held.
+    pub direction: Direction,
+    /// Node set number.
+    pub node_set: i64,
+}
+
+/// PRESCRIBED DISPLACEMENT, VELOCITY or ACCELERATION.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrescribedMotion {
+    /// Which derivative of the position is given.
+    pub kind: MotionKind,
+    /// Direction of the motion.
+    pub direction: Direction,
+    /// Node set number.
+    pub node_set: i64,
+    /// Index into [`Model::functions`].
+    pub function: usize,
+    /// Factor on the function.
+    pub scale: f64,
+}
+
+/// What a prescribed motion prescribes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MotionKind {
+    /// Displacement from the initial position.
+    Displacement,
+    /// Velocity.
+    Velocity,
+    /// Acceleration.
+    Acceleration,
+}
+
+/// PRESCRIBED FORCE on every node of a set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrescribedForce {
+    /// Direction of the force.
+    pub direction: Direction,
+    /// Node set number.
+    pub node_set: i64,
+    /// Index into [`Model::functions`].
+    pub function: usize,
+    /// Factor on the function.
+    pub scale: f64,
+}
+
+/// PRESSURE on the deformed faces of a side set; positive pushes on the face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressure {
+    /// Side set number.
+    pub side_set: i64,
+    /// Index into [`Model::functions`].
+    pub function: usize,
+    /// Factor on the function.
+    pub scale: f64,
+}
+
+/// GRAVITY: a body acceleration of the whole model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gravity {
+    /// Acceleration vector, length/time².
+    pub acceleration: [f64; 3],
+    /// Index into [`Model::functions`] of a factor; constant 1 without it.
+    pub function: Option<usize>,
+}
+
+/// INITIAL VELOCITY.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum InitialVelocity {
+    /// Every node of an element block.
+    Material {
+        /// Element block number.
+        block: i64,
+        /// Velocity vector.
+        velocity: [f64; 3],
+    },
+    /// Every node of a node set.
+    NodeSet {
+        /// Node set number.
+        node_set: i64,
+        /// Velocity vector.
+        velocity: [f64; 3],
+    },
+    /// Rotation of an element block about an axis, added to the velocity the nodes already have.
+    Angular {
+        /// Element block number.
+        block: i64,
+        /// Angular velocity ω about the axis, radians/time, right-hand rule.
+        omega: f64,
+        /// A point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis, unit length.
+        axis: [f64; 3],
+    },
+}
+
+/// RIGID SURFACE: a fixed plane which the nodes of a side set cannot cross.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidSurface {
+    /// Side set number.
+    pub side_set: i64,
+    /// A point of the plane.
+    pub point: [f64; 3],
+    /// Normal of the plane, unit length, pointing to the side where the body is.
+    pub normal: [f64; 3],
+    /// Coulomb friction coefficient μ.
+    pub friction: f64,
+}
+
+/// PLOT NODAL, PLOT ELEMENT, PLOT STATE.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlotRequests {
+    /// Nodal fields, in EXODUS order; DISPLACEMENT is always first.
+    pub nodal: Vec<NodalField>,
+    /// Element fields.
+    pub element: Vec<ElementField>,
+    /// Names of material state variables.
+    pub state: Vec<String>,
+}
+
+macro_rules! fields {
+    ($(#[$m:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $keyword:literal, [$($component:literal),+], $meaning:literal;)+ }) => {
+        $(#[$m])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $name { $($(#[$doc])* $variant,)+ }
+        impl $name {
+            /// All fields.
+            pub const ALL: &'static [$name] = &[$($name::$variant),+];
+            /// The word that the PLOT command knows.
+            pub fn keyword(self) -> &'static str { match self { $($name::$variant => $keyword,)+ } }
+            /// Names of the EXODUS variables, one per component.
+            pub fn components(self) -> &'static [&'static str] { match self { $($name::$variant => &[$($component),+],)+ } }
+            /// What the field is, for the manual.
+            pub fn meaning(self) -> &'static str { match self { $($name::$variant => $meaning,)+ } }
+        }
+    };
+}
+
+fields! {
+    /// What PLOT NODAL can ask for.
+    NodalField {
+        /// u
+        Displacement = "DISPLACEMENT", ["DISPLX", "DISPLY", "DISPLZ"], "displacement from the initial position, length";
+        /// v
+        Velocity = "VELOCITY", ["VELX", "VELY", "VELZ"], "velocity at the time of the state, length/time";
+        /// a
+        Acceleration = "ACCELERATION", ["ACCLX", "ACCLY", "ACCLZ"], "acceleration, length/time squared";
+        /// r
+        Reaction = "REACTION", ["RX", "RY", "RZ"], "force that holds or drives a node: constraints, prescribed motion, rigid surfaces";
+        /// m
+        Mass = "MASS", ["NODMASS"], "lumped nodal mass";
+    }
+}
+
+fields! {
+    /// What PLOT ELEMENT can ask for.
+    ElementField {
+        /// Cauchy stress
+        Stress = "STRESS", ["SIGXX", "SIGYY", "SIGZZ", "TAUXY", "TAUYZ", "TAUZX"], "Cauchy stress without bulk viscosity, positive in tension, force/length squared";
+        /// Hencky strain
+        Strain = "STRAIN", ["EPSXX", "EPSYY", "EPSZZ", "EPSXY", "EPSYZ", "EPSZX"], "logarithmic strain ln V, tensor shear components";
+        /// p
+        Pressure = "PRESSURE", ["PRESSURE"], "minus the mean stress, positive in compression";
+        /// von Mises
+        VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress";
+        /// energy per volume
+        Energy = "ENERGY", ["ENERGY"], "internal energy per unit initial volume";
+        /// rho
+        Density = "DENSITY", ["DENSITY"], "current mass density";
+        /// hourglass energy
+        HourglassEnergy = "HOURGLASS", ["HGENERGY"], "hourglass energy per unit initial volume";
+        /// rank
+        Rank = "RANK", ["RANK"], "rank that computes the element";
+    }
+}

@@ -1,0 +1,151 @@
+//! When and what to write.
+
+use super::{
+    ElementField, NodalField, PlotSchedule,
+    problem::{Draft, Setter},
+};
+use crate::{
+    deck::{Card, Diagnostic, Item, spelling},
+    material::MATERIALS,
+};
+
+pub(super) const COMMANDS: &[Setter] = &[
+    ("OUTPUT TIME", output_time),
+    ("PLOT TIME", plot_time),
+    ("PLOT NODAL", plot_nodal),
+    ("PLOT ELEMENT", plot_element),
+    ("PLOT STATE", plot_state),
+];
+
+/// Lines of the print log when OUTPUT TIME does not say.
+const PRINTED_LINES: f64 = 100.0;
+
+/// A plot file with more states than this is most likely a slip of the exponent.
+const MANY_STATES: f64 = 100_000.0;
+
+fn output_time(card: &Card, draft: &mut Draft) {
+    draft.model.output_interval = card.number("dt");
+}
+
+fn plot_time(card: &Card, draft: &mut Draft) {
+    let stop = card.maybe_number("stop").unwrap_or(f64::NAN);
+    draft.model.plot = PlotSchedule { interval: card.maybe_number("dt"), start: card.number("start"), stop };
+}
+
+fn plot_nodal(card: &Card, draft: &mut Draft) {
+    let asked = card.items("name").iter().filter_map(|item| item.value.text());
+    let fields = asked.filter_map(|name| NodalField::ALL.iter().copied().find(|f| f.keyword() == name));
+    add_new(&mut draft.model.plot_requests.nodal, fields);
+}
+
+fn plot_element(card: &Card, draft: &mut Draft) {
+    let asked = card.items("name").iter().filter_map(|item| item.value.text());
+    let fields = asked.filter_map(|name| ElementField::ALL.iter().copied().find(|f| f.keyword() == name));
+    add_new(&mut draft.model.plot_requests.element, fields);
+}
+
+fn plot_state(card: &Card, draft: &mut Draft) {
+    let mut names = Vec::new();
+    for item in card.items("name") {
+        names.extend(state_name(item, draft));
+    }
+    add_new(&mut draft.model.plot_requests.state, names);
+}
+
+fn add_new<T: PartialEq>(list: &mut Vec<T>, more: impl IntoIterator<Item = T>) {
+    for one in more {
+        if !list.contains(&one) {
+            list.push(one);
+        }
+    }
+}
+
+/// The name of a state variable that a material of the deck has; reports one that none has.
+fn state_name(item: &Item, draft: &mut Draft) -> Option<String> {
+    let name = item.value.text()?.to_uppercase();
+    let place = item.span.unwrap_or_default();
+    let in_deck: Vec<&str> = draft
+        .model
+        .materials
+        .iter()
+        .flat_map(|material| material.law.entry().state.iter().map(|variable| variable.name))
+        .collect();
+    let materials_written = draft.deck.cards.iter().filter(|card| card.name == "MATERIAL").count();
+    // A material that could not be read might have had the variable.
+    if in_deck.contains(&name.as_str()) || draft.model.materials.len() < materials_written {
+        return Some(name);
+    }
+    let owners: Vec<&str> =
+        MATERIALS.iter().filter(|m| m.state.iter().any(|v| v.name == name)).map(|m| m.name).collect();
+    let mut offered = in_deck.clone();
+    offered.sort_unstable();
+    offered.dedup();
+    let diagnostic = Diagnostic::error(format!("PLOT STATE: no material of this deck has a state variable {name}"))
+        .at(place, "unknown state variable");
+    let near = spelling::nearest(&name, in_deck);
+    draft.report(match (owners.is_empty(), near, offered.is_empty()) {
+        (false, _, _) => diagnostic.help(format!("{name} belongs to {}", spelling::all(&owners))),
+        (true, Some(near), _) => diagnostic.help(format!("did you mean {near}?")),
+        (true, None, true) => diagnostic.help("the materials of this deck have no state variables"),
+        (true, None, false) => diagnostic.help(format!("the materials of this deck have {}", spelling::all(&offered))),
+    });
+    None
+}
+
+/// Fills in what follows from other commands, and looks at the schedule as a whole.
+pub(super) fn finish(draft: &mut Draft) {
+    let end = draft.model.termination_time;
+    let plot = &mut draft.model.plot;
+    if plot.stop.is_nan() {
+        plot.stop = 2.0 * end;
+    }
+    if draft.model.output_interval.is_nan() {
+        draft.model.output_interval = end / PRINTED_LINES;
+    }
+    let nodal = &mut draft.model.plot_requests.nodal;
+    nodal.retain(|field| *field != NodalField::Displacement);
+    nodal.insert(0, NodalField::Displacement);
+    check_schedule(draft);
+}
+
+fn check_schedule(draft: &mut Draft) {
+    let (plot, end) = (draft.model.plot, draft.model.termination_time);
+    let Some(card) = draft.deck.cards_of("PLOT TIME").last() else { return };
+    if plot.start > end {
+        return draft.report(
+            Diagnostic::warning(format!("PLOT TIME: plotting starts at {}, but the run ends at {end}", plot.start))
+                .at(card.place("start"), "only the first and the last state will be written"),
+        );
+    }
+    if plot.stop < plot.start {
+        let message = format!("PLOT TIME: stop is {}, before start at {}", plot.stop, plot.start);
+        return draft.report(Diagnostic::error(message).at(card.place("stop"), "must not be before start"));
+    }
+    let states = (end.min(plot.stop) - plot.start) / plot.interval.unwrap_or(f64::INFINITY);
+    if states > MANY_STATES {
+        draft.report(
+            Diagnostic::warning(format!("PLOT TIME: this asks for about {states:.0} states"))
+                .at(card.place("dt"), "interval between states")
+                .help(format!("the run ends at {end}; is the exponent right?")),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deck::{Kind, Standing, language};
+
+    #[test]
+    fn the_grammar_lists_the_fields_that_the_model_has() {
+        let listed = |command: &str| -> Vec<String> {
+            let Some(Kind::Choice(choices)) = language().entry(command).and_then(|e| e.field("name")).map(|f| &f.kind)
+            else {
+                return Vec::new();
+            };
+            choices.iter().filter(|c| c.standing == Standing::Built).map(|c| c.name.clone()).collect()
+        };
+        assert_eq!(listed("PLOT NODAL"), NodalField::ALL.iter().map(|f| f.keyword()).collect::<Vec<_>>());
+        assert_eq!(listed("PLOT ELEMENT"), ElementField::ALL.iter().map(|f| f.keyword()).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,182 @@
+//! Cards → model: every command has one setter, listed by family.
+
+use super::{
+    BulkViscosity, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl, boundary, check,
+    contact, control, function, initial, material, output,
+};
+use crate::{
+    deck::{Card, Deck, Diagnostic, Diagnostics, Source, language, spelling},
+    mesh::Mesh,
+};
+
+/// A model together with the deck it came from, so that later messages can point into the deck.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// What to simulate.
+    pub model: Model,
+    /// The deck as read.
+    pub deck: Deck,
+    /// Warnings and notes from reading it.
+    pub diagnostics: Diagnostics,
+}
+
+/// A command of the deck and what it does to the model.
+pub(super) type Setter = (&'static str, fn(&Card, &mut Draft));
+
+/// Every setter there is. Functions come first because loads refer to them; within a family, cards act in the order
+/// of the deck.
+const FAMILIES: &[&[Setter]] = &[
+    control::COMMANDS,
+    function::COMMANDS,
+    material::COMMANDS,
+    boundary::COMMANDS,
+    initial::COMMANDS,
+    contact::COMMANDS,
+    output::COMMANDS,
+];
+
+/// A model in the making.
+pub(super) struct Draft<'d> {
+    pub model: Model,
+    pub deck: &'d Deck,
+    pub found: Diagnostics,
+}
+
+/// Makes the model of a deck that has been read. `found` are the messages from reading it; if these or the meaning of
+/// the deck hold an error, all messages together are returned instead.
+pub fn from_deck(deck: Deck, found: Diagnostics) -> Result<Problem, Diagnostics> {
+    accept(assemble(deck, found))
+}
+
+/// Reads a deck, makes its model and, with a mesh, holds the two against each other: every mistake of all of these at
+/// once, or the problem.
+pub fn examine(source: Source, mesh: Option<&Mesh>) -> Result<Problem, Diagnostics> {
+    let (deck, found) = Deck::read(source, language());
+    let mut problem = assemble(deck, found);
+    if let Some(mesh) = mesh {
+        let against_mesh = check(&problem, mesh);
+        problem.diagnostics.append(against_mesh);
+    }
+    accept(problem)
+}
+
+fn accept(problem: Problem) -> Result<Problem, Diagnostics> {
+    if problem.diagnostics.has_errors() { Err(problem.diagnostics) } else { Ok(problem) }
+}
+
+/// The model as far as it can be made.
+fn assemble(deck: Deck, found: Diagnostics) -> Problem {
+    let mut draft = Draft { model: blank(), deck: &deck, found };
+    for family in FAMILIES {
+        defaults(family, &mut draft);
+        for card in deck.cards.iter().filter(|card| card.complete) {
+            if let Some((_, set)) = family.iter().find(|(name, _)| *name == card.name) {
+                set(card, &mut draft);
+            }
+        }
+    }
+    material::check_unfinished(&mut draft);
+    output::finish(&mut draft);
+    function::report_unused(&mut draft);
+    let Draft { model, found, .. } = draft;
+    Problem { model, deck, diagnostics: found }
+}
+
+/// Lets commands that hold without being given act with their defaults.
+fn defaults(family: &[Setter], draft: &mut Draft) {
+    for (name, set) in family {
+        if let Some(entry) = language().entry(name).filter(|e| e.always) {
+            set(&entry.default_card(), draft);
+        }
+    }
+}
+
+/// A model that says nothing yet. What is NaN here is required, follows from others, or has a command that always holds.
+fn blank() -> Model {
+    Model {
+        title: String::new(),
+        termination_time: f64::NAN,
+        output_interval: f64::NAN,
+        plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
+        time_step: TimeStepControl {
+            scale: f64::NAN,
+            softening: f64::NAN,
+            growth: f64::NAN,
+            moduli: StepModuli::default(),
+        },
+        bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
+        hourglass: DEFAULT_HOURGLASS,
+        functions: Vec::new(),
+        materials: Vec::new(),
+        no_displacements: Vec::new(),
+        prescribed_motions: Vec::new(),
+        prescribed_forces: Vec::new(),
+        pressures: Vec::new(),
+        gravities: Vec::new(),
+        initial_velocities: Vec::new(),
+        rigid_surfaces: Vec::new(),
+        plot_requests: PlotRequests::default(),
+    }
+}
+
+impl Draft<'_> {
+    /// Adds a message.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.found.push(diagnostic);
+    }
+
+    /// Position of the function that a card names in its field `function`; reports one that does not exist.
+    pub fn function(&mut self, card: &Card) -> Option<usize> {
+        let id = card.maybe_integer("function")?;
+        let position = self.model.functions.iter().position(|f| f.id == id);
+        let written = self.deck.cards.iter().any(|c| c.name == "FUNCTION" && c.maybe_integer("id") == Some(id));
+        if position.is_none() && !written {
+            let ids: Vec<i64> = self.model.functions.iter().map(|f| f.id).collect();
+            self.report(
+                Diagnostic::error(format!("{}: there is no FUNCTION {id}", card.name))
+                    .at(card.place("function"), "the deck defines no function with this number")
+                    .help(those_there_are("function", &ids)),
+            );
+        }
+        position
+    }
+}
+
+/// "the functions are 1, 2 and 5": what could have been meant.
+pub(super) fn those_there_are(what: &str, ids: &[i64]) -> String {
+    /// Numbers listed at most.
+    const LISTED: usize = 20;
+    let mut names: Vec<String> = ids.iter().take(LISTED).map(i64::to_string).collect();
+    if ids.len() > LISTED {
+        names.push(format!("{} more", ids.len() - LISTED));
+    }
+    match names.len() {
+        0 => format!("there is no {what} at all"),
+        1 => format!("the only {what} is {}", names[0]),
+        _ => format!("the {what}s are {}", spelling::all(&names)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deck::{Form, Status};
+
+    #[test]
+    fn every_command_has_one_setter_and_every_setter_a_command() {
+        // EXIT means something to the reader only.
+        let built = |e: &&crate::deck::Entry| e.status == Status::Built && e.name != "EXIT";
+        let mut commands: Vec<&str> = language().commands().filter(built).map(|e| e.name.as_str()).collect();
+        let mut setters: Vec<&str> = FAMILIES.iter().flat_map(|family| family.iter().map(|(name, _)| *name)).collect();
+        commands.sort_unstable();
+        setters.sort_unstable();
+        assert_eq!(commands, setters);
+    }
+
+    #[test]
+    fn planned_materials_are_not_built_ones() {
+        for entry in language().entries.iter().filter(|e| e.form == Form::Material) {
+            assert!(crate::material::MATERIALS.iter().all(|m| m.name != entry.name), "{}", entry.name);
+        }
+    }
+}

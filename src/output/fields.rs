@@ -1,0 +1,184 @@
+//! Fields of the plot file: their names, and their values on one rank.
+
+use crate::lanes::Sym3;
+use crate::mesh::check::hexahedron_volume;
+use crate::model::{ElementField, Model, NodalField};
+use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix};
+use crate::solver::{Solver, Totals};
+use nalgebra::{Matrix3, SymmetricEigen};
+
+/// Global variables of the plot file with their meaning.
+pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
+    ("KE", "kinetic energy"),
+    ("IE", "internal energy"),
+    ("HGE", "hourglass energy"),
+    ("BVE", "energy dissipated by bulk viscosity"),
+    ("FRICE", "energy dissipated by friction"),
+    ("DEADE", "energy of eroded elements"),
+    ("EXTW", "work of loads and prescribed motions"),
+    ("CONTE", "work of normal contact forces; negative where impacts took energy out"),
+    ("EBAL", "energy accounted for minus energy supplied, over the largest account"),
+    ("XMOM", "momentum in x"),
+    ("YMOM", "momentum in y"),
+    ("ZMOM", "momentum in z"),
+    ("NSTEPS", "steps taken"),
+    ("TMSTEP", "time step"),
+];
+
+/// Values of the global variables at the present state.
+pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 14] {
+    let [x, y, z] = totals.momentum;
+    [
+        totals.kinetic,
+        totals.internal,
+        totals.hourglass,
+        totals.bulk_viscosity,
+        totals.friction,
+        totals.eroded,
+        totals.external,
+        totals.contact,
+        totals.relative_error(solver.initial_energy),
+        x,
+        y,
+        z,
+        solver.step as f64,
+        solver.time_step,
+    ]
+}
+
+/// The nodal and element variables of a run.
+#[derive(Debug, Clone)]
+pub struct FieldList {
+    nodal: Vec<NodalField>,
+    element: Vec<ElementField>,
+    state: Vec<String>,
+}
+
+impl FieldList {
+    /// What the model asks for.
+    pub fn new(model: &Model) -> FieldList {
+        let requests = &model.plot_requests;
+        FieldList { nodal: requests.nodal.clone(), element: requests.element.clone(), state: requests.state.clone() }
+    }
+
+    /// Names of the nodal variables.
+    pub fn nodal_names(&self) -> Vec<String> {
+        self.nodal.iter().flat_map(|f| f.components()).map(|c| c.to_string()).collect()
+    }
+
+    /// Names of the element variables.
+    pub fn element_names(&self) -> Vec<String> {
+        let fields = self.element.iter().flat_map(|f| f.components()).map(|c| c.to_string());
+        fields.chain(self.state.iter().cloned()).collect()
+    }
+
+    /// Nodal values of the owned nodes of a rank, variable by variable.
+    pub fn nodal_values(&self, solver: &Solver) -> Vec<f64> {
+        let nodes = &solver.domain.nodes;
+        let owned: Vec<u32> = (0..nodes.len() as u32).filter(|&n| nodes.owned[n as usize]).collect();
+        let reactions = if self.nodal.contains(&NodalField::Reaction) { solver.reactions() } else { Vec::new() };
+        let mut values = Vec::new();
+        for field in &self.nodal {
+            let first = values.len();
+            let count = field.components().len();
+            values.resize(first + count * owned.len(), 0.0);
+            for (i, &node) in owned.iter().enumerate() {
+                let vector = match field {
+                    NodalField::Reaction => reactions[node as usize],
+                    _ => nodal_value(*field, solver, node),
+                };
+                for c in 0..count {
+                    values[first + c * owned.len() + i] = vector[c];
+                }
+            }
+        }
+        values
+    }
+
+    /// Element values of the elements of a rank in its canonical order, variable by variable.
+    pub fn element_values(&self, solver: &Solver, rank: usize) -> Vec<f64> {
+        let elements = solver.domain.element_file.len();
+        let count = self.element_names().len();
+        let mut values = vec![0.0; count * elements];
+        let mut point = Vec::with_capacity(count);
+        for block in &solver.domain.blocks {
+            for group in block.groups() {
+                for i in 0..group.len() {
+                    point.clear();
+                    self.element_point(solver, block, group, i, rank, &mut point);
+                    for (variable, value) in point.iter().enumerate() {
+                        values[variable * elements + group.places[i] as usize] = *value;
+                    }
+                }
+            }
+        }
+        values
+    }
+
+    /// All element variables of one element.
+    fn element_point(
+        &self,
+        solver: &Solver,
+        block: &ElementBlock,
+        group: &Group,
+        i: usize,
+        rank: usize,
+        out: &mut Vec<f64>,
+    ) {
+        let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
+        let tensor = |first: usize| {
+            let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, first);
+            Sym3 { xx, yy, zz, xy, yz, zx }
+        };
+        let stress = tensor(rows::STRESS);
+        let initial_volume = group.element_mass(i) / block.density;
+        for field in &self.element {
+            match field {
+                ElementField::Stress => out.extend(stress.rotate(&frame).to_array()),
+                ElementField::Strain => out.extend(logarithm(tensor(rows::STRETCH)).rotate(&frame).to_array()),
+                ElementField::Pressure => out.push(-stress.trace() / 3.0),
+                ElementField::VonMises => {
+                    let s = stress.deviator();
+                    out.push((1.5 * s.contract(s)).sqrt());
+                }
+                ElementField::Energy => out.push(group.value(i, rows::INTERNAL_ENERGY) / initial_volume),
+                ElementField::HourglassEnergy => out.push(group.value(i, rows::HOURGLASS_ENERGY) / initial_volume),
+                ElementField::Density => {
+                    let corners = group.nodes(i).map(|n| solver.domain.nodes.position(n));
+                    out.push(group.element_mass(i) / hexahedron_volume(&corners));
+                }
+                ElementField::Rank => out.push(rank as f64),
+            }
+        }
+        if !self.state.is_empty() {
+            let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, rows::LAW + k)).collect();
+            let state = block.law.state(&stored, &frame);
+            let names = block.law.entry().state;
+            // A variable that a law does not have is zero in its blocks.
+            let value = |name: &String| names.iter().position(|v| v.name == *name).map_or(0.0, |k| state[k]);
+            out.extend(self.state.iter().map(value));
+        }
+    }
+}
+
+fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
+    let nodes = &solver.domain.nodes;
+    match field {
+        NodalField::Displacement => {
+            let (x, initial) = (nodes.position(node), nodes.initial[node as usize]);
+            [x[0] - initial[0], x[1] - initial[1], x[2] - initial[2]]
+        }
+        NodalField::Velocity => solver.velocity_now(node),
+        NodalField::Acceleration => nodes.acceleration(node),
+        NodalField::Mass | NodalField::Reaction => [nodes.mass(node), 0.0, 0.0],
+    }
+}
+
+/// ln U by its eigenvectors.
+fn logarithm(u: Sym3<f64>) -> Sym3<f64> {
+    let m = u.matrix();
+    let eigen = SymmetricEigen::new(Matrix3::from_fn(|i, j| m[i][j]));
+    let logarithms = eigen.eigenvalues.map(libm::log);
+    let l = eigen.eigenvectors * Matrix3::from_diagonal(&logarithms) * eigen.eigenvectors.transpose();
+    Sym3 { xx: l[(0, 0)], yy: l[(1, 1)], zz: l[(2, 2)], xy: l[(0, 1)], yz: l[(1, 2)], zx: l[(2, 0)] }
+}

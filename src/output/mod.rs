@@ -1,0 +1,10 @@
+//! Results to files: plot states and the print log. Reads solver state and never changes it.
+
+mod collect;
+mod fields;
+pub mod print;
+mod schedule;
+
+pub use collect::Collector;
+pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
+pub use schedule::Schedule;

@@ -1,0 +1,83 @@
+//! The print log: what was asked, what is being modelled, one line per OUTPUT TIME, and where the time went; in
+//! PRONTO's order, with PRONTO's columns first.
+
+mod echo;
+mod modelled;
+mod steps;
+mod summary;
+
+pub use modelled::{Feature, features};
+pub use steps::{StepLine, step_header, step_line};
+pub use summary::{Ending, TimeTable, closing};
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+pub use echo::{Echo, problem};
+
+/// A print file being written. Every block of text is handed to the system at once, so a killed run leaves it whole.
+pub struct PrintLog {
+    out: BufWriter<File>,
+}
+
+impl PrintLog {
+    /// Starts a print file.
+    ///
+    /// # Errors
+    /// When it cannot be created.
+    pub fn create(path: &Path) -> io::Result<PrintLog> {
+        Ok(PrintLog { out: BufWriter::new(File::create(path)?) })
+    }
+
+    /// Appends text.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&mut self, text: &str) -> io::Result<()> {
+        self.out.write_all(text.as_bytes())?;
+        self.out.flush()
+    }
+}
+
+/// A heading with its letters spread out, as PRONTO prints them.
+fn heading(text: &str) -> String {
+    let words: Vec<String> =
+        text.split(' ').map(|word| word.chars().map(String::from).collect::<Vec<_>>().join(" ")).collect();
+    let line = words.join("   ");
+    format!("\n\n{:>width$}\n\n", line, width = 40 + line.len() / 2)
+}
+
+/// A line with dot leaders.
+fn leader(name: &str, value: &str) -> String {
+    let dots = ".".repeat(42usize.saturating_sub(name.len()));
+    format!("              {name} {dots} {value:>12}\n")
+}
+
+/// A number in five significant digits, as the tables show it.
+fn number(value: f64) -> String {
+    scientific(value, 4)
+}
+
+/// A number with its exponent in two digits and a sign, as Fortran prints it: columns of them line up.
+pub fn scientific(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    match exponent.strip_prefix('-') {
+        Some(digits) => format!("{mantissa}e-{digits:0>2}"),
+        None => format!("{mantissa}e+{exponent:0>2}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scientific;
+
+    #[test]
+    fn exponents_have_a_sign_and_two_digits() {
+        assert_eq!(scientific(0.0, 4), "0.0000e+00");
+        assert_eq!(scientific(-1.5e-5, 1), "-1.5e-05");
+        assert_eq!(scientific(2.0e123, 2), "2.00e+123");
+        assert_eq!(scientific(f64::NAN, 2), "NaN");
+    }
+}

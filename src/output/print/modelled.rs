@@ -1,0 +1,53 @@
+//! What a model makes the code do, and which command asked for it.
+
+use crate::mesh::Mesh;
+use crate::model::{Hourglass, Model, MotionKind};
+
+/// A part of the code that has work to do.
+pub struct Feature {
+    /// What is modelled.
+    pub what: String,
+    /// The command, and how often it stands in the deck or what it acts on.
+    pub asked_by: String,
+}
+
+/// Everything that is modelled. What is not in this list costs nothing.
+pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
+    let mut list = solids(model, mesh);
+    let motions = |kind| model.prescribed_motions.iter().filter(|motion| motion.kind == kind).count();
+    let counts = [
+        ("nodes held still", "NO DISPLACEMENT", model.no_displacements.len()),
+        ("prescribed displacements", "PRESCRIBED DISPLACEMENT", motions(MotionKind::Displacement)),
+        ("prescribed velocities", "PRESCRIBED VELOCITY", motions(MotionKind::Velocity)),
+        ("prescribed accelerations", "PRESCRIBED ACCELERATION", motions(MotionKind::Acceleration)),
+        ("forces on nodes", "PRESCRIBED FORCE", model.prescribed_forces.len()),
+        ("pressure on deformed faces", "PRESSURE", model.pressures.len()),
+        ("body force", "GRAVITY", model.gravities.len()),
+        ("initial velocities", "INITIAL VELOCITY", model.initial_velocities.len()),
+        ("contact with rigid planes", "RIGID SURFACE", model.rigid_surfaces.len()),
+    ];
+    for (what, command, count) in counts.into_iter().filter(|(.., count)| *count > 0) {
+        let asked_by = if count == 1 { command.to_string() } else { format!("{command}, {count} of them") };
+        list.push(Feature { what: what.to_string(), asked_by });
+    }
+    list
+}
+
+/// What every element does.
+fn solids(model: &Model, mesh: &Mesh) -> Vec<Feature> {
+    let laws = mesh.blocks.iter().filter_map(|block| {
+        let material = model.materials.iter().find(|material| material.block == block.id)?;
+        let count = block.connectivity.len();
+        let what = format!("{count} hexahedra, {}", material.law.entry().name.to_lowercase());
+        Some(Feature { what, asked_by: format!("MATERIAL {}", block.id) })
+    });
+    let hourglass = match model.hourglass {
+        Hourglass::FlanaganBelytschko { .. } => "Flanagan-Belytschko hourglass control",
+        Hourglass::AssumedStrain { .. } => "assumed strain hourglass control",
+    };
+    let viscosity = model.bulk_viscosity;
+    let viscous = (viscosity.linear != 0.0 || viscosity.quadratic != 0.0)
+        .then(|| Feature { what: "bulk viscosity".into(), asked_by: "BULK VISCOSITY, or its default".into() });
+    let control = Feature { what: hourglass.into(), asked_by: "HOURGLASS CONTROL, or its default".into() };
+    laws.chain([control]).chain(viscous).collect()
+}

@@ -1,0 +1,100 @@
+//! The end of the print log.
+
+use super::{heading, leader, number, scientific};
+use crate::solver::Totals;
+use std::fmt::Write;
+
+/// Where the time of a run went, and over how many ranks.
+pub struct TimeTable {
+    /// Name of each section of the step; its seconds: minimum, mean and maximum over the ranks.
+    pub sections: Vec<(&'static str, f64, f64, f64)>,
+    /// Wall-clock seconds of the whole step loop.
+    pub wall: f64,
+    /// Number of ranks.
+    pub ranks: usize,
+    /// Least and most elements of a rank.
+    pub elements_of_a_rank: [u64; 2],
+    /// Elements times steps.
+    pub element_cycles: f64,
+    /// Most memory held by this process, in bytes, where the system tells.
+    pub memory: Option<f64>,
+}
+
+impl TimeTable {
+    /// Wall-clock seconds per element and cycle.
+    pub fn grind(&self) -> f64 {
+        if self.element_cycles > 0.0 { self.wall / self.element_cycles } else { 0.0 }
+    }
+}
+
+/// How a run ended.
+pub struct Ending<'a> {
+    /// In words.
+    pub outcome: &'a str,
+    /// Steps taken.
+    pub steps: u64,
+    /// Plot states written.
+    pub states: usize,
+    /// Energies and momenta at the end.
+    pub totals: &'a Totals,
+    /// Kinetic energy at the start.
+    pub initial_energy: f64,
+}
+
+/// The closing part: the energies, where the time went, and how the run ended.
+pub fn closing(table: &TimeTable, ending: &Ending) -> String {
+    let mut out = balance(ending);
+    out += &sections(table);
+    out += "\n";
+    let [least, most] = table.elements_of_a_rank;
+    out += &leader("NUMBER OF RANKS", &table.ranks.to_string());
+    out += &leader("ELEMENTS OF A RANK, LEAST AND MOST", &format!("{least} {most}"));
+    out += &leader("TIME STEPS TAKEN", &ending.steps.to_string());
+    out += &leader("PLOT STATES WRITTEN", &ending.states.to_string());
+    out += &leader("SECONDS PER ELEMENT CYCLE (GRIND TIME)", &scientific(table.grind(), 3));
+    if table.wall > 0.0 {
+        out += &leader("ELEMENT CYCLES PER SECOND", &number(table.element_cycles / table.wall));
+    }
+    if let Some(bytes) = table.memory {
+        out += &leader("LARGEST MEMORY OF THIS PROCESS, MB", &format!("{:.1}", bytes / 1e6));
+    }
+    out += &heading("END OF SOLUTION PHASE");
+    let _ = writeln!(out, "  {}", ending.outcome);
+    out
+}
+
+/// What was supplied, and where it is.
+fn balance(ending: &Ending) -> String {
+    let t = ending.totals;
+    let mut out = heading("ENERGY BALANCE AT THE END");
+    out += &leader("INITIAL KINETIC ENERGY", &number(ending.initial_energy));
+    out += &leader("WORK OF LOADS AND PRESCRIBED MOTIONS", &number(t.external));
+    out += &leader("WORK OF NORMAL CONTACT FORCES", &number(t.contact));
+    out += &leader("KINETIC ENERGY", &number(t.kinetic));
+    out += &leader("INTERNAL ENERGY", &number(t.internal));
+    out += &leader("HOURGLASS ENERGY", &number(t.hourglass));
+    out += &leader("DISSIPATED BY BULK VISCOSITY", &number(t.bulk_viscosity));
+    out += &leader("DISSIPATED BY FRICTION", &number(t.friction));
+    out += &leader("ENERGY OF ERODED ELEMENTS", &number(t.eroded));
+    out += &leader("RELATIVE ERROR OF THE BALANCE", &number(t.relative_error(ending.initial_energy)));
+    out
+}
+
+fn sections(table: &TimeTable) -> String {
+    let mut out = heading("WHERE THE TIME WENT");
+    let share = |seconds: f64| 100.0 * seconds / table.wall.max(1e-9);
+    let _ = writeln!(
+        out,
+        "              {:<20}{:>12}{:>12}{:>12}{:>10}",
+        "SECTION", "MIN s", "MEAN s", "MAX s", "% OF ALL"
+    );
+    for (name, least, mean, most) in &table.sections {
+        let percent = share(*mean);
+        let _ = writeln!(out, "              {name:<20}{least:>12.3}{mean:>12.3}{most:>12.3}{percent:>10.1}");
+    }
+    let accounted: f64 = table.sections.iter().map(|(_, _, mean, _)| mean).sum();
+    let rest = (table.wall - accounted).max(0.0);
+    let _ = writeln!(out, "              {:<20}{:>12}{rest:>12.3}{:>12}{:>10.1}", "OTHER", "", "", share(rest));
+    let _ = writeln!(out, "              {:<20}{:>12}{:>12.3}", "TOTAL", "", table.wall);
+    out
+}

@@ -1,0 +1,527 @@
+//! Who shares which nodes with whom, and in which order their contributions are summed.
+//!
+//! Elements, and after them loaded faces, contribute to the sums at their nodes. Floating-point sums depend on their
+//! order, so the order is fixed by the whole mesh: contributors in canonical order, corners in theirs. A node inside
+//! a rank gets that order by plain scatter-adding. At a node shared by several ranks every rank keeps its corners'
+//! contributions apart, sends them to all other sharers, and each sums all contributions in canonical order:
+//! every copy of the node then has the bits that one rank alone would compute.
+
+use crate::comm::Peer;
+use std::ops::Range;
+
+/// One kind of contributor to nodal sums, in canonical order: elements, or faces under load.
+#[derive(Debug, Clone, Copy)]
+pub struct Contributors<'a> {
+    /// Nodes per contributor: 8 for hexahedra, 4 for their faces.
+    pub corners: usize,
+    /// Node numbers, `corners` for each contributor.
+    pub nodes: &'a [u32],
+    /// The rank that computes each contributor.
+    pub ranks: &'a [u32],
+}
+
+impl<'a> Contributors<'a> {
+    /// Each contributor's rank and nodes.
+    fn iter(self) -> impl Iterator<Item = (u32, &'a [u32])> {
+        self.ranks.iter().copied().zip(self.nodes.chunks_exact(self.corners))
+    }
+}
+
+/// The whole mesh cut into shares: made once, in O(size of the mesh), then asked for the share of each rank.
+#[derive(Debug)]
+pub struct Decomposition<'a> {
+    groups: &'a [Contributors<'a>],
+    node_count: usize,
+    /// `members[group][rank]`: the contributors that a rank computes, ascending.
+    members: Vec<Vec<Vec<u32>>>,
+    /// Nodes with contributions from several ranks, ascending.
+    shared_nodes: Vec<u32>,
+    /// The contributions to `shared_nodes[i]`, in canonical order, are `corners[first[i]..first[i + 1]]`.
+    first: Vec<usize>,
+    corners: Vec<Corner>,
+    /// For each rank the positions in `shared_nodes` of those it shares.
+    shared_by: Vec<Vec<u32>>,
+}
+
+/// A contribution to a shared node.
+#[derive(Debug, Clone, Copy, Default)]
+struct Corner {
+    rank: u32,
+    slot: u32,
+}
+
+/// One rank's share of the mesh. Its *slots* number the corners of its contributors consecutively, group by group;
+/// there must be fewer than 2^32 of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Share {
+    /// Whose share this is.
+    pub rank: usize,
+    /// This rank's contributors, in the groups of the decomposition.
+    pub groups: Vec<LocalGroup>,
+    /// Mesh node numbers of the local nodes, which are numbered in the order of their first use.
+    pub nodes: Vec<u32>,
+    /// Whether this rank, the lowest of the node's sharers, answers for the node in output and sums over nodes.
+    pub owned: Vec<bool>,
+    /// The ranks with which nodes are shared, ascending.
+    pub neighbours: Vec<Neighbour>,
+    /// The shared nodes in ascending order of mesh node numbers.
+    pub sums: Vec<SharedNode>,
+    /// All shared nodes' contributions, one node after the other.
+    pub sources: Vec<Source>,
+}
+
+/// One rank's contributors of one group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocalGroup {
+    /// Canonical numbers in the whole mesh, ascending.
+    pub members: Vec<u32>,
+    /// Nodes per contributor.
+    pub corners: usize,
+    /// Local node numbers, `corners` for each contributor.
+    pub nodes: Vec<u32>,
+    /// Whether the contributor touches a shared node, so that others wait for it.
+    pub border: Vec<bool>,
+    /// Slot of the first contributor's first corner.
+    pub first_slot: u32,
+}
+
+/// A rank with which nodes are shared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Neighbour {
+    /// Its rank.
+    pub rank: usize,
+    /// Slots of the contributions to send, ascending by mesh node number, then in canonical order.
+    pub send: Vec<u32>,
+    /// Number of contributions that come from there, in the same order.
+    pub receive_count: usize,
+}
+
+/// A node of several ranks, with the range of its contributions in [`Share::sources`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct SharedNode {
+    /// Local node number.
+    pub node: u32,
+    /// Its contributions in canonical order.
+    pub sources: Range<usize>,
+}
+
+/// Where one contribution to a shared node is found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// In a slot of this rank.
+    Local(u32),
+    /// Among what a neighbour sent.
+    Remote {
+        /// Position in [`Share::neighbours`].
+        neighbour: u32,
+        /// Position in its message.
+        index: u32,
+    },
+}
+
+impl<'a> Decomposition<'a> {
+    /// Finds the shared nodes among `node_count` nodes, computed by `ranks` ranks. All node and rank numbers in
+    /// `groups` must be below these. The groups come in canonical order.
+    pub fn new(groups: &'a [Contributors<'a>], node_count: usize, ranks: usize) -> Self {
+        let members = groups.iter().map(|group| members_by_rank(group, ranks)).collect();
+        let shared_nodes = find_shared_nodes(groups, node_count);
+        let (first, corners) = collect_corners(groups, node_count, ranks, &shared_nodes);
+        let mut shared_by = vec![Vec::new(); ranks];
+        for (position, node) in (0..).zip(first.windows(2)) {
+            for rank in sharers(&corners[node[0]..node[1]]) {
+                shared_by[rank as usize].push(position);
+            }
+        }
+        Self { groups, node_count, members, shared_nodes, first, corners, shared_by }
+    }
+
+    /// The share of one rank, in O(size of the share).
+    pub fn share(&self, rank: usize) -> Share {
+        let mut local = LocalNumbers::new(self.node_count);
+        let mut first_slot = 0;
+        let mut groups = Vec::new();
+        for (group, members) in self.groups.iter().zip(&self.members) {
+            let members = members[rank].clone();
+            let nodes: Vec<u32> =
+                (members.iter().flat_map(|member| nodes_of(group, *member))).map(|node| local.number(*node)).collect();
+            let slots = nodes.len() as u32;
+            groups.push(LocalGroup { members, corners: group.corners, nodes, border: Vec::new(), first_slot });
+            first_slot += slots;
+        }
+        let mut share = Share {
+            rank,
+            groups,
+            owned: vec![true; local.nodes.len()],
+            neighbours: self.neighbours(rank),
+            sums: Vec::with_capacity(self.shared_by[rank].len()),
+            sources: Vec::new(),
+            nodes: Vec::new(),
+        };
+        for position in &self.shared_by[rank] {
+            let node = local.number(self.shared_nodes[*position as usize]);
+            share.add_shared_node(node, self.corners_of(*position));
+        }
+        share.mark_border(local.nodes.len());
+        share.nodes = local.nodes;
+        share
+    }
+
+    /// The contributions to a shared node.
+    fn corners_of(&self, position: u32) -> &[Corner] {
+        &self.corners[self.first[position as usize]..self.first[position as usize + 1]]
+    }
+
+    /// The ranks that share a node with this one, still without messages.
+    fn neighbours(&self, rank: usize) -> Vec<Neighbour> {
+        let positions = self.shared_by[rank].iter();
+        let mut ranks: Vec<u32> = Vec::new();
+        for position in positions {
+            for sharer in sharers(self.corners_of(*position)) {
+                if let Err(place) = ranks.binary_search(&sharer) {
+                    ranks.insert(place, sharer);
+                }
+            }
+        }
+        let others = ranks.into_iter().map(|other| other as usize).filter(|other| *other != rank);
+        others.map(|rank| Neighbour { rank, send: Vec::new(), receive_count: 0 }).collect()
+    }
+}
+
+impl Share {
+    /// Buffers for an exchange of `width` numbers per contribution.
+    pub fn peers(&self, width: usize) -> Vec<Peer> {
+        let peer = |neighbour: &Neighbour| Peer {
+            rank: neighbour.rank,
+            send: vec![0.0; width * neighbour.send.len()],
+            receive: vec![0.0; width * neighbour.receive_count],
+        };
+        self.neighbours.iter().map(peer).collect()
+    }
+
+    /// Fills the send buffers with the contributions that `corner` gives for a slot.
+    pub fn pack<const WIDTH: usize>(&self, peers: &mut [Peer], corner: impl Fn(u32) -> [f64; WIDTH]) {
+        for (neighbour, peer) in self.neighbours.iter().zip(peers) {
+            for (slot, values) in neighbour.send.iter().zip(peer.send.chunks_exact_mut(WIDTH)) {
+                values.copy_from_slice(&corner(*slot));
+            }
+        }
+    }
+
+    /// Hands each shared node's local number and sum to `store`: all contributions in canonical order, from this
+    /// rank's slots and from the receive buffers, added up from +0.
+    pub fn sum<const WIDTH: usize>(
+        &self,
+        peers: &[Peer],
+        corner: impl Fn(u32) -> [f64; WIDTH],
+        mut store: impl FnMut(u32, [f64; WIDTH]),
+    ) {
+        for shared in &self.sums {
+            let mut sum = [0.0; WIDTH];
+            for source in &self.sources[shared.sources.clone()] {
+                let values = match *source {
+                    Source::Local(slot) => corner(slot),
+                    Source::Remote { neighbour, index } => {
+                        let start = WIDTH * index as usize;
+                        std::array::from_fn(|i| peers[neighbour as usize].receive[start + i])
+                    }
+                };
+                sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            }
+            store(shared.node, sum);
+        }
+    }
+
+    /// Enters one shared node with its contributions into messages and sums.
+    fn add_shared_node(&mut self, node: u32, corners: &[Corner]) {
+        let start = self.sources.len();
+        let rank = self.rank as u32;
+        for corner in corners {
+            self.sources.push(if corner.rank == rank {
+                Source::Local(corner.slot)
+            } else {
+                let neighbour = self.position_of(corner.rank);
+                let count = &mut self.neighbours[neighbour].receive_count;
+                *count += 1;
+                Source::Remote { neighbour: neighbour as u32, index: (*count - 1) as u32 }
+            });
+        }
+        self.sums.push(SharedNode { node, sources: start..self.sources.len() });
+        for sharer in sharers(corners).filter(|sharer| *sharer != rank) {
+            self.owned[node as usize] &= rank < sharer;
+            let neighbour = self.position_of(sharer);
+            let mine = corners.iter().filter(|corner| corner.rank == rank).map(|corner| corner.slot);
+            self.neighbours[neighbour].send.extend(mine);
+        }
+    }
+
+    fn position_of(&self, rank: u32) -> usize {
+        self.neighbours.partition_point(|neighbour| neighbour.rank < rank as usize)
+    }
+
+    fn mark_border(&mut self, node_count: usize) {
+        let mut shared = vec![false; node_count];
+        self.sums.iter().for_each(|sum| shared[sum.node as usize] = true);
+        for group in &mut self.groups {
+            let touches = |nodes: &[u32]| nodes.iter().any(|node| shared[*node as usize]);
+            group.border = group.nodes.chunks_exact(group.corners).map(touches).collect();
+        }
+    }
+}
+
+/// Numbers mesh nodes in the order in which they are first asked for.
+struct LocalNumbers {
+    /// Local number plus one of each mesh node, zero for none: untouched zeros cost no memory.
+    local: Vec<u32>,
+    nodes: Vec<u32>,
+}
+
+impl LocalNumbers {
+    fn new(node_count: usize) -> Self {
+        Self { local: vec![0; node_count], nodes: Vec::new() }
+    }
+
+    fn number(&mut self, node: u32) -> u32 {
+        let local = &mut self.local[node as usize];
+        if *local == 0 {
+            self.nodes.push(node);
+            *local = self.nodes.len() as u32;
+        }
+        *local - 1
+    }
+}
+
+fn nodes_of<'a>(group: &Contributors<'a>, member: u32) -> &'a [u32] {
+    &group.nodes[member as usize * group.corners..][..group.corners]
+}
+
+fn members_by_rank(group: &Contributors, ranks: usize) -> Vec<Vec<u32>> {
+    let mut members = vec![Vec::new(); ranks];
+    (0..).zip(group.ranks).for_each(|(member, rank)| members[*rank as usize].push(member));
+    members
+}
+
+/// Nodes to which more than one rank contributes, ascending.
+fn find_shared_nodes(groups: &[Contributors], node_count: usize) -> Vec<u32> {
+    const NOBODY: u32 = u32::MAX;
+    const SEVERAL: u32 = u32::MAX - 1;
+    let mut user = vec![NOBODY; node_count];
+    for (rank, nodes) in groups.iter().flat_map(|group| group.iter()) {
+        for node in nodes {
+            let user = &mut user[*node as usize];
+            *user = if *user == NOBODY || *user == rank { rank } else { SEVERAL };
+        }
+    }
+    (0..).zip(user).filter(|(_, user)| *user == SEVERAL).map(|(node, _)| node).collect()
+}
+
+/// The contributions to the shared nodes, sorted by node and then canonically (a counting sort), and where each
+/// node's begin.
+fn collect_corners(
+    groups: &[Contributors],
+    node_count: usize,
+    ranks: usize,
+    shared_nodes: &[u32],
+) -> (Vec<usize>, Vec<Corner>) {
+    const UNSHARED: u32 = u32::MAX;
+    let mut position = vec![UNSHARED; node_count];
+    (0..).zip(shared_nodes).for_each(|(i, node)| position[*node as usize] = i);
+
+    let mut first = vec![0; shared_nodes.len() + 1];
+    let nodes = groups.iter().flat_map(|group| group.nodes);
+    nodes.map(|node| position[*node as usize]).filter(|i| *i != UNSHARED).for_each(|i| first[i as usize + 1] += 1);
+    (1..first.len()).for_each(|i| first[i] += first[i - 1]);
+
+    let mut next = first.clone();
+    let mut corners = vec![Corner::default(); first[shared_nodes.len()]];
+    let mut slots = vec![0; ranks];
+    for (rank, nodes) in groups.iter().flat_map(|group| group.iter()) {
+        let slot = &mut slots[rank as usize];
+        for node in nodes {
+            let i = position[*node as usize];
+            if i != UNSHARED {
+                corners[next[i as usize]] = Corner { rank, slot: *slot };
+                next[i as usize] += 1;
+            }
+            *slot += 1;
+        }
+    }
+    (first, corners)
+}
+
+/// The different ranks among a node's contributions, in order of their first.
+fn sharers(corners: &[Corner]) -> impl Iterator<Item = u32> {
+    let is_first = |i: &usize| corners[..*i].iter().all(|corner| corner.rank != corners[*i].rank);
+    (0..corners.len()).filter(is_first).map(|i| corners[i].rank)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::partition::rcb;
+    use proptest::prelude::*;
+
+    /// Elements of `n[0]` × `n[1]` × `n[2]` cells and their centroids.
+    fn box_of_hexes(n: [usize; 3]) -> (Vec<u32>, Vec<[f64; 3]>) {
+        let node = |i: usize, j: usize, k: usize| (i + (n[0] + 1) * (j + (n[1] + 1) * k)) as u32;
+        let (mut nodes, mut centroids) = (Vec::new(), Vec::new());
+        for (i, j, k) in (0..n[2]).flat_map(|k| (0..n[1]).flat_map(move |j| (0..n[0]).map(move |i| (i, j, k)))) {
+            for (a, b, c) in [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)] {
+                nodes.push(node(i + a, j + b, k + c));
+            }
+            centroids.push([i as f64, j as f64, k as f64]);
+        }
+        (nodes, centroids)
+    }
+
+    /// A number per contributor and corner whose sums depend much on their order.
+    fn contribution(group: usize, member: u32, corner: usize) -> [f64; 2] {
+        let seed = (group as u64) << 40 | u64::from(member) << 8 | corner as u64;
+        let mixed =
+            (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (seed + 7).wrapping_mul(0xd1b5_4a32_d192_ed03) >> 17;
+        let x = (mixed >> 11) as f64 / 2f64.powi(52) - 1.0;
+        [x * 2f64.powi((mixed % 40) as i32), -x]
+    }
+
+    fn serial_sums(groups: &[Contributors], node_count: usize) -> Vec<[f64; 2]> {
+        let mut sums = vec![[0.0; 2]; node_count];
+        for (g, group) in groups.iter().enumerate() {
+            for (member, (_, nodes)) in (0..).zip(group.iter()) {
+                for (corner, node) in nodes.iter().enumerate() {
+                    let value = contribution(g, member, corner);
+                    (0..2).for_each(|i| sums[*node as usize][i] += value[i]);
+                }
+            }
+        }
+        sums
+    }
+
+    /// All slots of a share.
+    fn slots(share: &Share) -> Vec<[f64; 2]> {
+        let group = |(g, group): (usize, &LocalGroup)| {
+            let corners = group.corners;
+            let of_member = move |member: u32| (0..corners).map(move |corner| contribution(g, member, corner));
+            group.members.clone().into_iter().flat_map(of_member).collect::<Vec<_>>()
+        };
+        share.groups.iter().enumerate().flat_map(group).collect()
+    }
+
+    /// Scatter-adds in local order, as a solver does, then replaces the sums of shared nodes.
+    fn local_sums(share: &Share, slots: &[[f64; 2]], peers: &[Peer]) -> Vec<[f64; 2]> {
+        let mut sums = vec![[0.0; 2]; share.nodes.len()];
+        let nodes = share.groups.iter().flat_map(|group| &group.nodes);
+        nodes.zip(slots).for_each(|(node, value)| (0..2).for_each(|i| sums[*node as usize][i] += value[i]));
+        share.sum(peers, |slot| slots[slot as usize], |node, sum| sums[node as usize] = sum);
+        sums
+    }
+
+    /// Checks every rank's sums and ownership against one rank's.
+    fn check(groups: &[Contributors], node_count: usize, ranks: usize) {
+        let decomposition = Decomposition::new(groups, node_count, ranks);
+        let shares: Vec<Share> = (0..ranks).map(|rank| decomposition.share(rank)).collect();
+        let slots: Vec<_> = shares.iter().map(slots).collect();
+        let mut peers: Vec<_> = shares.iter().map(|share| share.peers(2)).collect();
+        for rank in 0..ranks {
+            shares[rank].pack(&mut peers[rank], |slot| slots[rank][slot as usize]);
+        }
+        deliver(&mut peers);
+        let expected = serial_sums(groups, node_count);
+        let mut owners = vec![0; node_count];
+        for (rank, share) in shares.iter().enumerate() {
+            check_structure(share, groups, rank);
+            for (local, sum) in local_sums(share, &slots[rank], &peers[rank]).iter().enumerate() {
+                let node = share.nodes[local] as usize;
+                owners[node] += usize::from(share.owned[local]);
+                assert_eq!(sum.map(f64::to_bits), expected[node].map(f64::to_bits), "rank {rank} node {node}");
+            }
+        }
+        let used = |node: usize| groups.iter().any(|group| group.nodes.contains(&(node as u32)));
+        assert!((0..node_count).all(|node| owners[node] == usize::from(used(node))));
+    }
+
+    fn deliver(peers: &mut [Vec<Peer>]) {
+        for from in 0..peers.len() {
+            for i in 0..peers[from].len() {
+                let (to, message) = (peers[from][i].rank, peers[from][i].send.clone());
+                let there = peers[to].iter_mut().find(|peer| peer.rank == from).expect("neighbours know each other");
+                assert_eq!(there.receive.len(), message.len());
+                there.receive = message;
+            }
+        }
+    }
+
+    fn check_structure(share: &Share, groups: &[Contributors], rank: usize) {
+        assert!(share.neighbours.windows(2).all(|pair| pair[0].rank < pair[1].rank));
+        let mut first_slot = 0;
+        for (local, group) in share.groups.iter().zip(groups) {
+            assert_eq!(local.first_slot, first_slot);
+            first_slot += local.nodes.len() as u32;
+            assert!(local.members.windows(2).all(|pair| pair[0] < pair[1]));
+            assert!(local.members.iter().all(|member| group.ranks[*member as usize] as usize == rank));
+            let nodes = local.members.iter().flat_map(|member| nodes_of(group, *member)).copied();
+            assert!(nodes.eq(local.nodes.iter().map(|node| share.nodes[*node as usize])));
+            for (nodes, border) in local.nodes.chunks(group.corners).zip(&local.border) {
+                assert_eq!(*border, nodes.iter().any(|node| share.sums.iter().any(|sum| sum.node == *node)));
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(100))]
+
+        #[test]
+        fn any_ownership_sums_as_one_rank(
+            n in [1usize..5, 1usize..5, 1usize..4],
+            ranks in prop::sample::select(vec![1, 2, 3, 5, 8, 64]),
+            choices in prop::collection::vec(any::<u32>(), 64 + 30),
+            faces in prop::collection::vec(any::<[prop::sample::Index; 4]>(), 0..30),
+        ) {
+            let (nodes, centroids) = box_of_hexes(n);
+            let node_count = (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+            let owners: Vec<u32> = choices.iter().map(|choice| choice % ranks).collect();
+            // Any four nodes, even repeated ones, with any owner.
+            let face_nodes: Vec<u32> = faces.as_flattened().iter().map(|i| i.index(node_count) as u32).collect();
+            let groups = [
+                Contributors { corners: 8, nodes: &nodes, ranks: &owners[..centroids.len()] },
+                Contributors { corners: 4, nodes: &face_nodes, ranks: &owners[64..64 + faces.len()] },
+            ];
+            check(&groups, node_count, ranks as usize);
+        }
+
+        #[test]
+        fn bisected_boxes_sum_as_one_rank(
+            n in [1usize..7, 1usize..7, 1usize..7],
+            ranks in prop::sample::select(vec![1, 2, 3, 5, 8, 64]),
+        ) {
+            let (nodes, centroids) = box_of_hexes(n);
+            let owners = rcb(&centroids, &vec![1.0; centroids.len()], ranks);
+            let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+            check(&groups, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), ranks);
+        }
+    }
+
+    #[test]
+    fn a_node_of_eight_ranks_has_eight_sources_everywhere() {
+        let (nodes, _) = box_of_hexes([2, 2, 2]);
+        let owners: Vec<u32> = (0..8).collect();
+        let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+        let decomposition = Decomposition::new(&groups, 27, 8);
+        for rank in 0..8 {
+            let share = decomposition.share(rank);
+            assert_eq!(share.neighbours.len(), 7);
+            let centre = share.nodes.iter().position(|node| *node == 13).unwrap();
+            let sum = share.sums.iter().find(|sum| sum.node as usize == centre).unwrap();
+            assert_eq!(sum.sources.len(), 8);
+            assert_eq!(share.owned[centre], rank == 0);
+        }
+    }
+
+    #[test]
+    fn one_rank_shares_nothing() {
+        let (nodes, centroids) = box_of_hexes([3, 2, 1]);
+        let owners = vec![0; centroids.len()];
+        let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+        let share = Decomposition::new(&groups, 24, 1).share(0);
+        assert!(share.neighbours.is_empty() && share.sums.is_empty() && share.sources.is_empty());
+        assert!(share.owned.iter().all(|owned| *owned) && share.groups[0].border.iter().all(|border| !border));
+    }
+}

@@ -1,0 +1,10 @@
+//! Cutting a mesh into one share per rank: [`rcb`] says which rank computes which element, [`space_filling_order`]
+//! in which order elements are numbered, and a [`Decomposition`] what each rank holds and exchanges.
+
+mod curve;
+mod halo;
+mod rcb;
+
+pub use curve::space_filling_order;
+pub use halo::{Contributors, Decomposition, LocalGroup, Neighbour, Share, SharedNode, Source};
+pub use rcb::rcb;

@@ -1,0 +1,152 @@
+//! The whole body before it is cut: elements and nodes in canonical order, with their masses.
+//!
+//! The canonical order depends on mesh and model only, never on the decomposition. Every sum over elements at a
+//! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
+
+use crate::mesh::check::hexahedron_volume;
+use crate::mesh::{HEX_SIDES, Mesh};
+use crate::model::Model;
+use crate::partition::{Contributors, rcb, space_filling_order};
+
+/// A mesh with masses and its canonical order.
+pub struct Body {
+    /// File position of each element, in canonical order: block by block, along a space-filling curve within each.
+    pub element_order: Vec<u32>,
+    /// Index of the mesh block of each element, in canonical order.
+    pub element_block: Vec<u32>,
+    /// Nodes of each element, in canonical order.
+    pub element_nodes: Vec<[u32; 8]>,
+    /// Element masses, in canonical order.
+    pub element_mass: Vec<f64>,
+    /// Lumped nodal masses, in file order.
+    pub node_mass: Vec<f64>,
+    /// Initial positions, in file order.
+    pub positions: Vec<[f64; 3]>,
+    /// Faces under pressure, in canonical order after the elements.
+    pub faces: Vec<LoadedFace>,
+    /// Index into the model's materials of each mesh block.
+    pub block_material: Vec<usize>,
+}
+
+/// A face under pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadedFace {
+    /// Canonical number of its element.
+    pub element: u32,
+    /// Nodes, counter-clockwise seen from outside.
+    pub nodes: [u32; 4],
+    /// Index into the model's pressures.
+    pub pressure: u32,
+}
+
+/// Mean of an element's corners.
+pub fn centroid(corners: &[[f64; 3]; 8]) -> [f64; 3] {
+    let sum = corners.iter().fold([0.0; 3], |s, c| [s[0] + c[0], s[1] + c[1], s[2] + c[2]]);
+    sum.map(|s| s / 8.0)
+}
+
+/// Which rank computes which element and which loaded face.
+pub struct Cut {
+    element_ranks: Vec<u32>,
+    face_ranks: Vec<u32>,
+    face_nodes: Vec<u32>,
+}
+
+impl Body {
+    /// Cuts the body for so many ranks by recursive coordinate bisection of the elements' centroids.
+    pub fn cut(&self, ranks: usize) -> Cut {
+        let centroids: Vec<_> = self.element_nodes.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
+        let element_ranks = rcb(&centroids, &vec![1.0; centroids.len()], ranks);
+        Cut {
+            face_ranks: self.faces.iter().map(|face| element_ranks[face.element as usize]).collect(),
+            face_nodes: self.faces.iter().flat_map(|face| face.nodes).collect(),
+            element_ranks,
+        }
+    }
+
+    /// Everything that contributes forces to nodes, in canonical order: elements, then loaded faces.
+    pub fn contributors<'a>(&'a self, cut: &'a Cut) -> [Contributors<'a>; 2] {
+        [
+            Contributors { corners: 8, nodes: self.element_nodes.as_flattened(), ranks: &cut.element_ranks },
+            Contributors { corners: 4, nodes: &cut.face_nodes, ranks: &cut.face_ranks },
+        ]
+    }
+
+    /// Orders and weighs a mesh. The model has been checked against it: every block has a material.
+    pub fn new(mesh: &Mesh, model: &Model) -> Body {
+        let block_material: Vec<usize> = mesh
+            .blocks
+            .iter()
+            .map(|block| model.materials.iter().position(|m| m.block == block.id).unwrap_or(0))
+            .collect();
+        let mut body = Body {
+            element_order: Vec::with_capacity(mesh.element_count()),
+            element_block: Vec::with_capacity(mesh.element_count()),
+            element_nodes: Vec::with_capacity(mesh.element_count()),
+            element_mass: Vec::with_capacity(mesh.element_count()),
+            node_mass: vec![0.0; mesh.coordinates.len()],
+            positions: mesh.coordinates.clone(),
+            faces: Vec::new(),
+            block_material,
+        };
+        body.take_elements(mesh, model);
+        body.take_faces(mesh, model);
+        body
+    }
+
+    /// Mass of each mesh block.
+    pub fn block_masses(&self, blocks: usize) -> Vec<f64> {
+        let mut masses = vec![0.0; blocks];
+        for (mass, &block) in self.element_mass.iter().zip(&self.element_block) {
+            masses[block as usize] += mass;
+        }
+        masses
+    }
+
+    /// Corner positions of an element given by its nodes.
+    pub fn corners(&self, nodes: &[u32; 8]) -> [[f64; 3]; 8] {
+        nodes.map(|n| self.positions[n as usize])
+    }
+
+    fn take_elements(&mut self, mesh: &Mesh, model: &Model) {
+        let mut first = 0u32;
+        for (index, block) in mesh.blocks.iter().enumerate() {
+            let density = model.materials[self.block_material[index]].density;
+            let centroids: Vec<_> = block.connectivity.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
+            for place in space_filling_order(&centroids) {
+                let nodes = block.connectivity[place as usize];
+                let mass = density * hexahedron_volume(&self.corners(&nodes));
+                self.element_order.push(first + place);
+                self.element_block.push(index as u32);
+                self.element_nodes.push(nodes);
+                self.element_mass.push(mass);
+                for node in nodes {
+                    self.node_mass[node as usize] += mass / 8.0;
+                }
+            }
+            first += block.connectivity.len() as u32;
+        }
+    }
+
+    fn take_faces(&mut self, mesh: &Mesh, model: &Model) {
+        if model.pressures.is_empty() {
+            return;
+        }
+        let mut canonical = vec![0u32; self.element_order.len()];
+        for (place, &file) in self.element_order.iter().enumerate() {
+            canonical[file as usize] = place as u32;
+        }
+        for (pressure, load) in model.pressures.iter().enumerate() {
+            // A face that its set names twice is pressed once.
+            let mut sides = mesh.side_set(load.side_set).map_or(Vec::new(), |set| set.sides.clone());
+            sides.sort_unstable();
+            sides.dedup();
+            for (element, side) in sides {
+                let element = canonical[element as usize];
+                let corners = self.element_nodes[element as usize];
+                let nodes = HEX_SIDES[side as usize].map(|corner| corners[corner]);
+                self.faces.push(LoadedFace { element, nodes, pressure: pressure as u32 });
+            }
+        }
+    }
+}

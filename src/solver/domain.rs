@@ -1,0 +1,269 @@
+//! One rank's part of the problem: its nodes, element blocks, loads and constraints, and how it sums with others.
+
+use super::body::{Body, LoadedFace};
+use super::constraints::{Constraint, Motion};
+use super::elements::{ElementBlock, Group, NewElement};
+use super::exchange::Exchange;
+use super::loads::{self, NodeForce, PressureFace};
+use super::nodes::{Nodes, add, cross, scaled, subtract};
+use super::rigid_surface::PlaneNode;
+use crate::lanes::Row;
+use crate::material::{Kernel, KernelVisitor, Law};
+use crate::mesh::Mesh;
+use crate::model::{InitialVelocity, Model};
+use crate::partition::Share;
+
+/// Everything a rank owns.
+pub struct Domain {
+    /// Nodes.
+    pub nodes: Nodes,
+    /// Element blocks that have elements here, in mesh order.
+    pub blocks: Vec<ElementBlock>,
+    /// File position of each local element, in the rank's canonical order.
+    pub element_file: Vec<u32>,
+    /// The analyst's number of each local element.
+    pub element_id: Vec<i64>,
+    /// Canonical number of each local element in the whole body.
+    pub element_canonical: Vec<u32>,
+    /// Faces under pressure.
+    pub pressure_faces: Vec<PressureFace>,
+    /// Forces on nodes.
+    pub node_forces: Vec<NodeForce>,
+    /// Gravity.
+    pub gravity: loads::BodyForce,
+    /// Constraints.
+    pub constraints: Vec<Constraint>,
+    /// Nodes watched by rigid surfaces.
+    pub plane_nodes: Vec<PlaneNode>,
+    /// Sums over nodes shared with other ranks.
+    pub exchange: Exchange,
+}
+
+struct StateNames;
+impl KernelVisitor for StateNames {
+    type Output = &'static [&'static str];
+    fn visit<K: Kernel>(self, _: K) -> Self::Output {
+        K::STATE
+    }
+}
+
+/// Names of the state variables that a law stores.
+pub fn state_names(law: &Law) -> &'static [&'static str] {
+    law.accept(StateNames)
+}
+
+impl Domain {
+    /// Cuts a rank's share out of the body and sets its initial state.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Domain {
+        let local = local_numbers(body.positions.len(), &share.nodes);
+        let elements = &share.groups[0].members;
+        let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
+        let mut domain = Domain {
+            nodes: nodes(body, share),
+            blocks: blocks(mesh, model, body, share, &local),
+            element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
+            element_file,
+            element_canonical: elements.clone(),
+            pressure_faces: pressure_faces(model, body, share, &local),
+            node_forces: Vec::new(),
+            gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
+            constraints: Vec::new(),
+            plane_nodes: Vec::new(),
+            exchange: Exchange::new(share),
+        };
+        if !model.gravities.is_empty() {
+            domain.gravity.work = vec![0.0; domain.nodes.len()];
+        }
+        let held = domain.set_constraints(mesh, model, &local);
+        domain.set_forces(mesh, model, &local);
+        domain.set_plane_nodes(mesh, model, body, &local, &held);
+        domain.set_initial_velocities(mesh, model, &local);
+        domain
+    }
+
+    /// Forgets the forces of constraints and planes, when those of the elements are of no use.
+    pub fn forget_reactions(&mut self) {
+        self.constraints.iter_mut().for_each(|constraint| constraint.reaction = 0.0);
+        for plane in &mut self.plane_nodes {
+            (plane.normal_force, plane.friction_force) = ([0.0; 3], [0.0; 3]);
+        }
+    }
+
+    /// Returns which directions of each node are taken.
+    fn set_constraints(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) -> Vec<[bool; 3]> {
+        let still = model.no_displacements.iter().map(|c| (c.node_set, c.direction, None));
+        let moving = model.prescribed_motions.iter().map(|m| {
+            let motion = Motion { kind: m.kind, function: m.function, scale: m.scale };
+            (m.node_set, m.direction, Some(motion))
+        });
+        let mut taken = vec![[false; 3]; self.nodes.len()];
+        for (set, direction, motion) in still.chain(moving) {
+            let axis = direction.axis();
+            for node in nodes_of_set(mesh, set, local) {
+                // Sets overlap; a node is held once in each direction, the first command counts.
+                if !std::mem::replace(&mut taken[node as usize][axis], true) {
+                    self.constraints.push(Constraint { node, axis, motion, reaction: 0.0, work: 0.0 });
+                }
+            }
+        }
+        taken
+    }
+
+    fn set_forces(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
+        for load in &model.prescribed_forces {
+            // A node that its set names twice gets the force once.
+            let mut nodes: Vec<u32> = nodes_of_set(mesh, load.node_set, local).collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            for node in nodes {
+                self.node_forces.push(NodeForce {
+                    node,
+                    axis: load.direction.axis(),
+                    function: load.function,
+                    scale: load.scale,
+                    force: 0.0,
+                    work: 0.0,
+                });
+            }
+        }
+    }
+
+    fn set_plane_nodes(&mut self, mesh: &Mesh, model: &Model, body: &Body, local: &[u32], held: &[[bool; 3]]) {
+        for (surface, plane) in model.rigid_surfaces.iter().enumerate() {
+            for node in mesh.side_set_nodes(plane.side_set) {
+                let here = local[node as usize];
+                if here != ABSENT {
+                    let position = body.positions[node as usize];
+                    self.plane_nodes.push(PlaneNode::new(here, surface, plane, position, held[here as usize]));
+                }
+            }
+        }
+    }
+
+    fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
+        for initial in &model.initial_velocities {
+            match *initial {
+                InitialVelocity::Material { block, velocity } => {
+                    for node in nodes_of_block(mesh, block, local) {
+                        self.set_velocity(node, velocity);
+                    }
+                }
+                InitialVelocity::NodeSet { node_set, velocity } => {
+                    for node in nodes_of_set(mesh, node_set, local) {
+                        self.set_velocity(node, velocity);
+                    }
+                }
+                InitialVelocity::Angular { block, omega, point, axis } => {
+                    let spin = scaled(axis, omega);
+                    for node in nodes_of_block(mesh, block, local) {
+                        let arm = subtract(self.nodes.position(node), point);
+                        self.set_velocity(node, add(self.nodes.velocity(node), cross(spin, arm)));
+                    }
+                }
+            }
+        }
+        // Motion that a constraint forbids never was.
+        for constraint in self.constraints.iter().filter(|c| c.motion.is_none()) {
+            self.nodes.rows[constraint.node as usize].0[4 + constraint.axis] = 0.0;
+        }
+    }
+
+    fn set_velocity(&mut self, node: u32, velocity: [f64; 3]) {
+        self.nodes.rows[node as usize].0[4..7].copy_from_slice(&velocity);
+    }
+}
+
+/// Marks a node that a rank does not have.
+const ABSENT: u32 = u32::MAX;
+
+fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {
+    let mut local = vec![ABSENT; nodes];
+    for (here, &file) in used.iter().enumerate() {
+        local[file as usize] = here as u32;
+    }
+    local
+}
+
+fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
+    nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT)
+}
+
+/// Local nodes of a block, each once, ascending.
+fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
+    let Some(index) = mesh.block_index(block) else { return Vec::new() };
+    let connectivity = &mesh.blocks[index].connectivity;
+    let mut nodes: Vec<u32> =
+        connectivity.iter().flatten().map(|&n| local[n as usize]).filter(|&n| n != ABSENT).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+fn nodes(body: &Body, share: &Share) -> Nodes {
+    let row = |&file: &u32| {
+        let ([x, y, z], m) = (body.positions[file as usize], body.node_mass[file as usize]);
+        Row([x, y, z, m, 0.0, 0.0, 0.0, 1.0 / m])
+    };
+    Nodes {
+        rows: share.nodes.iter().map(row).collect(),
+        forces: vec![Default::default(); share.nodes.len()],
+        initial: share.nodes.iter().map(|&file| body.positions[file as usize]).collect(),
+        file: share.nodes.clone(),
+        owned: share.owned.clone(),
+    }
+}
+
+/// Element blocks with elements on this rank. Elements come block by block, so each block is one run of them.
+fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32]) -> Vec<ElementBlock> {
+    let elements = &share.groups[0];
+    let places: Vec<u32> = (0..elements.members.len() as u32).collect();
+    let block_of = |place: u32| body.element_block[elements.members[place as usize] as usize];
+    let runs = places.chunk_by(|&a, &b| block_of(a) == block_of(b));
+    runs.map(|run| {
+        let index = block_of(run[0]) as usize;
+        let material = &model.materials[body.block_material[index]];
+        let state_names = state_names(&material.law);
+        let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
+        let group = |places: Vec<u32>| {
+            let new: Vec<NewElement> = places.into_iter().map(|place| new_element(place, body, share, local)).collect();
+            Group::new(&new, state_names.len())
+        };
+        ElementBlock {
+            index,
+            id: mesh.blocks[index].id,
+            density: material.density,
+            law: material.law,
+            hourglass: model.hourglass,
+            state_names,
+            border: group(border),
+            interior: group(interior),
+        }
+    })
+    .collect()
+}
+
+fn new_element(place: u32, body: &Body, share: &Share, local: &[u32]) -> NewElement {
+    let element = share.groups[0].members[place as usize] as usize;
+    let nodes = body.element_nodes[element];
+    NewElement {
+        place,
+        nodes: nodes.map(|n| local[n as usize]),
+        corners: body.corners(&nodes),
+        mass: body.element_mass[element],
+    }
+}
+
+fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> Vec<PressureFace> {
+    let face = |face: &LoadedFace| {
+        let load = &model.pressures[face.pressure as usize];
+        PressureFace {
+            nodes: face.nodes.map(|n| local[n as usize]),
+            function: load.function,
+            scale: load.scale,
+            force: [[0.0; 3]; 4],
+            work: 0.0,
+        }
+    };
+    share.groups[1].members.iter().map(|&f| face(&body.faces[f as usize])).collect()
+}

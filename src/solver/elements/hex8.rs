@@ -1,0 +1,265 @@
+//! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
+
+use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
+use super::hourglass::{self, Resistance};
+use super::kinematics::{self, Motion};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::material::Kernel;
+
+/// Rows of an element's state, in the order in which they are stored; the law's own rows follow.
+pub mod rows {
+    /// Cauchy stress in the element's frame: xx, yy, zz, xy, yz, zx.
+    pub const STRESS: usize = 0;
+    /// Right stretch in the element's frame, six components in the same order.
+    pub const STRETCH: usize = 6;
+    /// Frame as a unit quaternion.
+    pub const FRAME: usize = 12;
+    /// Hourglass resistance, mode by mode within each direction.
+    pub const HOURGLASS: usize = 16;
+    /// Internal energy since the start.
+    pub const INTERNAL_ENERGY: usize = 28;
+    /// Hourglass energy since the start.
+    pub const HOURGLASS_ENERGY: usize = 29;
+    /// Energy taken up by bulk viscosity since the start.
+    pub const VISCOUS_ENERGY: usize = 30;
+    /// Bulk viscosity q of the last step, added to the mean stress.
+    pub const VISCOUS_STRESS: usize = 31;
+    /// First row of the law.
+    pub const LAW: usize = 32;
+}
+
+/// Numbers that hold for a whole block and step.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// Time step Δt that led to the present positions.
+    pub time_step: f64,
+    /// Elastic dilatational modulus λ + 2μ.
+    pub dilatational: f64,
+    /// Shear modulus μ.
+    pub mu: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Linear bulk viscosity b₁.
+    pub linear_viscosity: f64,
+    /// Quadratic bulk viscosity b₂.
+    pub quadratic_viscosity: f64,
+    /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
+    pub effective_moduli: bool,
+}
+
+/// What holds for a whole block: numbers, law and hourglass control.
+#[derive(Debug, Clone, Copy)]
+pub struct Physics<'a, K, H> {
+    /// Numbers.
+    pub settings: Settings,
+    /// Constitutive law.
+    pub law: &'a K,
+    /// Hourglass control.
+    pub control: &'a H,
+}
+
+/// What a chunk hands back.
+pub struct Outcome<V> {
+    /// Internal forces on the corners, `[direction][corner]`, to be subtracted from the nodes.
+    pub force: [Corners<V>; 3],
+    /// Largest stable time step.
+    pub stable_step: V,
+}
+
+/// Writes consecutive rows.
+#[inline(always)]
+fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usize, part: usize) {
+    let rows = &mut state[first..first + N];
+    for i in 0..N {
+        values[i].store(&mut rows[i], part);
+    }
+}
+
+#[inline(always)]
+fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
+    (V::load(row, part) + value).store(row, part);
+}
+
+/// One step of the elements of one part of a chunk: from corner positions and mid-step velocities, both relative to
+/// the first corner, to stresses, energies, corner forces and the stable step.
+#[inline(always)]
+pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
+    positions: &[Corners<V>; 3],
+    velocities: &[Corners<V>; 3],
+    state: &mut [Row],
+    part: usize,
+    mass: V,
+    Physics { settings, law, control }: &Physics<K, H>,
+) -> Outcome<V> {
+    let time_step = V::splat(settings.time_step);
+    let half = V::splat(0.5);
+    let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
+    let v: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
+
+    // (i) velocity gradient and hourglass rates at mid-step
+    let half_step = V::splat(0.5 * settings.time_step);
+    let middle: [geometry::Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - half_step * v[i][k]]];
+    let Gradient { g24, volume192: middle_volume192 } = gradient(&middle);
+    let inverse = V::splat(1.0) / middle_volume192;
+    let velocity_gradient: Matrix3<V> = array![i in 3 => array![j in 3 => dot(&v[i], &g24[j]) * inverse]];
+    let hourglass_rate = hourglass_rates(&v, &middle, &velocity_gradient);
+
+    // (ii) frame, stretch and strain increment
+    let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
+    let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
+    let Motion { strain, frame: r, middle: r_middle } =
+        kinematics::advance(&velocity_gradient, &mut frame, &mut stretch, time_step);
+    store(frame, state, rows::FRAME, part);
+    store(stretch.to_array(), state, rows::STRETCH, part);
+
+    // (iii) stress
+    let old = Sym3::load(&state[rows::STRESS..], part);
+    let mut stress = old;
+    let (own, law_state) = state.split_at_mut(rows::LAW);
+    let response = law.update(&strain, &mut stress, law_state, part);
+    store(stress.to_array(), own, rows::STRESS, part);
+    let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
+    let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
+    accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+
+    // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration
+    let gradient = gradient(&x);
+    let inverse = V::splat(1.0) / gradient.volume192;
+    let b_squared = gradient.square4608();
+    let modulus = step_modulus(settings, &old, &stress, &strain);
+    let bound = (mass * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
+    let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
+    let damping = viscous_damping(settings, bound, rate);
+    let viscous = damping * modulus * bound * rate;
+    let last = V::load(&own[rows::VISCOUS_STRESS], part);
+    viscous.store(&mut own[rows::VISCOUS_STRESS], part);
+    accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+    let stable_step = bound * ((V::splat(1.0) + damping * damping).sqrt() - damping);
+
+    // (v) hourglass resistance in the frame
+    let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
+    let hourglass_state = hourglass::State {
+        lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
+        stiffness_measure,
+        mass,
+        mu: V::splat(settings.mu),
+        poisson: V::splat(settings.poisson),
+        returned: response.returned,
+        time_step,
+    };
+    let resistance = resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state);
+    let stable_step = control.stable_step(stable_step, stiffness_measure, mass, V::splat(settings.mu));
+    // An element that passed through itself within the step has failed, even if it looks sound at the end.
+    let zero = V::splat(0.0);
+    let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
+
+    // (vi) corner forces from the rotated stress
+    let total = stress.rotate(&r).add_diagonal(viscous);
+    Outcome { force: corner_forces(&total, &resistance, &x, &gradient.g24, inverse), stable_step }
+}
+
+/// Hourglass rates q̇_iα = v_iI γ_αI at mid-step, in space: γ is the mode made orthogonal to linear fields.
+#[inline(always)]
+fn hourglass_rates<V: Lanes>(
+    v: &[geometry::Modes<V>; 3],
+    x: &[geometry::Modes<V>; 3],
+    l: &Matrix3<V>,
+) -> Resistance<V> {
+    array![i in 3 => array![a in 4 => {
+        let k = HOURGLASS + a;
+        v[i][k] - (l[i][0] * x[0][k] + l[i][1] * x[1][k] + l[i][2] * x[2][k])
+    }]]
+}
+
+/// Turns the rates into the frame, lets the control act, books the energy, and turns the resistance back.
+///
+/// Rates belong to the middle of the step and are turned by its frame. Turned by the frame at the end, the stiffness
+/// would have a skew part, and hourglass modes of a spinning body would grow by a factor per revolution.
+#[inline(always)]
+fn resist<V: Lanes, H: hourglass::Control>(
+    control: &H,
+    rate: &Resistance<V>,
+    [middle, r]: [&Matrix3<V>; 2],
+    own: &mut [Row],
+    part: usize,
+    state: &hourglass::State<V>,
+) -> Resistance<V> {
+    let local: Resistance<V> = array![i in 3 => array![a in 4 => {
+        middle[0][i] * rate[0][a] + middle[1][i] * rate[1][a] + middle[2][i] * rate[2][a]
+    }]];
+    let old: Resistance<V> = array![i in 3 => array![a in 4 => V::load(&own[rows::HOURGLASS + 4 * i + a], part)]];
+    let mut q = old;
+    let total = control.resist(&local, &mut q, state);
+    let mut work = V::splat(0.0);
+    for i in 0..3 {
+        store(q[i], own, rows::HOURGLASS + 4 * i, part);
+        for a in 0..4 {
+            // Stored resistance by the trapezoidal rule, a viscous rest as it acts now.
+            work = work + (total[i][a] + (old[i][a] - q[i][a]) * V::splat(0.5)) * local[i][a];
+        }
+    }
+    accumulate(work * state.time_step, &mut own[rows::HOURGLASS_ENERGY], part);
+    array![i in 3 => array![a in 4 => r[i][0] * total[0][a] + r[i][1] * total[1][a] + r[i][2] * total[2][a]]]
+}
+
+/// Λ_i · x̂_i, the element's lengths along its frame, kept positive in elements that have folded over.
+///
+/// They are also kept above L_j L_k V/(8 B:B), which every box exceeds. An element drawn out to a needle across its
+/// frame would otherwise be stiffer in bending than its own stable step allows.
+#[inline(always)]
+fn lengths<V: Lanes>(x: &[geometry::Modes<V>; 3], r: &Matrix3<V>, stiffness_measure: V) -> [V; 3] {
+    let along: [V; 3] = array![a in 3 => x[0][a] * r[0][a] + x[1][a] * r[1][a] + x[2][a] * r[2][a]];
+    let floor = along[0].max(along[1]).max(along[2]) * V::splat(1e-3);
+    let [l1, l2, l3] = array![i in 3 => along[i].max(floor)];
+    let share = V::splat(0.125) / stiffness_measure;
+    [l1.max(l2 * l3 * share), l2.max(l3 * l1 * share), l3.max(l1 * l2 * share)]
+}
+
+/// e_b = b₁ − b₂² Δt̂ min(0, tr D), the damping ratio of the element's highest mode.
+#[inline(always)]
+fn viscous_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
+    let quadratic = V::splat(settings.quadratic_viscosity * settings.quadratic_viscosity);
+    V::splat(settings.linear_viscosity) - quadratic * bound * rate.min(V::splat(0.0))
+}
+
+/// Dilatational modulus for the stable step: elastic, or PRONTO's estimate from the last increment,
+/// M̂ = K + ⅔ 2μ̂ with the elastic bulk modulus and 2μ̂ = Δs:Δe/Δe:Δe, kept between a tenth and the whole of the
+/// elastic one.
+#[inline(always)]
+fn step_modulus<V: Lanes>(settings: &Settings, old: &Sym3<V>, new: &Sym3<V>, strain: &Sym3<V>) -> V {
+    let elastic = V::splat(settings.dilatational);
+    if !settings.effective_moduli {
+        return elastic;
+    }
+    let change = new.zip(*old, |a, b| a - b).deviator();
+    let e = strain.deviator();
+    let square = e.contract(e);
+    let two_mu = V::splat(2.0 * settings.mu);
+    let floor = V::splat(1e-24);
+    let shear = V::select_less(floor, square, change.contract(e) / square.max(floor), two_mu).min(two_mu);
+    let bulk = elastic - two_mu * V::splat(2.0 / 3.0);
+    (bulk + shear * V::splat(2.0 / 3.0)).min(elastic).max(elastic * V::splat(0.1))
+}
+
+/// f_iI = T_ij B_jI + Q_iα γ_αI at the end of the step. The part of γ that makes it orthogonal to linear fields
+/// joins the stress, so the gradient is applied once; corners are seen last.
+#[inline(always)]
+fn corner_forces<V: Lanes>(
+    stress: &Sym3<V>,
+    resistance: &Resistance<V>,
+    x: &[geometry::Modes<V>; 3],
+    g24: &[[V; 6]; 3],
+    inverse_volume192: V,
+) -> [Corners<V>; 3] {
+    let stress = stress.matrix();
+    array![i in 3 => {
+        let q = &resistance[i];
+        let t: [V; 3] = array![j in 3 => {
+            let h = &x[j];
+            let along = (q[0] * h[3] + q[1] * h[4]) + (q[2] * h[5] + q[3] * h[6]);
+            stress[i][j] * V::splat(1.0 / 192.0) - along * inverse_volume192
+        }];
+        let f: [V; 6] = array![k in 6 => g24[0][k] * t[0] + g24[1][k] * t[1] + g24[2][k] * t[2]];
+        geometry::corners(&[f[0], f[1], f[2], f[3] + q[0], f[4] + q[1], f[5] + q[2], q[3]])
+    }]
+}

@@ -1,0 +1,278 @@
+//! One pass over the elements of a block, compiled for every law, hourglass control and instruction set.
+
+use super::block::{ElementBlock, Group};
+use super::hex8::{self, Physics, Settings};
+use super::hourglass::{AssumedStrain, Control, FlanaganBelytschko};
+use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, Pair, Row, prefetch};
+use crate::material::{Kernel, KernelVisitor};
+use crate::model::{BulkViscosity, Hourglass, StepModuli};
+
+/// Where corner forces go.
+pub enum Sink<'a> {
+    /// Kept apart, eight per element in group order: they will be summed with those of other ranks.
+    Apart(&'a mut [Force]),
+    /// Subtracted from the nodes, element by element in canonical order; the border elements, whose forces were
+    /// kept apart, take their turn in between.
+    Nodes {
+        /// Force sums of the nodes.
+        forces: &'a mut [Force],
+        /// Forces of the border group, eight per element.
+        border: &'a [Force],
+    },
+}
+
+/// What a pass found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PassOutcome {
+    /// Smallest stable time step, infinite when there are no elements.
+    pub stable_step: f64,
+    /// Place of the element that sets it.
+    pub controlling: Option<u32>,
+    /// Place of the first element without a positive volume or a finite motion.
+    pub failed: Option<u32>,
+}
+
+impl PassOutcome {
+    /// Of no elements.
+    pub const NOTHING: PassOutcome = PassOutcome { stable_step: f64::INFINITY, controlling: None, failed: None };
+
+    /// Of both: the smaller step, ties to the earlier place.
+    pub fn and(self, other: PassOutcome) -> PassOutcome {
+        let first = |a: Option<u32>, b: Option<u32>| a.into_iter().chain(b).min();
+        let (stable_step, controlling) = if self.stable_step < other.stable_step {
+            (self.stable_step, self.controlling)
+        } else if other.stable_step < self.stable_step {
+            (other.stable_step, other.controlling)
+        } else {
+            (self.stable_step, first(self.controlling, other.controlling))
+        };
+        PassOutcome { stable_step, controlling, failed: first(self.failed, other.failed) }
+    }
+}
+
+/// What a pass needs beside the block.
+#[derive(Debug, Clone, Copy)]
+pub struct PassSettings {
+    /// Time step that led to the present positions.
+    pub time_step: f64,
+    /// Bulk viscosity.
+    pub bulk_viscosity: BulkViscosity,
+    /// Moduli of the stable step.
+    pub moduli: StepModuli,
+    /// Instruction set.
+    pub instructions: InstructionSet,
+}
+
+/// Advances one group of a block: its border elements when the sink keeps forces apart, else its interior.
+pub fn run(block: &mut ElementBlock, nodes: &[Row], sink: Sink, pass: &PassSettings) -> PassOutcome {
+    let moduli = block.law.moduli();
+    let settings = Settings {
+        time_step: pass.time_step,
+        dilatational: moduli.dilatational(),
+        mu: 0.5 * moduli.two_mu,
+        poisson: moduli.poisson(),
+        linear_viscosity: pass.bulk_viscosity.linear,
+        quadratic_viscosity: pass.bulk_viscosity.quadratic,
+        effective_moduli: pass.moduli == StepModuli::Effective,
+    };
+    let law = block.law;
+    law.accept(BlockPass { block, nodes, sink, settings, instructions: pass.instructions })
+}
+
+struct BlockPass<'a> {
+    block: &'a mut ElementBlock,
+    nodes: &'a [Row],
+    sink: Sink<'a>,
+    settings: Settings,
+    instructions: InstructionSet,
+}
+
+impl KernelVisitor for BlockPass<'_> {
+    type Output = PassOutcome;
+
+    fn visit<K: Kernel>(self, law: K) -> PassOutcome {
+        match self.block.hourglass {
+            Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
+                self.with_control(&law, &FlanaganBelytschko { stiffness, viscosity })
+            }
+            Hourglass::AssumedStrain { factor } => self.with_control(&law, &AssumedStrain { factor }),
+        }
+    }
+}
+
+impl BlockPass<'_> {
+    fn with_control<K: Kernel, H: Control>(self, law: &K, control: &H) -> PassOutcome {
+        let physics = Physics { settings: self.settings, law, control };
+        let ElementBlock { border, interior, .. } = self.block;
+        let (group, sink) = match self.sink {
+            Sink::Apart(slots) => (border, Target::Apart(slots)),
+            Sink::Nodes { forces, border: slots } => {
+                (interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
+            }
+        };
+        match self.instructions {
+            // SAFETY: `InstructionSet::detect` returns these only on processors that have them.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, &physics) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, &physics) },
+            _ => chunks::<Pair, K, H>(group, self.nodes, sink, &physics),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+unsafe fn chunks_avx512<K: Kernel, H: Control>(
+    group: &mut Group,
+    nodes: &[Row],
+    sink: Target,
+    physics: &Physics<K, H>,
+) -> PassOutcome {
+    chunks::<crate::lanes::F64x8, K, H>(group, nodes, sink, physics)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+unsafe fn chunks_avx2<K: Kernel, H: Control>(
+    group: &mut Group,
+    nodes: &[Row],
+    sink: Target,
+    physics: &Physics<K, H>,
+) -> PassOutcome {
+    chunks::<crate::lanes::F64x4, K, H>(group, nodes, sink, physics)
+}
+
+/// Where the forces of a chunk go, with what the merge of border elements has to remember.
+enum Target<'a> {
+    Apart(&'a mut [Force]),
+    Nodes(Merge<'a>),
+}
+
+struct Merge<'a> {
+    forces: &'a mut [Force],
+    border: &'a Group,
+    slots: &'a [Force],
+    next: usize,
+}
+
+impl Merge<'_> {
+    #[inline(always)]
+    fn subtract(forces: &mut [Force], node: u32, force: &Force) {
+        let sum = &mut forces[node as usize].0;
+        for (s, f) in sum.iter_mut().zip(force.0) {
+            *s -= f;
+        }
+    }
+
+    /// Lets the border elements before `place` take their turn.
+    #[inline(always)]
+    fn border_before(&mut self, place: u32) {
+        while let Some(&border_place) = self.border.places.get(self.next)
+            && border_place < place
+        {
+            let nodes = self.border.nodes(self.next);
+            for (corner, node) in nodes.into_iter().enumerate() {
+                Merge::subtract(self.forces, node, &self.slots[8 * self.next + corner]);
+            }
+            self.next += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn chunk(&mut self, places: &[u32], connectivity: &[[u32; CHUNK]; 8], corner_forces: &[[Force; 8]; CHUNK]) {
+        for (lane, &place) in places.iter().enumerate() {
+            self.border_before(place);
+            for corner in 0..8 {
+                Merge::subtract(self.forces, connectivity[corner][lane], &corner_forces[lane][corner]);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn chunks<V: Lanes, K: Kernel, H: Control>(
+    group: &mut Group,
+    nodes: &[Row],
+    mut sink: Target,
+    physics: &Physics<K, H>,
+) -> PassOutcome {
+    let stride = group.stride;
+    let mut corner_forces = [[Force::default(); 8]; CHUNK];
+    let (mut smallest, mut smallest_chunk) = (Row([f64::INFINITY; CHUNK]), Row([f64::INFINITY; CHUNK]));
+    let mut failed_chunk = Row([f64::INFINITY; CHUNK]);
+    for (chunk, connectivity) in group.connectivity.iter().enumerate() {
+        let (state, ahead) = group.state[chunk * stride..].split_at_mut(stride);
+        // Measured: the narrow kernels gain a sixth at 64³ elements, the widest loses a little.
+        if V::COUNT < CHUNK {
+            prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
+        }
+        for part in 0..CHUNK / V::COUNT {
+            let (x, v) = relative_corners::<V>(nodes, connectivity, part);
+            let mass = V::load(&group.mass[chunk], part);
+            let outcome = hex8::step(&x, &v, state, part, mass, physics);
+            for corner in 0..8 {
+                let force = [outcome.force[0][corner], outcome.force[1][corner], outcome.force[2][corner]];
+                V::spread(force, &mut corner_forces, corner, part);
+            }
+            // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
+            let (here, step) = (V::splat(chunk as f64), outcome.stable_step);
+            let best = V::load(&smallest, part);
+            V::select_less(step, best, here, V::load(&smallest_chunk, part)).store(&mut smallest_chunk, part);
+            V::select_less(step, best, step, best).store(&mut smallest, part);
+            let failed = V::load(&failed_chunk, part);
+            V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_chunk, part);
+        }
+        let first = chunk * CHUNK;
+        let places = &group.places[first..group.places.len().min(first + CHUNK)];
+        match &mut sink {
+            Target::Apart(slots) => {
+                for (slots, forces) in slots[8 * first..].chunks_exact_mut(8).zip(&corner_forces[..places.len()]) {
+                    slots.copy_from_slice(forces);
+                }
+            }
+            Target::Nodes(merge) => merge.chunk(places, connectivity, &corner_forces),
+        }
+    }
+    if let Target::Nodes(merge) = &mut sink {
+        merge.border_before(u32::MAX);
+    }
+    summarise(group, &smallest, &smallest_chunk, &failed_chunk)
+}
+
+/// Positions and velocities of the corners, relative to the first corner so that neither a far origin nor a fast
+/// flight costs digits.
+#[inline(always)]
+#[allow(clippy::type_complexity)]
+fn relative_corners<V: Lanes>(
+    nodes: &[Row],
+    connectivity: &[[u32; CHUNK]; 8],
+    part: usize,
+) -> ([[V; 8]; 3], [[V; 8]; 3]) {
+    let first = V::gather(nodes, &connectivity[0], part);
+    let zero = V::splat(0.0);
+    let (mut x, mut v) = ([[zero; 8]; 3], [[zero; 8]; 3]);
+    for corner in 1..8 {
+        let row = V::gather(nodes, &connectivity[corner], part);
+        for i in 0..3 {
+            x[i][corner] = row[i] - first[i];
+            v[i][corner] = row[4 + i] - first[4 + i];
+        }
+    }
+    (x, v)
+}
+
+fn summarise(group: &Group, smallest: &Row, smallest_chunk: &Row, failed_chunk: &Row) -> PassOutcome {
+    (0..CHUNK).fold(PassOutcome::NOTHING, |outcome, lane| {
+        // Lanes that fill up the last chunk repeat its last element.
+        let place = |chunk: f64| {
+            chunk.is_finite().then(|| group.places[(chunk as usize * CHUNK + lane).min(group.places.len() - 1)])
+        };
+        outcome.and(PassOutcome {
+            stable_step: smallest.0[lane],
+            controlling: place(smallest_chunk.0[lane]),
+            failed: place(failed_chunk.0[lane]),
+        })
+    })
+}

@@ -1,0 +1,313 @@
+//! The explicit method: central differences with velocities at mid-step, a lumped mass and a step that changes.
+//!
+//! One step, from state n to state n + 1, is [`Solver::prepare`], which finds forces and the step size at state n,
+//! then whatever wants to look at state n, then [`Solver::advance`]. The solver knows no deck words and no files.
+
+mod body;
+mod clock;
+mod constraints;
+mod domain;
+pub mod elements;
+mod exchange;
+mod function;
+mod health;
+mod loads;
+pub mod nodes;
+mod rigid_surface;
+mod stop;
+mod totals;
+
+pub use body::{Body, Cut, centroid};
+pub use clock::{Clock, Section};
+pub use domain::{Domain, state_names};
+pub use stop::{ElementPlace, Stop};
+pub use totals::Totals;
+
+use crate::comm::Communicator;
+use crate::lanes::{Force, InstructionSet};
+use crate::mesh::Mesh;
+use crate::model::{Function, Model, RigidSurface, TimeStepControl};
+use crate::partition::Share;
+use constraints::StepTimes;
+use elements::{PassOutcome, PassSettings, Sink};
+
+/// One rank's solver.
+pub struct Solver {
+    /// This rank's part of the problem.
+    pub domain: Domain,
+    /// Where the time went.
+    pub clock: Clock,
+    /// Number of steps taken.
+    pub step: u64,
+    /// Time of the present state.
+    pub time: f64,
+    /// Step that leads from the present state to the next.
+    pub time_step: f64,
+    /// Largest stable step of the present state.
+    pub stable_step: f64,
+    /// Kinetic energy at the start.
+    pub initial_energy: f64,
+    /// Energies and momenta when they were last summed, and the step at which that was.
+    last_totals: Option<(u64, Totals)>,
+    kick: f64,
+    first_stable_step: Option<f64>,
+    supplied_peak: f64,
+    energy_floor: f64,
+    local: PassOutcome,
+    control: TimeStepControl,
+    pass: PassSettings,
+    functions: Vec<Function>,
+    planes: Vec<RigidSurface>,
+}
+
+/// Something that all ranks agree on at every step; the largest request of any rank wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Request {
+    /// Go on.
+    Continue,
+    /// Write a last state and leave: a shutdown file was found.
+    Shutdown,
+    /// Write a last state and leave: SIGINT.
+    Interrupt,
+    /// Write a last state and leave: SIGTERM.
+    Terminate,
+}
+
+impl Request {
+    fn from_number(n: f64) -> Request {
+        match n as u8 {
+            0 => Request::Continue,
+            1 => Request::Shutdown,
+            2 => Request::Interrupt,
+            _ => Request::Terminate,
+        }
+    }
+}
+
+impl Solver {
+    /// One rank's share of the problem in its initial state.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Solver {
+        let domain = Domain::new(mesh, model, body, share);
+        let initial_energy = totals::initial_kinetic_energy(&domain, comm);
+        Solver {
+            energy_floor: health::energy_floor(body, model),
+            domain,
+            clock: Clock::default(),
+            step: 0,
+            time: 0.0,
+            time_step: 0.0,
+            stable_step: 0.0,
+            initial_energy,
+            last_totals: None,
+            kick: 0.0,
+            first_stable_step: None,
+            supplied_peak: initial_energy,
+            local: PassOutcome::NOTHING,
+            control: model.time_step,
+            pass: PassSettings {
+                time_step: 0.0,
+                bulk_viscosity: model.bulk_viscosity,
+                moduli: model.time_step.moduli,
+                instructions: InstructionSet::detect(),
+            },
+            functions: model.functions.clone(),
+            planes: model.rigid_surfaces.clone(),
+        }
+    }
+
+    /// Chooses the instruction set of the element kernels; results do not depend on it. The processor must have it:
+    /// a wider one than [`InstructionSet::detect`] finds is ignored.
+    pub fn use_instructions(&mut self, instructions: InstructionSet) {
+        if instructions <= InstructionSet::widest() {
+            self.pass.instructions = instructions;
+        }
+    }
+
+    /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
+    /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
+    pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
+        self.internal_forces(comm);
+        let agreed = match self.agree(request, comm) {
+            Ok(agreed) => agreed,
+            Err(stop) => {
+                // The forces of a failed element are no numbers; the state is shown as it was reached, without them.
+                self.domain.nodes.forces.fill(Force::default());
+                self.domain.forget_reactions();
+                return Err(stop);
+            }
+        };
+        self.external_forces();
+        if self.step == 0 {
+            // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
+            self.last_totals = Some((0, totals::totals(&self.domain, 0.0, comm)));
+        }
+        self.book_work();
+        if health::check_due(self.step) {
+            self.check_energy(comm)?;
+        }
+        Ok(agreed)
+    }
+
+    /// Takes the prepared step.
+    pub fn advance(&mut self) {
+        self.clock.start();
+        self.domain.nodes.integrate(self.kick, self.time_step);
+        self.clock.stop(Section::Integration);
+        self.book_work();
+        self.time += self.time_step;
+        self.step += 1;
+    }
+
+    /// Energies and momenta of the present, prepared state.
+    pub fn totals(&mut self, comm: &mut dyn Communicator) -> Totals {
+        match self.last_totals {
+            Some((step, totals)) if step == self.step => totals,
+            _ => {
+                let totals = totals::totals(&self.domain, self.kick, comm);
+                self.last_totals = Some((self.step, totals));
+                totals
+            }
+        }
+    }
+
+    /// Velocity of a local node at the time of the present state: the mean of those half a step before and after.
+    pub fn velocity_now(&self, node: u32) -> [f64; 3] {
+        let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
+        let behind = if self.step == 0 { 0.0 } else { 0.5 * self.kick };
+        nodes::add(v, nodes::scaled(a, behind))
+    }
+
+    /// Forces of constraints, prescribed motions and rigid surfaces now, one per local node.
+    pub fn reactions(&self) -> Vec<[f64; 3]> {
+        let mut reactions = vec![[0.0; 3]; self.domain.nodes.len()];
+        for constraint in &self.domain.constraints {
+            reactions[constraint.node as usize][constraint.axis] += constraint.reaction;
+        }
+        for plane in &self.domain.plane_nodes {
+            let sum = &mut reactions[plane.node as usize];
+            *sum = nodes::add(*sum, nodes::add(plane.normal_force, plane.friction_force));
+        }
+        reactions
+    }
+
+    /// Stress, viscosity and hourglass forces of all elements and the pressures on their faces, summed at the nodes
+    /// in canonical order. What other ranks wait for is computed and sent first.
+    fn internal_forces(&mut self, comm: &mut dyn Communicator) {
+        self.pass.time_step = self.time_step;
+        let mut found = PassOutcome::NOTHING;
+        self.clock.start();
+        found = found.and(self.border_elements());
+        self.clock.stop(Section::Elements);
+        self.loaded_faces();
+        self.domain.exchange.start(comm);
+        self.clock.stop(Section::Communication);
+        found = found.and(self.interior_elements());
+        self.clock.stop(Section::Elements);
+        self.add_faces();
+        self.clock.stop(Section::Assembly);
+        self.domain.exchange.finish(comm, &mut self.domain.nodes.forces);
+        self.clock.stop(Section::Communication);
+        self.local = found;
+    }
+
+    fn border_elements(&mut self) -> PassOutcome {
+        let mut found = PassOutcome::NOTHING;
+        let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
+        let mut slots = &mut exchange.slots[..];
+        for block in blocks {
+            let (own, rest) = slots.split_at_mut(8 * block.border.len());
+            found = found.and(elements::run(block, &nodes.rows, Sink::Apart(own), &self.pass));
+            slots = rest;
+        }
+        found
+    }
+
+    fn interior_elements(&mut self) -> PassOutcome {
+        let mut found = PassOutcome::NOTHING;
+        let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
+        let mut slots = &exchange.slots[..];
+        for block in blocks {
+            let (border, rest) = slots.split_at(8 * block.border.len());
+            let sink = Sink::Nodes { forces: &mut nodes.forces, border };
+            found = found.and(elements::run(block, &nodes.rows, sink, &self.pass));
+            slots = rest;
+        }
+        found
+    }
+
+    fn loaded_faces(&mut self) {
+        let Domain { pressure_faces, nodes, exchange, .. } = &mut self.domain;
+        let slots = exchange.slots[8 * exchange.border_elements..].chunks_exact_mut(4);
+        for (face, slots) in pressure_faces.iter_mut().zip(slots) {
+            face.evaluate(nodes, &self.functions, self.time);
+            slots.copy_from_slice(&face.slots());
+        }
+    }
+
+    fn add_faces(&mut self) {
+        let Domain { pressure_faces, nodes, .. } = &mut self.domain;
+        for face in pressure_faces.iter() {
+            for (&node, force) in face.nodes.iter().zip(face.force) {
+                for (sum, f) in nodes.forces[node as usize].0.iter_mut().zip(force) {
+                    *sum += f;
+                }
+            }
+        }
+    }
+
+    /// The step that all ranks take, the wish that all ranks follow, and whether any element has failed.
+    fn agree(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
+        let failed = self.local.failed.map_or(f64::INFINITY, |place| self.canonical(place));
+        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8)];
+        self.clock.start();
+        comm.all_min(&mut votes);
+        self.clock.stop(Section::Communication);
+        let [stable_step, failed, wish] = votes;
+        self.stable_step = stable_step;
+        if failed.is_finite() {
+            let place = self.locate(failed, comm);
+            // Positions may be sound while velocities are not; a volume that is not finite says nothing of inversion.
+            let inverted = place.volume.is_finite() && place.centre.iter().all(|x| x.is_finite());
+            return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
+        }
+        self.check_step(comm)?;
+        let last = self.time_step;
+        let wanted = self.control.scale * stable_step;
+        self.time_step = if self.step == 0 { wanted } else { wanted.min(self.control.growth * last) };
+        self.kick = 0.5 * (if self.step == 0 { 0.0 } else { last } + self.time_step);
+        Ok(Request::from_number(-wish))
+    }
+
+    /// Forces from outside, from constraints, and from planes on what the constraints leave free.
+    fn external_forces(&mut self) {
+        self.clock.start();
+        let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
+        let Domain { nodes, node_forces, gravity, plane_nodes, constraints, .. } = &mut self.domain;
+        gravity.apply(nodes, &self.functions, self.time);
+        for load in node_forces {
+            load.apply(nodes, &self.functions, self.time);
+        }
+        self.clock.stop(Section::Assembly);
+        for constraint in constraints {
+            constraint.apply(nodes, &self.functions, &step);
+        }
+        self.clock.stop(Section::Integration);
+        for node in plane_nodes {
+            node.apply(nodes, &self.planes[node.surface], &step);
+        }
+        self.clock.stop(Section::Contact);
+    }
+
+    /// Books half the step's work of everything that acts from outside, with the velocities as they stand.
+    fn book_work(&mut self) {
+        self.clock.start();
+        let half_step = 0.5 * self.kick;
+        let Domain { nodes, node_forces, gravity, plane_nodes, constraints, pressure_faces, .. } = &mut self.domain;
+        gravity.book(nodes, half_step);
+        pressure_faces.iter_mut().for_each(|face| face.book(nodes, half_step));
+        node_forces.iter_mut().for_each(|load| load.book(nodes, half_step));
+        plane_nodes.iter_mut().for_each(|node| node.book(nodes, half_step));
+        constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
+        self.clock.stop(Section::Integration);
+    }
+}

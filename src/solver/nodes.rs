@@ -1,0 +1,96 @@
+//! Nodes of one rank: position and velocity side by side in one cache line, and the force sums.
+
+use crate::lanes::{Force, Row};
+
+/// The nodes that a rank's elements use.
+#[derive(Default)]
+pub struct Nodes {
+    /// `[x, y, z, m, vx, vy, vz, 1/m]` per node.
+    pub rows: Vec<Row>,
+    /// Force sums; zero between steps.
+    pub forces: Vec<Force>,
+    /// Initial positions.
+    pub initial: Vec<[f64; 3]>,
+    /// Node of the mesh file.
+    pub file: Vec<u32>,
+    /// Whether this rank answers for the node: one rank does, of those that share it.
+    pub owned: Vec<bool>,
+}
+
+/// a · b
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// s a
+pub fn scaled(a: [f64; 3], s: f64) -> [f64; 3] {
+    a.map(|c| c * s)
+}
+
+/// a + b
+pub fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// a − b
+pub fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a × b
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+impl Nodes {
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Position of a local node.
+    pub fn position(&self, node: u32) -> [f64; 3] {
+        let r = &self.rows[node as usize].0;
+        [r[0], r[1], r[2]]
+    }
+
+    /// Mass of a local node.
+    pub fn mass(&self, node: u32) -> f64 {
+        self.rows[node as usize].0[3]
+    }
+
+    /// Velocity of a local node.
+    pub fn velocity(&self, node: u32) -> [f64; 3] {
+        let r = &self.rows[node as usize].0;
+        [r[4], r[5], r[6]]
+    }
+
+    /// Force sum of a local node.
+    pub fn force(&self, node: u32) -> [f64; 3] {
+        let f = &self.forces[node as usize].0;
+        [f[0], f[1], f[2]]
+    }
+
+    /// Acceleration f/m of a local node.
+    pub fn acceleration(&self, node: u32) -> [f64; 3] {
+        scaled(self.force(node), self.rows[node as usize].0[7])
+    }
+
+    /// v ← v + Δt̄ f/m, x ← x + Δt v, f ← 0 (central differences with a changing step).
+    pub fn integrate(&mut self, kick: f64, drift: f64) {
+        for (row, force) in self.rows.iter_mut().zip(&mut self.forces) {
+            let r = &mut row.0;
+            for i in 0..3 {
+                let velocity = r[4 + i] + kick * (force.0[i] * r[7]);
+                r[4 + i] = velocity;
+                r[i] += drift * velocity;
+            }
+            *force = Force::default();
+        }
+    }
+}

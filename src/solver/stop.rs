@@ -1,0 +1,77 @@
+//! Why a run ends before its time, in words that help.
+
+/// A run that cannot go on. The state it stopped in has been reached on every rank and can be written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Stop {
+    /// An element was turned inside out.
+    #[error("element {} of block {} has no positive volume any more: it is inverted, at ({:.6e}, {:.6e}, {:.6e})", .0.element, .0.block, .0.centre[0], .0.centre[1], .0.centre[2])]
+    Inverted(ElementPlace),
+    /// Numbers of an element are no longer finite.
+    #[error("the motion of element {} of block {} is no longer a number, at ({:.6e}, {:.6e}, {:.6e})", .0.element, .0.block, .0.centre[0], .0.centre[1], .0.centre[2])]
+    NotFinite(ElementPlace),
+    /// The stable step has become hopelessly small.
+    #[error("the stable time step has collapsed to {step:.6e}, {ratio:.1e} of its first value; element {} of block {} controls it, at ({:.6e}, {:.6e}, {:.6e})", .place.element, .place.block, .place.centre[0], .place.centre[1], .place.centre[2])]
+    TimeStep {
+        /// Stable step now.
+        step: f64,
+        /// Stable step over the first one.
+        ratio: f64,
+        /// Element that controls it.
+        place: ElementPlace,
+    },
+    /// Kinetic or internal energy has outgrown all that was put in.
+    #[error(
+        "energy is running away: kinetic {kinetic:.6e} and internal {internal:.6e} against {supplied:.6e} supplied"
+    )]
+    Energy {
+        /// Kinetic energy.
+        kinetic: f64,
+        /// Internal energy with hourglass energy.
+        internal: f64,
+        /// Initial energy and external work.
+        supplied: f64,
+    },
+    /// The energy balance does not close by far.
+    #[error("the energy balance is off by {:.0} % of the largest account", 100.0 * .error)]
+    Balance {
+        /// Energy accounted for minus energy supplied, over the largest account.
+        error: f64,
+    },
+}
+
+/// An element as the analyst knows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElementPlace {
+    /// Element number.
+    pub element: i64,
+    /// Block number.
+    pub block: i64,
+    /// Mean of its corners.
+    pub centre: [f64; 3],
+    /// Its volume.
+    pub volume: f64,
+}
+
+impl Stop {
+    /// What the analyst can try.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Stop::NotFinite(_) => {
+                "a load or a prescribed motion of absurd size is the usual cause, or an unstable step: see whether TIME \
+                 STEP SCALE is above 1, and what the last plot state shows there"
+            }
+            Stop::Inverted(_) => {
+                "look at the last plot state around it; try a finer or better shaped mesh there, more hourglass \
+                 stiffness, or a smaller TIME STEP SCALE"
+            }
+            Stop::TimeStep { .. } => {
+                "the element is nearly flat: look at the last plot state around it; a coarser mesh there, or a law \
+                 that stiffens less, keeps the step"
+            }
+            Stop::Energy { .. } | Stop::Balance { .. } => {
+                "the integration is unstable: TIME STEP SCALE above 1, strong hourglass viscosity, or loads that \
+                 change within one step are the usual causes"
+            }
+        }
+    }
+}

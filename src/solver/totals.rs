@@ -1,0 +1,139 @@
+//! Energies and momenta of the whole body, and their balance.
+//!
+//! kinetic + internal + hourglass + bulk viscosity + friction + eroded = initial + external work + contact work.
+//! Kinetic energy is ½ m v⁻·v⁺ of the velocities half a step before and after the state: with it central
+//! differences balance exactly for constant steps. Work is booked in the same manner.
+
+use super::domain::Domain;
+use super::elements::hex8::rows;
+use crate::comm::{Communicator, ExactSum};
+
+/// Sums over the whole body at one state. The same bits on every rank and any number of ranks.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Internal energy.
+    pub internal: f64,
+    /// Hourglass energy.
+    pub hourglass: f64,
+    /// Energy dissipated by bulk viscosity.
+    pub bulk_viscosity: f64,
+    /// Energy dissipated by friction.
+    pub friction: f64,
+    /// Energy of eroded elements.
+    pub eroded: f64,
+    /// Work of loads and prescribed motions.
+    pub external: f64,
+    /// Work of normal contact forces: rigid surfaces stop nodal masses dead, which takes energy out.
+    pub contact: f64,
+    /// Linear momentum.
+    pub momentum: [f64; 3],
+}
+
+impl Totals {
+    /// Number of sums.
+    const COUNT: usize = 10;
+
+    fn from_array(s: [f64; Self::COUNT]) -> Totals {
+        Totals {
+            kinetic: s[0],
+            internal: s[1],
+            hourglass: s[2],
+            bulk_viscosity: s[3],
+            friction: s[4],
+            external: s[5],
+            contact: s[6],
+            momentum: [s[7], s[8], s[9]],
+            eroded: 0.0,
+        }
+    }
+
+    /// Energy accounted for minus energy supplied.
+    pub fn imbalance(&self, initial: f64) -> f64 {
+        let stored = self.kinetic + self.internal + self.hourglass + self.bulk_viscosity;
+        (stored + self.friction + self.eroded) - (initial + self.external + self.contact)
+    }
+
+    /// The largest account.
+    pub fn scale(&self, initial: f64) -> f64 {
+        [self.kinetic, self.internal, initial, self.external, self.contact].iter().fold(0.0, |m, e| e.abs().max(m))
+    }
+
+    /// Imbalance over the largest account; 0 when nothing has happened yet.
+    pub fn relative_error(&self, initial: f64) -> f64 {
+        let scale = self.scale(initial);
+        if scale > 0.0 { self.imbalance(initial) / scale } else { 0.0 }
+    }
+}
+
+/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied.
+pub fn totals(domain: &Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
+    let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
+    add_nodes(domain, kick, &mut sums);
+    add_elements(domain, &mut sums);
+    add_work(domain, &mut sums);
+    ExactSum::merge_ranks(&mut sums, comm);
+    Totals::from_array(sums.map(|sum| sum.value()))
+}
+
+fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
+    let nodes = &domain.nodes;
+    for ((row, force), owned) in nodes.rows.iter().zip(&nodes.forces).zip(&nodes.owned) {
+        if !owned {
+            continue;
+        }
+        let r = &row.0;
+        let mut product = 0.0;
+        for i in 0..3 {
+            let (before, after) = (r[4 + i], r[4 + i] + kick * (force.0[i] * r[7]));
+            product += before * after;
+            sums[7 + i].add(0.5 * r[3] * (before + after));
+        }
+        sums[0].add(0.5 * r[3] * product);
+    }
+}
+
+fn add_elements(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+    for group in domain.blocks.iter().flat_map(|block| block.groups()) {
+        for i in 0..group.len() {
+            sums[1].add(group.value(i, rows::INTERNAL_ENERGY));
+            sums[2].add(group.value(i, rows::HOURGLASS_ENERGY));
+            sums[3].add(group.value(i, rows::VISCOUS_ENERGY));
+        }
+    }
+}
+
+fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+    let owned = |node: u32| domain.nodes.owned[node as usize];
+    for face in &domain.pressure_faces {
+        sums[5].add(face.work);
+    }
+    for load in domain.node_forces.iter().filter(|load| owned(load.node)) {
+        sums[5].add(load.work);
+    }
+    for constraint in domain.constraints.iter().filter(|constraint| owned(constraint.node)) {
+        sums[5].add(constraint.work);
+    }
+    for (work, owned) in domain.gravity.work.iter().zip(&domain.nodes.owned) {
+        if *owned {
+            sums[5].add(*work);
+        }
+    }
+    for node in domain.plane_nodes.iter().filter(|node| owned(node.node)) {
+        sums[6].add(node.normal_work);
+        sums[4].add(-node.friction_work);
+    }
+}
+
+/// Kinetic energy ½ m v² of the velocities as they stand, before the first step.
+pub fn initial_kinetic_energy(domain: &Domain, comm: &mut dyn Communicator) -> f64 {
+    let mut sum = [ExactSum::new()];
+    let nodes = &domain.nodes;
+    for (row, _) in nodes.rows.iter().zip(&nodes.owned).filter(|(_, owned)| **owned) {
+        let r = &row.0;
+        sum[0].add(0.5 * r[3] * (r[4] * r[4] + r[5] * r[5] + r[6] * r[6]));
+    }
+    ExactSum::merge_ranks(&mut sum, comm);
+    sum[0].value()
+}

@@ -1,0 +1,217 @@
+//! Pictures of results: the deformed outer surface of the body, coloured by a variable, as a PNG; many states as
+//! numbered PNGs or one moving GIF.
+//!
+//! Data flows one way: a results file and [`ViewOptions`] become a `scene` (`subject`, `skin`, `field`); a
+//! `camera` and a `raster` turn it into pixels; `annotate` writes around it what it shows.
+
+mod annotate;
+mod camera;
+mod colour;
+mod error;
+mod field;
+mod film;
+mod lines;
+mod numbers;
+mod options;
+mod palette;
+mod raster;
+mod scene;
+mod skin;
+mod subject;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+pub use error::ViewError;
+pub use film::draw_many;
+pub use options::{Direction, StateChoice, ViewOptions};
+
+use annotate::{Key, Layout, Notes, annotate};
+use camera::{Axes, Bounds, Camera};
+use colour::ColourMap;
+use field::Place;
+use lines::Pen;
+use raster::Paint;
+use scene::{Scene, Values};
+use subject::{Shot, Subject};
+use tiny_skia::{Color, Pixmap};
+
+/// What a picture shows, for the line that is printed about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// The picture.
+    pub path: PathBuf,
+    /// The variable as it is called in the picture; `None` if blocks are shown.
+    pub variable: Option<String>,
+    /// The state drawn, counted from 1; `None` if it is the mesh alone.
+    pub state: Option<usize>,
+    /// Its time.
+    pub time: Option<f64>,
+    /// Smallest and largest value on the surface, in the variable's unit.
+    pub extremes: Option<(f64, f64)>,
+    /// Number of element faces drawn, reflections included.
+    pub faces: usize,
+    /// Number of faces that could not be drawn because their coordinates are not finite.
+    pub dropped: usize,
+}
+
+/// Draws one state of a results file into a PNG.
+///
+/// # Errors
+/// [`ViewError`], when the file cannot be read, lacks the variable, state or block asked for, an option cannot be
+/// used, or the picture cannot be written.
+pub fn draw(results: &Path, picture: &Path, options: &ViewOptions) -> Result<Summary, ViewError> {
+    options.check()?;
+    let subject = Subject::open(results, options)?;
+    let state = subject.state(options.state)?;
+    let shot = subject.shot(state)?;
+    let axes = Axes::new(options.from);
+    let studio = Studio::new(&subject, options, bounds(&shot.scene, &axes), shot.scene.extremes());
+    let image = studio.picture(&shot, state)?;
+    write(picture, &png(&image, picture)?)?;
+    Ok(studio.summary(picture, &shot, state))
+}
+
+/// Everything that the pictures of a film have in common.
+struct Studio<'a> {
+    subject: &'a Subject<'a>,
+    options: &'a ViewOptions,
+    layout: Layout,
+    camera: Camera,
+    map: ColourMap,
+    range: (f64, f64),
+}
+
+impl<'a> Studio<'a> {
+    fn new(subject: &'a Subject, options: &'a ViewOptions, bounds: Bounds, extremes: Option<(f64, f64)>) -> Self {
+        let layout = Layout::new(options.size);
+        let camera = Camera::fit(Axes::new(options.from), bounds, layout.body());
+        let range = options.range.unwrap_or_else(|| spread(extremes.unwrap_or((0.0, 0.0))));
+        Studio { subject, options, layout, camera, map: ColourMap::new(), range }
+    }
+
+    fn picture(&self, shot: &Shot, state: Option<usize>) -> Result<Pixmap, ViewError> {
+        let (width, height) = self.options.size;
+        let too_large = || ViewError::option("size", format!("{width}x{height}"), "a picture that fits into memory");
+        let mut picture = Pixmap::new(width, height).ok_or_else(too_large)?;
+        picture.fill(Color::WHITE);
+        let paint = Paint {
+            camera: &self.camera,
+            map: &self.map,
+            range: self.range,
+            pen: Pen { mesh: self.options.edges, scale: self.layout.unit().max(0.7) },
+        };
+        raster::paint(&mut picture, &shot.scene, &paint);
+        annotate(&mut picture, &self.layout, &self.notes(shot, state), self.camera.axes(), &self.map);
+        Ok(picture)
+    }
+
+    fn notes(&self, shot: &Shot, state: Option<usize>) -> Notes {
+        let subject = self.subject;
+        let field = subject.field.as_ref();
+        let place = |place| if place == Place::Nodes { "at nodes" } else { "in elements" };
+        let mut said: Vec<String> = field.iter().map(|f| format!("{} {}", f.label, place(f.place))).collect();
+        said.push(match state {
+            Some(state) => format!("time {}", numbers::number(subject.times()[state])),
+            None => "mesh before the run".to_owned(),
+        });
+        said.extend(state.map(|state| format!("state {} of {}", state + 1, subject.times().len())));
+        let key = match field {
+            Some(field) => {
+                let (label, extremes) = (field.label.clone(), shot.scene.extremes());
+                Key::Bar { label, range: self.range, extremes, gaps: has_gaps(&shot.scene) }
+            }
+            None => Key::Blocks(subject.blocks()),
+        };
+        let title = if subject.title().is_empty() { file_name(subject.path()) } else { subject.title().to_owned() };
+        let origin = format!("urto {} · {}", env!("CARGO_PKG_VERSION"), file_name(subject.path()));
+        Notes { title, subtitle: said.join("  ·  "), remarks: self.remarks(shot, state), origin, key }
+    }
+
+    /// What the picture does to the body, so that nobody takes it for the body itself.
+    fn remarks(&self, shot: &Shot, state: Option<usize>) -> String {
+        let options = self.options;
+        let mut remarks = Vec::new();
+        if options.magnify != 1.0 && state.is_some() {
+            remarks.push(format!("displacements × {}", options.magnify));
+        }
+        let planes: Vec<&str> =
+            ["x", "y", "z"].into_iter().zip(options.mirror).filter_map(|(a, on)| on.then_some(a)).collect();
+        if !planes.is_empty() {
+            remarks.push(format!("mirrored in {} = 0", planes.join(" = 0, ")));
+        }
+        if !options.blocks.is_empty() {
+            let ids: Vec<String> = options.blocks.iter().map(i64::to_string).collect();
+            remarks.push(format!("block {} only", ids.join(", ")));
+        }
+        if shot.dropped > 0 {
+            remarks.push(format!("{} faces without finite coordinates are not drawn", shot.dropped));
+        }
+        remarks.join("  ·  ")
+    }
+
+    fn summary(&self, path: &Path, shot: &Shot, state: Option<usize>) -> Summary {
+        Summary {
+            path: path.to_owned(),
+            variable: self.subject.field.as_ref().map(|field| field.label.clone()),
+            state: state.map(|state| state + 1),
+            time: state.map(|state| self.subject.times()[state]),
+            extremes: shot.scene.extremes(),
+            faces: shot.scene.quads.len(),
+            dropped: shot.dropped,
+        }
+    }
+}
+
+/// The box around a scene as the eye sees it.
+fn bounds(scene: &Scene, axes: &Axes) -> Bounds {
+    let mut bounds = Bounds::EMPTY;
+    for node in scene.drawn_nodes() {
+        bounds.include(axes.turn(scene.positions[node]));
+    }
+    bounds
+}
+
+/// A range for a colour bar: the extremes, opened a little if the value is the same everywhere.
+fn spread((low, high): (f64, f64)) -> (f64, f64) {
+    // Differences below this are rounding errors of single-precision files, not a field.
+    let least = 1e-6 * low.abs().max(high.abs());
+    match high - low {
+        difference if difference > least => (low, high),
+        _ if low == 0.0 && high == 0.0 => (-1.0, 1.0),
+        _ => (low - 0.5 * low.abs(), high + 0.5 * high.abs()),
+    }
+}
+
+fn has_gaps(scene: &Scene) -> bool {
+    match &scene.values {
+        Values::Nodes(values) => scene.drawn_nodes().any(|node| !values[node].is_finite()),
+        Values::Faces(values) => values.iter().any(|value| !value.is_finite()),
+        Values::Blocks(_) => false,
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn png(picture: &Pixmap, path: &Path) -> Result<Vec<u8>, ViewError> {
+    picture.encode_png().map_err(|error| ViewError::Write { path: path.to_owned(), reason: error.to_string() })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), ViewError> {
+    std::fs::write(path, bytes).map_err(|error| ViewError::Write { path: path.to_owned(), reason: error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_uniform_field_still_has_a_bar() {
+        assert_eq!(spread((1.0, 3.0)), (1.0, 3.0));
+        assert_eq!(spread((0.0, 0.0)), (-1.0, 1.0));
+        assert_eq!(spread((4.0, 4.0)), (2.0, 6.0));
+        assert_eq!(spread((-4.0, -4.0)), (-6.0, -2.0));
+    }
+}

@@ -1,0 +1,221 @@
+//! What a picture shows, free of files and mechanics: faces in space and what colours them.
+
+/// Coordinates beyond this are the wreck of a calculation; faces that reach there are not drawn.
+const FARTHEST: f64 = 1e100;
+/// Nodes this near a mirror plane, relative to the size of the body, lie in it.
+const IN_PLANE: f64 = 1e-6;
+/// Cosine of the angle between the normals of two faces above which their edge is a crease of the body (35 degrees).
+const CREASE: f64 = 0.82;
+
+/// Faces in space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Node positions.
+    pub positions: Vec<[f64; 3]>,
+    /// Four nodes per face, counter-clockwise seen from outside; a triangle has a node twice.
+    pub quads: Vec<[u32; 4]>,
+    /// What colours the faces.
+    pub values: Values,
+}
+
+/// What colours the faces of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// A value per node.
+    Nodes(Vec<f64>),
+    /// A value per face.
+    Faces(Vec<f64>),
+    /// A block per face: no value, but a colour of its own.
+    Blocks(Vec<usize>),
+}
+
+/// How an edge of a face is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Edge {
+    /// Between elements that continue each other.
+    Mesh,
+    /// Where the surface turns away from the eye.
+    Silhouette,
+    /// Where the surface ends or bends.
+    Outline,
+    /// The two corners are one.
+    None,
+}
+
+impl Scene {
+    /// Takes out the faces that have no place in space and says how many they were.
+    pub fn drop_unusable_faces(&mut self) -> usize {
+        let usable = |node: &u32| self.positions[*node as usize].iter().all(|x| x.abs() < FARTHEST);
+        let keep: Vec<bool> = self.quads.iter().map(|quad| quad.iter().all(usable)).collect();
+        self.retain(&keep)
+    }
+
+    /// Keeps the faces marked and says how many the others were.
+    fn retain(&mut self, keep: &[bool]) -> usize {
+        fn pick<T: Copy>(list: &mut Vec<T>, keep: &[bool]) {
+            *list = list.iter().zip(keep).filter(|(_, keep)| **keep).map(|(item, _)| *item).collect();
+        }
+        pick(&mut self.quads, keep);
+        match &mut self.values {
+            Values::Faces(values) => pick(values, keep),
+            Values::Blocks(blocks) => pick(blocks, keep),
+            Values::Nodes(_) => {}
+        }
+        keep.iter().filter(|keep| !**keep).count()
+    }
+
+    /// Adds the scene's reflection in the plane through the origin across `axis`.
+    ///
+    /// Nodes in the plane are shared, so that no seam is seen, and faces in it vanish: they are inside now. The
+    /// reflected values are negated if a reflection changes their sign (`odd`).
+    pub fn mirror(&mut self, axis: usize, odd: bool) {
+        let size = self.drawn_nodes().map(|node| self.positions[node][axis].abs()).fold(0.0, f64::max);
+        let in_plane = |position: &[f64; 3]| position[axis].abs() <= IN_PLANE * size;
+        let inside = |quad: &[u32; 4]| quad.iter().all(|&node| in_plane(&self.positions[node as usize]));
+        let keep: Vec<bool> = self.quads.iter().map(|quad| !inside(quad)).collect();
+        let mut twin = Vec::with_capacity(self.positions.len());
+        let mut reflected = self.positions.clone();
+        let mut sources = Vec::new();
+        for (node, position) in self.positions.iter().enumerate() {
+            twin.push(if in_plane(position) { node } else { reflected.len() } as u32);
+            if !in_plane(position) {
+                let mut image = *position;
+                image[axis] = -image[axis];
+                reflected.push(image);
+                sources.push(node);
+            }
+        }
+        self.retain(&keep);
+        self.positions = reflected;
+        self.append_images(&twin, &sources, if odd { -1.0 } else { 1.0 });
+    }
+
+    /// Appends every face's image: nodes replaced by their twins, turned round so that outside stays outside.
+    fn append_images(&mut self, twin: &[u32], sources: &[usize], sign: f64) {
+        let images: Vec<[u32; 4]> =
+            self.quads.iter().map(|&[a, b, c, d]| [d, c, b, a].map(|n| twin[n as usize])).collect();
+        self.quads.extend(images);
+        match &mut self.values {
+            Values::Nodes(values) => {
+                let images: Vec<f64> = sources.iter().map(|&node| sign * values[node]).collect();
+                values.extend(images);
+            }
+            Values::Faces(values) => {
+                let images: Vec<f64> = values.iter().map(|value| sign * value).collect();
+                values.extend(images);
+            }
+            Values::Blocks(blocks) => blocks.extend_from_within(..),
+        }
+    }
+
+    /// Every corner of every face; nodes come as often as faces meet there.
+    pub fn drawn_nodes(&self) -> impl Iterator<Item = usize> {
+        self.quads.iter().flatten().map(|&node| node as usize)
+    }
+
+    /// The smallest and the largest finite value on the surface; `None` if there is none, or blocks are shown.
+    pub fn extremes(&self) -> Option<(f64, f64)> {
+        let spread = |values: &mut dyn Iterator<Item = f64>| {
+            let finite = values.filter(|value| value.is_finite());
+            finite.fold(None, |range: Option<(f64, f64)>, v| {
+                range.map_or(Some((v, v)), |(a, b)| Some((a.min(v), b.max(v))))
+            })
+        };
+        match &self.values {
+            Values::Nodes(values) => spread(&mut self.drawn_nodes().map(|node| values[node])),
+            Values::Faces(values) => spread(&mut values.iter().copied()),
+            Values::Blocks(_) => None,
+        }
+    }
+
+    /// The unit normal of a face, from its diagonals; zero if it has no area.
+    pub fn normal(&self, quad: &[u32; 4]) -> [f64; 3] {
+        let [a, b, c, d] = quad.map(|node| self.positions[node as usize]);
+        let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+        let (u, v) = (minus(c, a), minus(d, b));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let length = dot(n, n).sqrt();
+        if length > 0.0 { n.map(|x| x / length) } else { n }
+    }
+
+    /// How the four edges of each face are drawn; edge `i` goes from corner `i` to the next.
+    pub fn edges(&self, toward_eye: [f64; 3]) -> Vec<[Edge; 4]> {
+        let normals: Vec<[f64; 3]> = self.quads.iter().map(|quad| self.normal(quad)).collect();
+        let mut edges = vec![[Edge::None; 4]; self.quads.len()];
+        let mut places: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(4 * self.quads.len());
+        for (face, quad) in self.quads.iter().enumerate() {
+            let sides = (0..4).map(|side| (side, quad[side], quad[(side + 1) % 4])).filter(|(_, a, b)| a != b);
+            places.extend(sides.map(|(side, a, b)| (a.min(b), a.max(b), face, side)));
+        }
+        places.sort_unstable();
+        for shared in places.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let kind = match shared {
+                [one, other] => joint(normals[one.2], normals[other.2], toward_eye),
+                _ => Edge::Outline,
+            };
+            for &(_, _, face, side) in shared {
+                edges[face][side] = kind;
+            }
+        }
+        edges
+    }
+}
+
+/// What the edge is between two faces with these normals.
+fn joint(one: [f64; 3], other: [f64; 3], toward_eye: [f64; 3]) -> Edge {
+    if dot(one, other) <= CREASE {
+        Edge::Outline
+    } else if dot(one, toward_eye) * dot(other, toward_eye) <= 0.0 {
+        Edge::Silhouette
+    } else {
+        Edge::Mesh
+    }
+}
+
+/// The scalar product.
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The three faces of a unit cube that lie in x = 0 (node values 0, 1, 2, 3), y = 0 and z = 0.
+    fn corner() -> Scene {
+        let positions = (0..8).map(|i| [f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)]).collect();
+        let quads = vec![[0, 4, 6, 2], [0, 1, 5, 4], [0, 2, 3, 1]];
+        Scene { positions, quads, values: Values::Nodes((0..8).map(f64::from).collect()) }
+    }
+
+    #[test]
+    fn a_reflection_shares_the_nodes_of_its_plane_and_drops_the_faces_there() {
+        let mut scene = corner();
+        scene.mirror(0, true);
+        assert_eq!(scene.quads.len(), 4);
+        assert_eq!(scene.positions.len(), 8 + 4);
+        // Face y = 0 turned round: nodes 4, 5', 1', 0, of which 1 and 5 are the first and third of the new ones.
+        assert_eq!(scene.quads[2], [4, 10, 8, 0]);
+        assert_eq!(scene.positions[8], [-1.0, 0.0, 0.0]);
+        assert_eq!(scene.extremes(), Some((-5.0, 5.0)));
+        let normal = scene.normal(&scene.quads[2]);
+        assert_eq!(normal, scene.normal(&scene.quads[0]));
+    }
+
+    #[test]
+    fn faces_at_right_angles_meet_in_an_outline_and_flat_ones_do_not() {
+        let mut scene = corner();
+        assert!(scene.edges([-0.6, -0.6, -0.5]).iter().flatten().all(|&edge| edge == Edge::Outline));
+        scene.mirror(0, false);
+        let edges = scene.edges([-0.1, -0.9, -0.5]);
+        assert_eq!(edges[0], [Edge::Outline, Edge::Outline, Edge::Outline, Edge::Mesh]);
+    }
+
+    #[test]
+    fn faces_that_are_not_in_space_are_dropped() {
+        let mut scene = corner();
+        scene.positions[5][1] = f64::NAN;
+        assert_eq!(scene.drop_unusable_faces(), 1);
+        assert_eq!(scene.quads, [[0, 4, 6, 2], [0, 2, 3, 1]]);
+    }
+}

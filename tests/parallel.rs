@@ -1,0 +1,186 @@
+//! The same bits on any number of ranks, over threads or MPI, with any vector instructions: every value of the plot
+//! file, and every line of the print log but the columns that time the machine.
+
+mod program;
+
+use program::{Desk, Left, URTO, project};
+use std::process::Command;
+use urto::exodus::{self, Tolerance};
+use urto::mesher;
+
+/// Numbers of thread ranks that are held against one rank.
+const RANKS: [usize; 5] = [2, 3, 5, 8, 64];
+
+/// Commands that the short run replaces.
+const TIMES: [&str; 3] = ["TERMINATION TIME", "OUTPUT TIME", "PLOT TIME"];
+
+/// Plasticity, a rigid surface with friction and a pressure, on a curved mesh.
+fn taylor_bar() -> Desk {
+    let deck = text("decks/taylor_bar_wall.i");
+    let rest = deck.lines().filter(|line| !TIMES.iter().any(|times| line.starts_with(times)) && *line != "EXIT");
+    let mut deck: String = rest.map(|line| format!("{line}\n")).collect();
+    assert!(deck.contains("0., 0., 1.\n") && deck.contains("RIGID SURFACE, 100"), "the deck is as this test knows it");
+    deck = deck.replace("0., 0., 1.\n", "0., 0., 1., 0.2\n");
+    deck += "TERMINATION TIME, 6.E-6\nOUTPUT TIME, 0.5E-6\nPLOT TIME, 1.E-6\n\
+             FUNCTION, 1\n0., 0.\n2.E-6, 1.\nEND\nPRESSURE, 200, 1, 50.E6\nEXIT\n";
+    desk(&deck, "meshes/taylor_bar_wall.mesh")
+}
+
+/// Two blocks, gravity, prescribed motions and forces: every command.
+fn commands() -> Desk {
+    desk(&text("decks/commands.i"), "meshes/commands.mesh")
+}
+
+/// An elastic cantilever that swings with both kinds of hourglass modes awake.
+fn cantilever() -> Desk {
+    let deck = "TITLE\n cantilever\nTERMINATION TIME, 2.E-4\nOUTPUT TIME, 1.E-5\nPLOT TIME, 2.E-5\n\
+                PLOT NODAL, DISPLACEMENT, VELOCITY, ACCELERATION, REACTION\nPLOT ELEMENT, STRESS, STRAIN, ENERGY\n\
+                MATERIAL, 1, ELASTIC, 7800.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n\
+                NO DISPLACEMENT, X, 3\nNO DISPLACEMENT, Y, 3\nNO DISPLACEMENT, Z, 3\n\
+                HOURGLASS CONTROL, FLANAGAN BELYTSCHKO\nHOURGLASS STIFFENING, 0.05, 0.03\n\
+                INITIAL VELOCITY MATERIAL, 1, 20., -3., 0.\nEXIT\n";
+    let desk = Desk::new();
+    desk.put("case.i", deck);
+    desk.put_mesh("case.g", &program::box_mesh([3, 4, 24], [0.03, 0.04, 0.24], false));
+    desk
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(project(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn desk(deck: &str, recipe: &str) -> Desk {
+    let desk = Desk::new();
+    desk.put("case.i", deck);
+    let mesh = mesher::make(&text(recipe), recipe, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    desk.put_mesh("case.g", &mesh);
+    desk
+}
+
+/// Runs the case on one rank: what all others are held against.
+fn reference(desk: &Desk) {
+    desk.urto(&["case.i", "--ranks", "1", "-q", "-o", "one"]).with(0);
+    assert!(desk.results("one.e").times().len() > 4, "several states are compared");
+    assert!(physics(desk, "one").len() > 10, "several lines are compared");
+}
+
+/// What the print log says of the physics: its step lines without the columns of time, and the final balance.
+fn physics(desk: &Desk, base: &str) -> Vec<String> {
+    let log = desk.text(&format!("{base}.o"));
+    let head = log.lines().position(|line| line.contains("TIME DILATATION")).expect("column heads");
+    let end = log.lines().position(|line| line.contains("W H E R E")).expect("the closing table");
+    let lines = log.lines().skip(head + 2).take(end - head - 2);
+    lines
+        .map(|line| {
+            let mut cells: Vec<&str> = line.split_whitespace().collect();
+            if cells.len() == 17 {
+                for timed in [16, 4, 3] {
+                    cells.remove(timed);
+                }
+            }
+            cells.join(" ")
+        })
+        .collect()
+}
+
+fn assert_same(desk: &Desk, base: &str) {
+    let paths = ["one.e".to_string(), format!("{base}.e")].map(|name| desk.path(&name));
+    let comparison = exodus::compare(&paths[0], &paths[1], &Tolerance::EXACT).expect("both can be read");
+    assert!(comparison.is_same(), "{base}: {comparison}");
+    assert_eq!(physics(desk, "one"), physics(desk, base), "{base}");
+}
+
+fn on_any_number_of_ranks(desk: &Desk) {
+    reference(desk);
+    for ranks in RANKS {
+        let base = format!("threads{ranks}");
+        desk.urto(&["case.i", "-q", "--ranks", &ranks.to_string(), "-o", &base]).with(0);
+        assert_same(desk, &base);
+    }
+    for instructions in ["portable", "avx2"] {
+        for ranks in ["1", "3"] {
+            let base = format!("{instructions}{ranks}");
+            let mut command = desk.command(&["case.i", "-q", "--ranks", ranks, "-o", &base]);
+            Left::of(command.env("URTO_SIMD", instructions).output().expect("it starts")).with(0);
+            assert_same(desk, &base);
+        }
+    }
+    for ranks in [2, 4] {
+        let base = format!("mpi{ranks}");
+        if let Some(left) = over_mpi(desk, ranks, &["case.i", "-q", "-o", &base]) {
+            left.with(0);
+            assert_same(desk, &base);
+        }
+    }
+}
+
+/// The program on MPI processes, when this build and this machine can.
+fn over_mpi(desk: &Desk, ranks: usize, arguments: &[&str]) -> Option<Left> {
+    let mut command = mpiexec(ranks)?;
+    command.arg(URTO).args(arguments).current_dir(desk.path("."));
+    Some(Left::of(command.output().expect("mpiexec starts")))
+}
+
+fn mpiexec(ranks: usize) -> Option<Command> {
+    if !cfg!(feature = "mpi") || Command::new("mpiexec").arg("--version").output().is_err() {
+        return None;
+    }
+    let mut command = Command::new("mpiexec");
+    command.args(["-n", &ranks.to_string()]);
+    // Open MPI refuses root and more ranks than cores otherwise; other libraries ignore these.
+    for permission in ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"]
+    {
+        command.env(permission, "1");
+    }
+    command.env("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe");
+    Some(command)
+}
+
+#[test]
+fn plastic_bar_under_pressure_on_a_rough_wall() {
+    on_any_number_of_ranks(&taylor_bar());
+}
+
+#[test]
+fn every_command() {
+    on_any_number_of_ranks(&commands());
+}
+
+#[test]
+fn swinging_cantilever() {
+    on_any_number_of_ranks(&cantilever());
+}
+
+#[test]
+fn more_ranks_than_elements() {
+    let desk = Desk::new();
+    program::put_bar(&desk, 1e-4, "RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1.\n");
+    std::fs::rename(desk.path("bar.i"), desk.path("case.i")).expect("a deck");
+    desk.put_mesh("case.g", &program::box_mesh([1, 1, 2], [0.01, 0.01, 0.02], false));
+    desk.urto(&["case.i", "--ranks", "1", "-q", "-o", "one"]).with(0);
+    for ranks in ["3", "64"] {
+        desk.urto(&["case.i", "--ranks", ranks, "-q", "-o", "many"]).with(0);
+        assert_same(&desk, "many");
+    }
+}
+
+#[test]
+fn failures_over_mpi_are_told_once() {
+    let desk = Desk::new();
+    let crush = "NO DISPLACEMENT, Z, 3\nFUNCTION, 1\n0., 0.\n1.E-6, 1.\nEND\nPRESCRIBED DISPLACEMENT, Z, 4, 1, -0.03\n";
+    program::put_bar(&desk, 1e-4, crush);
+    let Some(left) = over_mpi(&desk, 3, &["bar.i", "-q"]) else { return };
+    left.with(1).says(&["of block 1", "help:"]);
+    desk.put("wrong.i", "TITLE\n nothing\nTERMINATION TIM\n");
+    let left = over_mpi(&desk, 3, &["wrong.i", "-m", "bar.g"]).expect("it ran before").with(2);
+    assert_eq!(left.err.matches("wrong.i:3").count(), 1, "{}", left.err);
+    let Some(mut command) = mpiexec(3) else { return };
+    let script = format!("trap '' XFSZ; ulimit -f 200; exec '{URTO}' full.i --quiet");
+    program::put_bar(&desk, 1e-2, "PLOT TIME, 1.E-9\n");
+    std::fs::rename(desk.path("bar.i"), desk.path("full.i")).expect("a deck");
+    std::fs::rename(desk.path("bar.g"), desk.path("full.g")).expect("a mesh");
+    let left = Left::of(command.args(["sh", "-c", &script]).current_dir(desk.path(".")).output().expect("it starts"));
+    let left = left.with(1);
+    left.says(&["full.e"]);
+    assert_eq!(left.err.matches("error: cannot write").count(), 1, "{}", left.err);
+}
