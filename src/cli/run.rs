@@ -165,7 +165,7 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     let (rank, ranks) = (world.rank(), world.size());
     if options.ranks.is_some_and(|asked| asked as usize != ranks) {
         return all_leave(
-            rank,
+            &mut world,
             Failure::input("error: under mpiexec the number of ranks is that of its processes; leave --ranks out"),
         );
     }
@@ -181,9 +181,10 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     let mut good = [if prepared.is_ok() { 1.0 } else { 0.0 }];
     world.all_min(&mut good);
     let (prepared, wishes) = match prepared {
-        Ok(_) if good[0] == 0.0 => return Ok(super::WRONG_INPUT),
+        // Rank 0 reads the same files, so as a rule it has the words; where only another rank failed, that one tells.
+        Ok(_) if good[0] == 0.0 => return all_leave(&mut world, Failure::input("")),
         Ok(prepared) => prepared,
-        Err(failure) => return all_leave(rank, failure),
+        Err(failure) => return all_leave(&mut world, failure),
     };
     let mut screen = screen(&prepared, options.quiet || rank != 0);
     let outcome = with_job(&prepared, &|| wishes.now(), |job| run::run(job, &mut world, screen.as_mut()));
@@ -192,14 +193,23 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
             wishes.obeyed();
             Ok(report(&prepared, options.quiet || rank != 0, Some(&ended)))
         }
-        Err(error) => all_leave(rank, failure(&error)),
+        Err(error) => all_leave(&mut world, failure(&error)),
     }
 }
 
-/// The same failure on every rank is told once.
+/// The same failure on every rank is told once, by the first rank that has words for it, and before any rank leaves:
+/// a launcher kills what still runs when one process ends with an error. The others leave with it, quietly.
 #[cfg(feature = "mpi")]
-fn all_leave(rank: usize, failure: Failure) -> Result<u8, Failure> {
-    if rank == 0 { Err(failure) } else { Ok(failure.code) }
+fn all_leave(world: &mut comm::mpi::World, failure: Failure) -> Result<u8, Failure> {
+    use crate::comm::Communicator;
+    let rank = world.rank();
+    let mut speaker = [if failure.message.is_empty() { f64::INFINITY } else { rank as f64 }];
+    world.all_min(&mut speaker);
+    if speaker[0] == rank as f64 {
+        complain(&failure.message);
+    }
+    world.barrier();
+    Ok(if rank == 0 { failure.code } else { DONE })
 }
 
 #[cfg(not(feature = "mpi"))]
