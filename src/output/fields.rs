@@ -76,19 +76,23 @@ impl FieldList {
     pub fn nodal_values(&self, solver: &Solver) -> Vec<f64> {
         let nodes = &solver.domain.nodes;
         let owned: Vec<u32> = (0..nodes.len() as u32).filter(|&n| nodes.owned[n as usize]).collect();
-        let reactions = if self.nodal.contains(&NodalField::Reaction) { solver.reactions() } else { Vec::new() };
+        let wanted = |field: NodalField| self.nodal.contains(&field);
+        let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
+        let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
         let mut values = Vec::new();
         for field in &self.nodal {
             let first = values.len();
             let count = field.components().len();
             values.resize(first + count * owned.len(), 0.0);
             for (i, &node) in owned.iter().enumerate() {
-                let vector = match field {
-                    NodalField::Reaction => reactions[node as usize],
-                    _ => nodal_value(*field, solver, node),
+                let vector = nodal_value(*field, solver, node);
+                let components: &[f64] = match field {
+                    NodalField::Reaction => &reactions[node as usize],
+                    NodalField::Contact => &contact[node as usize],
+                    _ => &vector,
                 };
                 for c in 0..count {
-                    values[first + c * owned.len() + i] = vector[c];
+                    values[first + c * owned.len() + i] = components[c];
                 }
             }
         }
@@ -170,8 +174,17 @@ fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
         }
         NodalField::Velocity => solver.velocity_now(node),
         NodalField::Acceleration => nodes.acceleration(node),
-        NodalField::Mass | NodalField::Reaction => [nodes.mass(node), 0.0, 0.0],
+        NodalField::Mass | NodalField::Reaction | NodalField::Contact => [nodes.mass(node), 0.0, 0.0],
     }
+}
+
+/// Contact force, overlap, status and element touched, at each local node.
+fn contact_values(solver: &Solver) -> Vec<[f64; 6]> {
+    let mut values = vec![[0.0; 6]; solver.domain.nodes.len()];
+    for (node, of_node) in solver.domain.contact.iter().flat_map(|contact| contact.node_values()) {
+        values[node as usize] = of_node;
+    }
+    values
 }
 
 /// ln U by its eigenvectors.

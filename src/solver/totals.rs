@@ -25,7 +25,7 @@ pub struct Totals {
     pub eroded: f64,
     /// Work of loads and prescribed motions.
     pub external: f64,
-    /// Work of normal contact forces: rigid surfaces stop nodal masses dead, which takes energy out.
+    /// Work of normal contact forces: they stop nodal masses dead, which takes energy out.
     pub contact: f64,
     /// Linear momentum.
     pub momentum: [f64; 3],
@@ -120,9 +120,10 @@ fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
             sums[5].add(*work);
         }
     }
-    for node in domain.plane_nodes.iter().filter(|node| owned(node.node)) {
-        sums[6].add(node.normal_work);
-        sums[4].add(-node.friction_work);
+    let works = domain.contact.iter().flat_map(|contact| contact.works());
+    for (_, [normal, friction]) in works.filter(|(node, _)| owned(*node)) {
+        sums[6].add(normal);
+        sums[4].add(-friction);
     }
 }
 
