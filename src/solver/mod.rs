@@ -6,6 +6,7 @@
 mod body;
 mod clock;
 mod constraints;
+pub mod contact;
 mod domain;
 pub mod elements;
 mod exchange;

@@ -1,0 +1,3 @@
+//! Contact of deformable surfaces.
+
+pub mod search;
