@@ -66,6 +66,7 @@ fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Mo
         ],
         rigid_surfaces: Vec::new(),
         contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
+        deaths: vec![],
         plot_requests: PlotRequests::default(),
     }
 }

@@ -56,6 +56,8 @@ pub struct Model {
     pub rigid_surfaces: Vec<RigidSurface>,
     /// Contact between surfaces of the body.
     pub contact: Contact,
+    /// When elements are taken away.
+    pub deaths: Vec<Death>,
     /// What the plot file holds.
     pub plot_requests: PlotRequests,
 }
@@ -289,6 +291,34 @@ impl Contact {
     }
 }
 
+/// DEATH: elements of a block are taken away when a variable passes a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Death {
+    /// Element block number.
+    pub block: i64,
+    /// What is watched.
+    pub variable: DeathVariable,
+    /// Whether the value is a largest one; a smallest one otherwise.
+    pub is_maximum: bool,
+    /// The value.
+    pub value: f64,
+    /// Whether nodes that lose their last element go on as free masses.
+    pub keeps_nodes: bool,
+}
+
+/// What DEATH watches.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DeathVariable {
+    /// A state variable of the material.
+    State(String),
+    /// A component of an element field of the plot file.
+    Field(ElementField, usize),
+    /// Present volume over initial volume; 0 is inversion.
+    Volume,
+    /// The stable time step of the element.
+    TimeStep,
+}
+
 /// The blocks that CONTACT MATERIAL names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ContactMaterials {
@@ -437,6 +467,8 @@ fields! {
         Density = "DENSITY", ["DENSITY"], "current mass density";
         /// hourglass energy
         HourglassEnergy = "HOURGLASS", ["HGENERGY"], "hourglass energy per unit initial volume";
+        /// alive
+        Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank
         Rank = "RANK", ["RANK"], "rank that computes the element";
     }

@@ -121,6 +121,7 @@ fn blank() -> Model {
             data: Vec::new(),
             control: ContactControl::default(),
         },
+        deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
     }
 }

@@ -3,9 +3,8 @@
 use crate::lanes::Sym3;
 use crate::mesh::check::hexahedron_volume;
 use crate::model::{ElementField, Model, NodalField};
-use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix};
+use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix, logarithm};
 use crate::solver::{Solver, Totals};
-use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Global variables of the plot file with their meaning.
 pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
@@ -108,6 +107,10 @@ impl FieldList {
         for block in &solver.domain.blocks {
             for group in block.groups() {
                 for i in 0..group.len() {
+                    if !group.is_alive(i) {
+                        // All of it is zero, its STATUS too.
+                        continue;
+                    }
                     point.clear();
                     self.element_point(solver, block, group, i, rank, &mut point);
                     for (variable, value) in point.iter().enumerate() {
@@ -151,6 +154,7 @@ impl FieldList {
                     let corners = group.nodes(i).map(|n| solver.domain.nodes.position(n));
                     out.push(group.element_mass(i) / hexahedron_volume(&corners));
                 }
+                ElementField::Status => out.push(1.0),
                 ElementField::Rank => out.push(rank as f64),
             }
         }
@@ -185,13 +189,4 @@ fn contact_values(solver: &Solver) -> Vec<[f64; 6]> {
         values[node as usize] = of_node;
     }
     values
-}
-
-/// ln U by its eigenvectors.
-fn logarithm(u: Sym3<f64>) -> Sym3<f64> {
-    let m = u.matrix();
-    let eigen = SymmetricEigen::new(Matrix3::from_fn(|i, j| m[i][j]));
-    let logarithms = eigen.eigenvalues.map(libm::log);
-    let l = eigen.eigenvectors * Matrix3::from_diagonal(&logarithms) * eigen.eigenvectors.transpose();
-    Sym3 { xx: l[(0, 0)], yy: l[(1, 1)], zz: l[(2, 2)], xy: l[(0, 1)], yz: l[(1, 2)], zx: l[(2, 0)] }
 }

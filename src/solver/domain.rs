@@ -4,6 +4,7 @@ use super::body::{Body, LoadedFace};
 use super::constraints::{Constraint, Motion};
 use super::contact::Contact;
 use super::elements::{ElementBlock, Group, NewElement};
+use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
 use super::nodes::{Nodes, add, cross, scaled, subtract};
@@ -36,6 +37,8 @@ pub struct Domain {
     pub constraints: Vec<Constraint>,
     /// Contact and rigid surfaces, when there are any.
     pub contact: Option<Contact>,
+    /// Elements that are taken away, when the deck asks for it.
+    pub erosion: Option<Erosion>,
     /// Sums over nodes shared with other ranks.
     pub exchange: Exchange,
 }
@@ -70,14 +73,16 @@ impl Domain {
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
             constraints: Vec::new(),
             contact: None,
+            erosion: None,
             exchange: Exchange::new(share),
         };
+        domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
         if !model.gravities.is_empty() {
             domain.gravity.work = vec![0.0; domain.nodes.len()];
         }
         let held = domain.set_constraints(mesh, model, &local);
         domain.set_forces(mesh, model, &local);
-        domain.contact = Contact::new(mesh, model, body, &domain.nodes, &held, comm);
+        domain.contact = Contact::new(mesh, model, body, &domain.nodes, held, &local, comm);
         domain.set_initial_velocities(mesh, model, &local);
         domain
     }
@@ -162,7 +167,7 @@ impl Domain {
 }
 
 /// Marks a node that a rank does not have.
-const ABSENT: u32 = u32::MAX;
+pub(super) const ABSENT: u32 = u32::MAX;
 
 /// Local number of each node of the mesh, [`ABSENT`] where it has none.
 pub(super) fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {

@@ -9,6 +9,7 @@ mod constraints;
 pub mod contact;
 mod domain;
 pub mod elements;
+mod erosion;
 mod exchange;
 mod function;
 mod health;
@@ -124,6 +125,7 @@ impl Solver {
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
     /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
     pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
+        self.erode(comm);
         self.internal_forces(comm);
         let agreed = match self.agree(request, comm) {
             Ok(agreed) => agreed,
@@ -206,6 +208,20 @@ impl Solver {
         self.domain.exchange.finish(comm, &mut self.domain.nodes.forces);
         self.clock.stop(Section::Communication);
         self.local = found;
+    }
+
+    /// Takes failed elements away, and lets the surface grow inwards.
+    fn erode(&mut self, comm: &mut dyn Communicator) {
+        let Domain { erosion, blocks, nodes, element_canonical, contact, .. } = &mut self.domain;
+        let Some(erosion) = erosion else { return };
+        self.clock.start();
+        let dead = erosion.advance(blocks, element_canonical, nodes, self.time_step, comm);
+        if let Some(contact) = contact
+            && !dead.is_empty()
+        {
+            contact.erode(&dead, erosion, nodes, comm);
+        }
+        self.clock.stop(Section::Erosion);
     }
 
     fn border_elements(&mut self) -> PassOutcome {

@@ -3,7 +3,6 @@
 use super::face::area_normal;
 use super::points::Points;
 use super::surface::{back_nodes, face_nodes};
-use crate::solver::body::Body;
 use crate::solver::nodes::{dot, subtract};
 
 /// Faces that points may touch, in ascending order of their numbers.
@@ -27,22 +26,28 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// Takes faces in by their numbers; `point` gives the point of a node of the mesh.
-    pub fn new(numbers: &[u32], body: &Body, point: impl Fn(u32) -> u32, points: usize) -> Faces {
+    /// Takes faces in by their numbers from the nodes and blocks of the elements and the initial positions; `point`
+    /// gives the point of a node of the mesh.
+    pub fn new(
+        numbers: &[u32],
+        (elements, blocks, positions): (&[[u32; 8]], &[u32], &[[f64; 3]]),
+        point: impl Fn(u32) -> u32,
+        points: usize,
+    ) -> Faces {
         let mut faces = Faces { number: numbers.to_vec(), ..Default::default() };
         for &number in numbers {
-            let nodes = face_nodes(&body.element_nodes, number);
-            let at = |nodes: [u32; 4]| nodes.map(|n| body.positions[n as usize]);
+            let nodes = face_nodes(elements, number);
+            let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);
             let element = number as usize / 6;
-            let (front, back) = (at(nodes), at(back_nodes(&body.element_nodes, number)));
+            let (front, back) = (at(nodes), at(back_nodes(elements, number)));
             let normal = area_normal(&front);
             let area = dot(normal, normal).sqrt();
             let through = subtract(super::face::centre(&front), super::face::centre(&back));
             faces.corners.push(nodes.map(&point));
-            faces.block.push(body.element_block[element]);
+            faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());
             faces.depth.push(if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 });
-            faces.element.push(body.element_nodes[element].map(&point));
+            faces.element.push(elements[element].map(&point));
         }
         faces.connect(points);
         faces

@@ -21,6 +21,7 @@ mod setup;
 pub mod surface;
 
 use super::body::Body;
+use super::erosion::Erosion;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
 use super::nodes::{Nodes, add, dot};
 use crate::comm::Communicator;
@@ -34,7 +35,7 @@ use locate::{Locator, Near, Reach, Rule};
 use planes::PlanePoint;
 use points::Points;
 use search::SearchKind;
-use setup::{ABSENT, Layout};
+use setup::{ABSENT, Layout, Pairings, Skin};
 
 pub use overlap::{Overlap, remove as remove_overlap};
 
@@ -43,14 +44,21 @@ pub struct Contact {
     /// The points.
     pub points: Points,
     layout: Layout,
+    skin: Skin,
+    pairings: Pairings,
     /// Local node of each point, or [`ABSENT`].
     here: Vec<u32>,
-    /// For each axis of each point, the constraint that holds it, or [`ABSENT`].
+    /// For each axis of each local node, the constraint that holds it, or [`ABSENT`].
+    held: Vec<[u32; 3]>,
+    /// The same for each point.
     holder: Vec<[u32; 3]>,
     gather: Option<Gather>,
     locator: Locator,
     history: Vec<[Past; TOUCHES]>,
     edges: Vec<Edge>,
+    edges_wanted: bool,
+    /// Whether edges have to be found anew.
+    edges_due: bool,
     edge_history: Vec<PastPair>,
     planes: Vec<RigidSurface>,
     plane_points: Vec<PlanePoint>,
@@ -63,6 +71,8 @@ pub struct Contact {
     normal_work: Vec<f64>,
     /// Work of the friction forces at each point so far.
     friction_work: Vec<f64>,
+    /// Normal and friction work at points that are gone, those of this rank.
+    lost_work: Vec<[f64; 2]>,
     /// What the log tells.
     pub tally: Tally,
     near: Vec<Near>,
@@ -85,22 +95,23 @@ pub struct Tally {
 
 impl Contact {
     /// Contact as the model asks for it; `None` when it does not. `held[i]` says which constraint holds which
-    /// direction of local node i.
+    /// direction of local node i; `local` gives the local node of a node of the mesh.
     pub fn new(
         mesh: &Mesh,
         model: &Model,
         body: &Body,
         nodes: &Nodes,
-        held: &[[u32; 3]],
+        held: Vec<[u32; 3]>,
+        local: &[u32],
         comm: &mut dyn Communicator,
     ) -> Option<Contact> {
         if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
             return None;
         }
-        let local = super::domain::local_numbers(body.positions.len(), &nodes.file);
         let watched: Vec<Vec<u32>> =
             model.rigid_surfaces.iter().map(|plane| mesh.side_set_nodes(plane.side_set)).collect();
-        let layout = Layout::new(mesh, model, body, &watched.concat());
+        let skin = Skin::new(mesh, model, body, watched.concat());
+        let layout = skin.layout();
         let here: Vec<u32> = layout.nodes.iter().map(|&node| local[node as usize]).collect();
         let count = here.len();
         let mut contact = Contact {
@@ -110,6 +121,7 @@ impl Contact {
             locator: Locator::new(kind(model.contact.control.search), reach(model, &layout)),
             history: vec![UNTOUCHED; count],
             edges: Vec::new(),
+            edges_due: false,
             edge_history: Vec::new(),
             planes: model.rigid_surfaces.clone(),
             plane_points: plane_points(&watched, model, body, &layout),
@@ -119,27 +131,71 @@ impl Contact {
             pushed: Vec::new(),
             normal_work: vec![0.0; count],
             friction_work: vec![0.0; count],
+            lost_work: Vec::new(),
             tally: Tally::default(),
             near: Vec::new(),
             near_faces: Vec::new(),
             touches: Vec::new(),
+            pairings: Pairings::new(mesh, model, body),
+            skin,
             layout,
             here,
+            held,
+            edges_wanted: model.contact.control.edges,
         };
-        contact.weigh(nodes);
-        if model.contact.control.edges {
-            contact.find_edges(body);
-        }
-        if !contact.layout.interfaces.is_empty() {
-            contact.gather = Gather::new(&contact.here, nodes, comm);
-            if let Some(gather) = &mut contact.gather {
-                gather.share_masses(&mut contact.points, comm);
-            }
-        } else {
+        contact.meet(nodes, comm);
+        if contact.layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes.
             contact.plane_points.retain(|watch| contact.here[watch.point as usize] != ABSENT);
         }
         Some(contact)
+    }
+
+    /// Gets to know the points of other ranks.
+    fn meet(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
+        self.weigh(nodes);
+        self.edges_due = self.edges_wanted;
+        if !self.layout.interfaces.is_empty() {
+            self.gather = Gather::new(&self.here, nodes, comm);
+            if let Some(gather) = &mut self.gather {
+                gather.share_masses(&mut self.points, comm);
+            }
+        }
+    }
+
+    /// Lets the surface grow inwards after elements have gone: `dead` are their canonical numbers, ascending.
+    pub fn erode(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, comm: &mut dyn Communicator) {
+        self.skin.delete(dead, &self.layout, erosion.keeps(dead));
+        let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        let new = &self.layout;
+        let count = new.nodes.len();
+        let before: Vec<u32> = new.nodes.iter().map(|&node| old.point(node)).collect();
+        let carry = |values: &[f64]| before.iter().map(|&p| if p == ABSENT { 0.0 } else { values[p as usize] }).collect();
+        let here = |node: u32| erosion.local()[node as usize];
+        for (p, &node) in old.nodes.iter().enumerate() {
+            let local = self.here[p];
+            if new.point(node) == ABSENT && local != ABSENT && nodes.owned[local as usize] {
+                self.lost_work.push([self.normal_work[p], self.friction_work[p]]);
+            }
+        }
+        self.normal_work = carry(&self.normal_work);
+        self.friction_work = carry(&self.friction_work);
+        let face = |past: Past| match past.face {
+            NONE => past,
+            face => Past { face: new.face(old.faces.number[face as usize]), ..past },
+        };
+        self.history = (before.iter())
+            .map(|&p| if p == ABSENT { UNTOUCHED } else { tidy(self.history[p as usize].map(face)) })
+            .collect();
+        self.plane_points.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
+        self.here = new.nodes.iter().map(|&node| here(node)).collect();
+        self.holder = self.here.iter().map(|&n| if n == ABSENT { [ABSENT; 3] } else { self.held[n as usize] }).collect();
+        self.points = Points::new(count);
+        self.enforcer = Enforcer::new(count);
+        self.forget();
+        self.locator.forget();
+        self.edge_history.clear();
+        self.meet(nodes, comm);
     }
 
     /// Inverse masses of the points that are here; none along directions that a constraint holds.
@@ -151,11 +207,14 @@ impl Contact {
         }
     }
 
-    /// Edges of the faces that CONTACT MATERIAL lets touch.
-    fn find_edges(&mut self, body: &Body) {
-        let positions: Vec<[f64; 3]> = self.layout.nodes.iter().map(|&node| body.positions[node as usize]).collect();
+    /// Edges of the faces that CONTACT MATERIAL lets touch, from where they are now.
+    fn find_edges(&mut self) {
+        if !std::mem::take(&mut self.edges_due) {
+            return;
+        }
+        self.edges.clear();
         if let Some(automatic) = self.layout.automatic() {
-            self.edges = edges::standing_out(&automatic.faces, &self.layout.faces, &positions);
+            self.edges = edges::standing_out(&automatic.faces, &self.layout.faces, &self.points.start);
         }
     }
 
@@ -174,6 +233,7 @@ impl Contact {
         }
         self.constraints.clear();
         if !self.layout.interfaces.is_empty() {
+            self.find_edges();
             self.locator.locate(&self.points, &self.layout.faces, &self.layout.interfaces, &self.edges);
             self.check();
             self.check_edges();
@@ -199,7 +259,7 @@ impl Contact {
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     fn check(&mut self) {
-        let Contact { points, layout, locator, history, constraints, near, near_faces, touches, .. } = self;
+        let Contact { points, layout, pairings, locator, history, constraints, near, near_faces, touches, .. } = self;
         let check = Check { points, faces: &layout.faces };
         for (i, &point) in locator.watched().iter().enumerate() {
             near.clear();
@@ -216,20 +276,20 @@ impl Contact {
             for (past, touch) in past.iter_mut().zip(touches.iter()) {
                 *past = Past { face: touch.face, allowed: touch.allowed };
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
-                constraints.extend(constraint(layout, point, touch, interface));
+                constraints.extend(constraint(layout, pairings, point, touch, interface));
             }
         }
     }
 
     /// The check of every pair of edges that may cross.
     fn check_edges(&mut self) {
-        let Contact { points, layout, locator, edges, edge_history, constraints, .. } = self;
+        let Contact { points, layout, pairings, locator, edges, edge_history, constraints, .. } = self;
         let check = EdgeCheck { points, faces: &layout.faces, edges };
         let block = |edge: u32| layout.faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
         for &pair in locator.edge_pairs() {
             let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
-            let mut pairing = layout.pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
+            let mut pairing = pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
             // Neither edge is the master.
             pairing.share = 0.5;
             if let Some((now, constraint)) = check.pair(pair, past, pairing) {
@@ -282,10 +342,12 @@ impl Contact {
         }
     }
 
-    /// Work of normal and of friction forces so far, at each local node that has any.
-    pub fn works(&self) -> impl Iterator<Item = (u32, [f64; 2])> + '_ {
+    /// Work of normal and of friction forces so far, at every point that this rank owns, and of points now gone.
+    pub fn works<'a>(&'a self, nodes: &'a Nodes) -> impl Iterator<Item = [f64; 2]> + 'a {
+        let owned = |node: u32| node != ABSENT && nodes.owned[node as usize];
         let works = self.normal_work.iter().zip(&self.friction_work);
-        self.here.iter().zip(works).filter(|(node, _)| **node != ABSENT).map(|(&node, (&n, &f))| (node, [n, f]))
+        let here = self.here.iter().zip(works).filter(move |(node, _)| owned(**node)).map(|(_, (&n, &f))| [n, f]);
+        here.chain(self.lost_work.iter().copied())
     }
 
     /// Forces of rigid planes at local nodes.
@@ -298,7 +360,7 @@ impl Contact {
     }
 
     /// At each local node on the surface: contact force, overlap that contact closes in the coming step, status (0 free,
-    /// 1 pushed, 2 pushed by its own contact with a face), and the analyst's number of the element whose face it meets.
+    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face it meets.
     pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
         let mut values = vec![[0.0; 6]; self.points.len()];
         for &point in &self.pushed {
@@ -311,7 +373,7 @@ impl Contact {
             (of_point[3], of_point[4]) = (of_point[3].min(c.gap), 2.0);
             let past = self.history[c.members[0] as usize][0];
             if c.count == MEMBERS && past.face != NONE {
-                of_point[5] = self.layout.face_element[past.face as usize] as f64;
+                of_point[5] = self.skin.file_number(self.layout.faces.number[past.face as usize]);
             }
         }
         self.here.iter().zip(values).filter(|(node, _)| **node != ABSENT).map(|(&node, values)| (node, values)).collect()
@@ -328,6 +390,12 @@ impl Contact {
         let [watched, pairs] = self.locator.counts();
         [self.points.len(), self.layout.faces.len(), watched, pairs, self.locator.searches as usize]
     }
+}
+
+/// Pasts with the faces that are left first.
+fn tidy(mut pasts: [Past; TOUCHES]) -> [Past; TOUCHES] {
+    pasts.sort_by_key(|past| past.face == NONE);
+    pasts
 }
 
 fn kind(search: ContactSearch) -> SearchKind {
@@ -359,10 +427,10 @@ fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layou
 }
 
 /// The constraint of a point on a face. `None` where the point is to be the master only.
-fn constraint(layout: &Layout, point: u32, touch: &Touch, interface: u32) -> Option<Constraint> {
+fn constraint(layout: &Layout, pairings: &Pairings, point: u32, touch: &Touch, interface: u32) -> Option<Constraint> {
     let (faces, face) = (&layout.faces, touch.face as usize);
     let rule = layout.interfaces[interface as usize].rule;
-    let pairing = layout.pairings.of(rule, layout.point_block[point as usize], faces.block[face]);
+    let pairing = pairings.of(rule, layout.point_block[point as usize], faces.block[face]);
     if pairing.share <= 0.0 {
         return None;
     }

@@ -5,12 +5,13 @@ use super::enforce::{Enforcer, Limits};
 use super::locate::{Locator, Near, Reach};
 use super::points::Points;
 use super::search::SearchKind;
-use super::setup::{ABSENT, Layout};
+use super::setup::{ABSENT, Layout, Pairings, Skin};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{add, dot, subtract};
+use std::sync::Arc;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;
@@ -32,7 +33,8 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     if !model.contact.is_some() {
         return Overlap::default();
     }
-    let layout = Layout::new(mesh, model, body, &[]);
+    let layout = Skin::new(mesh, model, body, Vec::new()).layout();
+    let pairings = Pairings::new(mesh, model, body);
     let mut points = Points::new(layout.nodes.len());
     weigh(mesh, model, body, &layout, &mut points);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
@@ -41,14 +43,14 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         for (point, &node) in layout.nodes.iter().enumerate() {
             points.set(point, body.positions[node as usize], [0.0; 3], 0.0);
         }
-        let mut constraints = overlaps(&layout, &points);
+        let mut constraints = overlaps(&layout, &pairings, &points);
         if constraints.is_empty() {
             break;
         }
         enforcer.solve(&mut constraints, &points, &still, Limits { passes: 100, tolerance: 0.1 * NOTHING });
+        let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
-            let node = layout.nodes[point] as usize;
-            body.positions[node] = add(points.start[point], enforcer.change(point));
+            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point));
         }
     }
     moved(mesh, body, &layout)
@@ -71,7 +73,7 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut 
 }
 
 /// Every point behind a face that faces it.
-fn overlaps(layout: &Layout, points: &Points) -> Vec<super::enforce::Constraint> {
+fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super::enforce::Constraint> {
     let mut locator = Locator::new(SearchKind::Grid, Reach { steps: 1.0, least: 0.0 });
     locator.locate(points, &layout.faces, &layout.interfaces, &[]);
     let check = Check { points, faces: &layout.faces };
@@ -85,7 +87,7 @@ fn overlaps(layout: &Layout, points: &Points) -> Vec<super::enforce::Constraint>
             let size = layout.faces.size[touch.face as usize];
             let interface = near.iter().find(|near| near.face == touch.face).map_or(ABSENT, |near| near.interface);
             if touch.stand.gap < -NOTHING * size && interface != ABSENT {
-                constraints.extend(super::constraint(layout, point, touch, interface));
+                constraints.extend(super::constraint(layout, pairings, point, touch, interface));
             }
         }
     }
