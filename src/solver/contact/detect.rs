@@ -17,7 +17,7 @@ pub const NONE: u32 = u32::MAX;
 pub const TOUCHES: usize = 3;
 
 /// A point that has left its face by less than this part of half an element is still watched by it.
-const KEEP: f64 = 0.05;
+pub const KEEP: f64 = 0.05;
 
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
@@ -52,8 +52,8 @@ pub struct Touch {
     pub allowed: f64,
 }
 
-/// How far beyond its corners a face looks for points.
-pub fn keep(faces: &Faces, face: u32) -> f64 {
+/// How far in front of a face a point that has left it is still watched.
+fn keep(faces: &Faces, face: u32) -> f64 {
     KEEP * faces.depth[face as usize]
 }
 

@@ -411,7 +411,8 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     let sizes = &layout.faces.size;
     let mean = if sizes.is_empty() { 0.0 } else { sizes.iter().sum::<f64>() / sizes.len() as f64 };
     // A reach of one step at least: the search must hold for the step it is made for.
-    Reach { steps: control.reach.max(1.0), least: if control.reach > 0.0 { control.margin * mean } else { 0.0 } }
+    let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
+    Reach { steps: control.reach.max(1.0), least, depth: detect::KEEP }
 }
 
 fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlanePoint> {
