@@ -7,6 +7,7 @@ use crate::mesh::check::hexahedron_volume;
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::Model;
 use crate::partition::{Contributors, rcb, space_filling_order};
+use crate::solver::contact::{self, Overlap};
 
 /// A mesh with masses and its canonical order.
 pub struct Body {
@@ -20,12 +21,14 @@ pub struct Body {
     pub element_mass: Vec<f64>,
     /// Lumped nodal masses, in file order.
     pub node_mass: Vec<f64>,
-    /// Initial positions, in file order.
+    /// Initial positions, in file order; those of the mesh unless contact surfaces overlapped there.
     pub positions: Vec<[f64; 3]>,
     /// Faces under pressure, in canonical order after the elements.
     pub faces: Vec<LoadedFace>,
     /// Index into the model's materials of each mesh block.
     pub block_material: Vec<usize>,
+    /// Overlaps between contact surfaces that were taken out of the mesh by moving nodes.
+    pub overlap: Overlap,
 }
 
 /// A face under pressure.
@@ -88,8 +91,13 @@ impl Body {
             positions: mesh.coordinates.clone(),
             faces: Vec::new(),
             block_material,
+            overlap: Overlap::default(),
         };
         body.take_elements(mesh, model);
+        body.overlap = contact::remove_overlap(mesh, model, &mut body);
+        if body.overlap.nodes > 0 {
+            body.weigh(model);
+        }
         body.take_faces(mesh, model);
         body
     }
@@ -111,20 +119,29 @@ impl Body {
     fn take_elements(&mut self, mesh: &Mesh, model: &Model) {
         let mut first = 0u32;
         for (index, block) in mesh.blocks.iter().enumerate() {
-            let density = model.materials[self.block_material[index]].density;
             let centroids: Vec<_> = block.connectivity.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
             for place in space_filling_order(&centroids) {
-                let nodes = block.connectivity[place as usize];
-                let mass = density * hexahedron_volume(&self.corners(&nodes));
                 self.element_order.push(first + place);
                 self.element_block.push(index as u32);
-                self.element_nodes.push(nodes);
-                self.element_mass.push(mass);
-                for node in nodes {
-                    self.node_mass[node as usize] += mass / 8.0;
-                }
+                self.element_nodes.push(block.connectivity[place as usize]);
             }
             first += block.connectivity.len() as u32;
+        }
+        self.weigh(model);
+    }
+
+    /// Masses of elements and nodes from the positions as they are.
+    fn weigh(&mut self, model: &Model) {
+        self.node_mass.fill(0.0);
+        self.element_mass.clear();
+        for element in 0..self.element_nodes.len() {
+            let nodes = self.element_nodes[element];
+            let material = self.block_material[self.element_block[element] as usize];
+            let mass = model.materials[material].density * hexahedron_volume(&self.corners(&nodes));
+            self.element_mass.push(mass);
+            for node in nodes {
+                self.node_mass[node as usize] += mass / 8.0;
+            }
         }
     }
 

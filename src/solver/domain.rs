@@ -60,7 +60,7 @@ impl Domain {
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
         let mut domain = Domain {
-            nodes: nodes(body, share),
+            nodes: nodes(mesh, body, share),
             blocks: blocks(mesh, model, body, share, &local),
             element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
             element_file,
@@ -189,7 +189,7 @@ fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     nodes
 }
 
-fn nodes(body: &Body, share: &Share) -> Nodes {
+fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
     let row = |&file: &u32| {
         let ([x, y, z], m) = (body.positions[file as usize], body.node_mass[file as usize]);
         Row([x, y, z, m, 0.0, 0.0, 0.0, 1.0 / m])
@@ -197,7 +197,7 @@ fn nodes(body: &Body, share: &Share) -> Nodes {
     Nodes {
         rows: share.nodes.iter().map(row).collect(),
         forces: vec![Default::default(); share.nodes.len()],
-        initial: share.nodes.iter().map(|&file| body.positions[file as usize]).collect(),
+        initial: share.nodes.iter().map(|&file| mesh.coordinates[file as usize]).collect(),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
     }

@@ -137,6 +137,11 @@ impl Enforcer {
         }
     }
 
+    /// Change of velocity that the forces make at a point of the last constraints.
+    pub fn change(&self, point: usize) -> [f64; 3] {
+        self.change[point]
+    }
+
     /// Forgets the forces of the last step at the points of these constraints.
     fn clear(&mut self, constraints: &mut [Constraint]) {
         for constraint in constraints {

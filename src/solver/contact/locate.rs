@@ -1,6 +1,7 @@
 //! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
 
 use super::detect::keep;
+use super::edges::{self, Edge};
 use super::faces::Faces;
 use super::points::Points;
 use super::search::{Box3, Candidates, Search, SearchKind};
@@ -60,6 +61,7 @@ pub struct Locator {
     /// Box of every active face over the present step.
     boxes: Vec<Box3>,
     found: Vec<Candidates>,
+    edge_pairs: Vec<[u32; 2]>,
     /// Number of searches so far.
     pub searches: u64,
 }
@@ -89,6 +91,7 @@ impl Locator {
             active: Vec::new(),
             boxes: Vec::new(),
             found: Vec::new(),
+            edge_pairs: Vec::new(),
             searches: 0,
         }
     }
@@ -99,9 +102,10 @@ impl Locator {
     }
 
     /// Makes sure that the candidates hold for the coming step, and finds the boxes of their faces.
-    pub fn locate(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface]) {
+    pub fn locate(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface], edges: &[Edge]) {
         if self.expired(points) {
             self.search(points, faces, interfaces);
+            self.search_edges(points, faces, edges);
         }
         for &face in &self.active {
             self.boxes[face as usize] = capture_box(faces, face, points);
@@ -179,6 +183,36 @@ impl Locator {
         self.active.clear();
         self.active.extend((0..faces.len() as u32).filter(|&face| is_active[face as usize]));
         self.boxes.resize(faces.len(), Box3::empty());
+    }
+
+    /// Pairs of edges that may cross, ascending.
+    fn search_edges(&mut self, points: &Points, faces: &Faces, edges: &[Edge]) {
+        self.edge_pairs.clear();
+        if edges.is_empty() {
+            return;
+        }
+        let around = |p: u32| Box3::around(&[points.start[p as usize]]).grown(self.allowance[p as usize]);
+        let boxes: Vec<Box3> = (edges.iter())
+            .map(|edge| {
+                let margin = edges::keep(faces, edge);
+                around(edge.ends[0]).joined(&around(edge.ends[1])).grown(margin)
+            })
+            .collect();
+        let selves: Vec<[u32; 4]> = (0..edges.len() as u32).map(|edge| [edge; 4]).collect();
+        let mut found = Candidates::default();
+        self.search.find(&boxes, &boxes, &selves, &mut found);
+        for first in 0..edges.len() as u32 {
+            for &second in found.of(first as usize).iter().filter(|&&second| second > first) {
+                if edges::strangers(&edges[first as usize], &edges[second as usize], faces) {
+                    self.edge_pairs.push([first, second]);
+                }
+            }
+        }
+    }
+
+    /// Pairs of edges that may cross, ascending.
+    pub fn edge_pairs(&self) -> &[[u32; 2]] {
+        &self.edge_pairs
     }
 
     /// Points with candidates, ascending.

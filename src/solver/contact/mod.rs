@@ -6,12 +6,14 @@
 
 mod cubic;
 pub mod detect;
+mod edges;
 pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
 mod gather;
 mod locate;
+mod overlap;
 mod planes;
 pub mod points;
 pub mod search;
@@ -25,13 +27,16 @@ use crate::comm::Communicator;
 use crate::mesh::Mesh;
 use crate::model::{ContactSearch, Model, RigidSurface};
 use detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
+use edges::{Edge, EdgeCheck, PastPair};
 use enforce::{Constraint, Enforcer, Limits, MEMBERS, Outcome};
 use gather::Gather;
-use locate::{Locator, Near, Reach};
+use locate::{Locator, Near, Reach, Rule};
 use planes::PlanePoint;
 use points::Points;
 use search::SearchKind;
 use setup::{ABSENT, Layout};
+
+pub use overlap::{Overlap, remove as remove_overlap};
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {
@@ -45,6 +50,8 @@ pub struct Contact {
     gather: Option<Gather>,
     locator: Locator,
     history: Vec<[Past; TOUCHES]>,
+    edges: Vec<Edge>,
+    edge_history: Vec<PastPair>,
     planes: Vec<RigidSurface>,
     plane_points: Vec<PlanePoint>,
     constraints: Vec<Constraint>,
@@ -102,6 +109,8 @@ impl Contact {
             gather: None,
             locator: Locator::new(kind(model.contact.control.search), reach(model, &layout)),
             history: vec![UNTOUCHED; count],
+            edges: Vec::new(),
+            edge_history: Vec::new(),
             planes: model.rigid_surfaces.clone(),
             plane_points: plane_points(&watched, model, body, &layout),
             constraints: Vec::new(),
@@ -118,6 +127,9 @@ impl Contact {
             here,
         };
         contact.weigh(nodes);
+        if model.contact.control.edges {
+            contact.find_edges(body);
+        }
         if !contact.layout.interfaces.is_empty() {
             contact.gather = Gather::new(&contact.here, nodes, comm);
             if let Some(gather) = &mut contact.gather {
@@ -139,6 +151,14 @@ impl Contact {
         }
     }
 
+    /// Edges of the faces that CONTACT MATERIAL lets touch.
+    fn find_edges(&mut self, body: &Body) {
+        let positions: Vec<[f64; 3]> = self.layout.nodes.iter().map(|&node| body.positions[node as usize]).collect();
+        if let Some(automatic) = self.layout.automatic() {
+            self.edges = edges::standing_out(&automatic.faces, &self.layout.faces, &positions);
+        }
+    }
+
     /// Finds the contact forces of the step and adds them to the nodes; along directions that are held, the
     /// constraint's reaction takes them up.
     pub fn apply(
@@ -154,8 +174,9 @@ impl Contact {
         }
         self.constraints.clear();
         if !self.layout.interfaces.is_empty() {
-            self.locator.locate(&self.points, &self.layout.faces, &self.layout.interfaces);
+            self.locator.locate(&self.points, &self.layout.faces, &self.layout.interfaces, &self.edges);
             self.check();
+            self.check_edges();
         }
         let always = !self.layout.interfaces.is_empty();
         for watch in &self.plane_points {
@@ -196,6 +217,24 @@ impl Contact {
                 *past = Past { face: touch.face, allowed: touch.allowed };
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
                 constraints.extend(constraint(layout, point, touch, interface));
+            }
+        }
+    }
+
+    /// The check of every pair of edges that may cross.
+    fn check_edges(&mut self) {
+        let Contact { points, layout, locator, edges, edge_history, constraints, .. } = self;
+        let check = EdgeCheck { points, faces: &layout.faces, edges };
+        let block = |edge: u32| layout.faces.block[edges[edge as usize].faces[0] as usize];
+        let before = std::mem::take(edge_history);
+        for &pair in locator.edge_pairs() {
+            let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
+            let mut pairing = layout.pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
+            // Neither edge is the master.
+            pairing.share = 0.5;
+            if let Some((now, constraint)) = check.pair(pair, past, pairing) {
+                edge_history.push(now);
+                constraints.push(constraint);
             }
         }
     }

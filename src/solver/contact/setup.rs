@@ -112,6 +112,13 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The interface of CONTACT MATERIAL.
+    pub fn automatic(&self) -> Option<&Interface> {
+        self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
+    }
+}
+
 /// Exterior faces of the blocks that CONTACT MATERIAL names.
 fn automatic_faces(mesh: &Mesh, contact: &Contact, body: &Body) -> Vec<u32> {
     let chosen = |block: u32| match &contact.materials {

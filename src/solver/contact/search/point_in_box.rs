@@ -4,7 +4,7 @@ use super::sizes::{ORDINARY, Sizes, UNSOUND, present};
 use super::{Box3, Candidates, Search, lowest_start};
 use std::ops::Range;
 
-/// The search of Swegle et al. (1993) as in Attaway et al., SAND96. For `n` nodes it needs seven words per node: their
+/// The search of Swegle et al. (1993), with lists of positions replaced by ranks. It needs seven words per node: their
 /// order along each axis, their ranks in these orders, and one word more. Nodes of unusually long reach are searched for
 /// apart, four times longer reaches at a time.
 #[derive(Debug, Default)]
