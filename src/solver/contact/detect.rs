@@ -19,6 +19,10 @@ pub const TOUCHES: usize = 3;
 /// A point that has left its face by less than this part of half an element is still watched by it.
 const KEEP: f64 = 0.05;
 
+/// A point that has slid beyond its face by less than this part of its size is still held by it, unless another face
+/// that goes on in the same way takes over.
+const HOLD: f64 = 0.01;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -110,10 +114,15 @@ impl Check<'_> {
             // Held where it was; of the faces around only those that fold towards the point can hold it as well.
             return self.folds(point, near, touches);
         };
+        let slightly = stand.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
         let mut next: Option<(u32, Stand)> = None;
         for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
-            let Some(stand) = self.stand_at_end(point, face) else { continue };
+            // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
+            let Some(stand) = self.stand_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &stand, next))
+            else {
+                continue;
+            };
             behind += u32::from(stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs());
             if stand.outside == 0.0
                 && self.in_reach(face, &stand, allowed)
@@ -125,13 +134,20 @@ impl Check<'_> {
         match next {
             Some((face, stand)) => touches.push(self.held(face, stand, allowed * FADE)),
             // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
-            None if behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
+            None if slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
                 if self.in_reach(old, &stand, allowed) {
                     touches.push(self.held(old, stand, allowed * FADE));
                 }
             }
             None => (),
         }
+    }
+
+    /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
+    fn goes_on(&self, old: u32, face: u32, stand: &Stand, next: &Stand) -> bool {
+        let middle = |face| face::centre(&self.faces.end(face, self.points));
+        dot(stand.normal, next.normal) > SAME_WAY
+            || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
