@@ -23,6 +23,9 @@ const KEEP: f64 = 0.05;
 /// that goes on in the same way takes over.
 const HOLD: f64 = 0.01;
 
+/// Cosine between the normals of two faces that look at each other, at most.
+const FACING: f64 = -0.02;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -187,12 +190,24 @@ impl Check<'_> {
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
             let time = face::first_crossing(&corners, self.points.path(point))?;
-            return Some(touch(time, 0.0));
+            return self.faced(point, &end).then(|| touch(time, 0.0));
         }
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
         (shallow && self.opposition(point, &end) < 0.0).then(|| touch(0.0, start.gap))
+    }
+
+    /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
+    /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
+    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
+    fn faced(&self, point: u32, stand: &Stand) -> bool {
+        let around = self.faces.around(point);
+        around.is_empty()
+            || around.iter().any(|&face| {
+                let normal = face::area_normal(&self.faces.start(face, self.points));
+                dot(normal, stand.normal) < FACING * dot(normal, normal).sqrt()
+            })
     }
 
     fn opposition(&self, point: u32, stand: &Stand) -> f64 {
