@@ -1,6 +1,7 @@
 //! What the verification tests share: meshes made in code, decks run through the library, and the numbers they leave.
 #![allow(dead_code)]
 
+pub mod bodies;
 pub mod meshes;
 pub mod run;
 pub mod stiffness;
