@@ -119,11 +119,6 @@ fn the_language_is_described_in_full() {
     }
 }
 
-#[test]
-fn the_manual_page_is_current() {
-    golden(Path::new("man/urto-deck.5"), &deck::manual()).unwrap_or_else(|why| panic!("{why}"));
-}
-
 /// A deck in the manner of 1988: blanks for commas, remarks behind data, small and capital letters, no EXIT.
 const OLD_MANNER: &str = "TITLE
  CASK - 10\" PUNCH, I = 1-4, O = 3-8  (5/1/88)

@@ -65,17 +65,34 @@ pub fn manual() -> String {
     let grammar = language();
     let mut text = RULES.to_string();
     for (family, heading) in HEADINGS {
-        let built = grammar.commands().filter(|e| e.family == *family && e.status == Status::Built);
-        let mut pages: Vec<Page> = built.map(page::of_entry).collect();
+        let mut pages = pages_of(grammar, family);
         if *family == "material" {
             pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
         }
-        if !pages.is_empty() {
-            let _ = writeln!(text, ".SH {heading}");
-        }
-        text.extend(pages.iter().map(roff));
+        text += &chapter(heading, &pages);
     }
-    text + &not_built(grammar) + ".SH SEE ALSO\n.BR urto (1)\n"
+    text + &not_built(grammar) + ".SH SEE ALSO\n.BR urto (1),\n.BR urto\\-mesh (5)\n"
+}
+
+/// Chapters in roff for the families of a language that is all our own, given with their headings.
+pub fn chapters(grammar: &Grammar, headings: &[(&str, &str)]) -> String {
+    let chapter_of = |&(family, heading): &(&str, &str)| {
+        let mut pages = pages_of(grammar, family);
+        // Where nothing is PRONTO's, it need not be said of every command.
+        pages.iter_mut().for_each(|page| page.sections.retain(|(title, _)| title != page::SPELLING));
+        chapter(heading, &pages)
+    };
+    headings.iter().map(chapter_of).collect()
+}
+
+fn pages_of(grammar: &Grammar, family: &str) -> Vec<Page> {
+    let built = grammar.commands().filter(|e| e.family == family && e.status == Status::Built);
+    built.map(page::of_entry).collect()
+}
+
+fn chapter(heading: &str, pages: &[Page]) -> String {
+    let heading = if pages.is_empty() { String::new() } else { format!(".SH {heading}\n") };
+    heading + &pages.iter().map(roff).collect::<String>()
 }
 
 /// The list of what is known but cannot be used.

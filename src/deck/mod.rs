@@ -27,7 +27,7 @@ pub use fields::FieldReader;
 pub use grammar::{Absent, Choice, Entry, FieldRule, Form, Grammar, Kind, Standing, Status};
 pub use language::{CARDS, language};
 pub use lexer::{Field, FieldKind, Lexer, Record};
-pub use manual::manual;
+pub use manual::{chapters, manual};
 pub use number::Number;
 pub use reader::Deck;
 pub use source::{Source, Span};
