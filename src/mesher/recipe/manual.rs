@@ -13,7 +13,7 @@ A recipe is a text file that describes a mesh of simple bodies in commands.
 makes a GENESIS file from it, and
 .B urto run
 makes the mesh of a deck that has no BASE.g but a BASE.mesh.
-Lines, fields, numbers and abbreviations are those of decks, see
+Lines, fields, numbers, abbreviations and expressions in braces are those of decks, see
 .BR urto\-deck (5).
 .SS Order of work
 Shapes are made and moved in the order of the recipe: a move acts on the shapes above it.
