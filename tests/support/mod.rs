@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 pub mod meshes;
+pub mod momentum;
+pub mod penetration;
 pub mod run;
 pub mod stiffness;
 
