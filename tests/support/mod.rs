@@ -3,6 +3,8 @@
 
 pub mod bodies;
 pub mod meshes;
+pub mod momentum;
+pub mod penetration;
 pub mod run;
 pub mod stiffness;
 
