@@ -1,6 +1,6 @@
 //! All searches against the comparison of every node with every face.
 
-use super::{Box3, Candidates, Search, SearchKind};
+use super::{Box3, Candidates, Search, SearchKind, lowest_start};
 use proptest::prelude::*;
 
 /// Nodes and faces in which to search.
@@ -46,7 +46,7 @@ impl Scene {
         assert_eq!(found.nodes(), self.nodes.len());
         let lists: Vec<Vec<u32>> = (0..self.nodes.len()).map(|node| found.of(node).to_vec()).collect();
         assert_eq!(found.len(), lists.iter().map(Vec::len).sum());
-        assert_eq!(found.is_empty(), found.len() == 0);
+        assert_eq!(found.is_empty(), lists.iter().all(Vec::is_empty));
         lists
     }
 }
@@ -141,7 +141,8 @@ fn one_huge_face_beside_small_ones() {
 fn many_sizes_at_once() {
     let mut random = Random(2);
     let sizes = (-12..12).map(|power| (10.0, 4f64.powi(power)));
-    let scene = sizes.fold(Scene::default(), |all, (space, size)| all.and(cloud(15, space, size, 0.1 * size, &mut random)));
+    let scene =
+        sizes.fold(Scene::default(), |all, (space, size)| all.and(cloud(15, space, size, 0.1 * size, &mut random)));
     assert!(check(&[scene])[0] > 1000);
 }
 
@@ -170,7 +171,8 @@ fn degenerate_places() {
     let point = along([0.0; 3], 0.0);
     // 200 nodes meet 190 faces each, but for the four corners of each face.
     assert_eq!(check(&[point])[0], 190 * 196);
-    let lines = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1e-300, 0.0, 0.0], [1e306, 0.0, 1.0]];
+    let lines =
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1e-300, 0.0, 0.0], [1e306, 0.0, 1.0]];
     check(&lines.map(|direction| along(direction, 0.0)));
     check(&lines.map(|direction| along(direction, 0.1)));
 }
@@ -217,11 +219,21 @@ fn motion_from_call_to_call() {
 
 fn coarse_box() -> impl Strategy<Value = Box3> {
     let edge = || prop_oneof![8 => 0i32..3, 1 => 0i32..40];
-    ([0i32..12, 0i32..12, 0i32..4], [edge(), edge(), edge()])
-        .prop_map(|(low, edges)| Box3 { low: low.map(f64::from), high: [0, 1, 2].map(|i| f64::from(low[i] + edges[i])) })
+    ([0i32..12, 0i32..12, 0i32..4], [edge(), edge(), edge()]).prop_map(|(low, edges)| Box3 {
+        low: low.map(f64::from),
+        high: [0, 1, 2].map(|i| f64::from(low[i] + edges[i])),
+    })
 }
 
 proptest! {
+    /// A box that ends where another begins starts within the bound, however the difference is rounded.
+    #[test]
+    fn rounding_loses_no_touching_box(low in -1e-3..1e-3, high in 1e-3..1.0, other in -1.0..-1e-3) {
+        for (low, high) in [(low, high), (other, low)] {
+            prop_assert!(low >= lowest_start(high, high - low));
+        }
+    }
+
     /// Whole coordinates touch and tie often; sevenths make the same ties with rounding.
     #[test]
     fn equal_candidates(
