@@ -385,7 +385,7 @@ impl Default for ContactControl {
             passes: 20,
             tolerance: 1e-6,
             search: ContactSearch::Grid,
-            reach: 10.0,
+            reach: 30.0,
             margin: 0.05,
             edges: true,
         }
