@@ -118,6 +118,10 @@ The plot states, EXODUS II: for ParaView, VTK, netCDF and
 .BR "urto view" .
 It can be read at any instant, also while the run goes on and after it was killed.
 .TP
+.B BASE.h
+Histories of the points of MATERIAL POINT, if the deck has any: an EXODUS file of the watched elements, with one state per
+OUTPUT TIME and global variables such as SIGZZ_1.
+.TP
 .B BASE.shutdown
 When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one
 left from before at the start.

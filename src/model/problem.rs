@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl, boundary, check,
-    contact, control, function, initial, material, output,
+    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli,
+    TimeStepControl, boundary, check, contact, control, function, initial, material, output,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, language, spelling},
@@ -113,6 +113,7 @@ fn blank() -> Model {
         prescribed_forces: Vec::new(),
         pressures: Vec::new(),
         gravities: Vec::new(),
+        silent_boundaries: Vec::new(),
         initial_velocities: Vec::new(),
         rigid_surfaces: Vec::new(),
         contact: Contact {
@@ -123,6 +124,7 @@ fn blank() -> Model {
         },
         deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
+        material_points: Vec::new(),
     }
 }
 
