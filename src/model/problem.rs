@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli,
-    TimeStepControl, boundary, check, contact, control, function, initial, material, output,
+    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl,
+    boundary, check, contact, control, function, initial, material, output,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, language, spelling},
@@ -116,12 +116,7 @@ fn blank() -> Model {
         silent_boundaries: Vec::new(),
         initial_velocities: Vec::new(),
         rigid_surfaces: Vec::new(),
-        contact: Contact {
-            materials: None,
-            surfaces: Vec::new(),
-            data: Vec::new(),
-            control: ContactControl::default(),
-        },
+        contact: Contact::default(),
         deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
         material_points: Vec::new(),
