@@ -113,11 +113,13 @@ fn blank() -> Model {
         prescribed_forces: Vec::new(),
         pressures: Vec::new(),
         gravities: Vec::new(),
+        silent_boundaries: Vec::new(),
         initial_velocities: Vec::new(),
         rigid_surfaces: Vec::new(),
         contact: Contact::default(),
         deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
+        material_points: Vec::new(),
     }
 }
 
