@@ -1,6 +1,6 @@
 //! ELASTIC: isotropic hypoelasticity in the unrotated frame.
 
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response};
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 /// Isotropic linear elasticity, σ̇ = λ tr(d) I + 2μ d in the unrotated frame.
@@ -88,10 +88,11 @@ impl Hooke {
 
 impl Kernel for Hooke {
     const STATE: &'static [&'static str] = &[];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
-        *stress = self.trial(strain, stress);
-        Response { returned: V::splat(1.0) }
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+        *stress = self.trial(&step.strain, stress);
+        Response::returned(V::splat(1.0))
     }
 }

@@ -1,7 +1,7 @@
 //! ELASTIC PLASTIC: von Mises plasticity with combined linear hardening.
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable};
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 /// J2 flow theory with linear isotropic and kinematic hardening.
@@ -152,12 +152,13 @@ struct Isotropic(Constants);
 
 impl Kernel for Isotropic {
     const STATE: &'static [&'static str] = &["EQPS"];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
         let common = &self.0;
         // (i) elastic predictor
-        let trial = common.elastic.trial(strain, stress);
+        let trial = common.elastic.trial(&step.strain, stress);
         let deviator = trial.deviator();
         // (ii) radius √⅔ (Y₀ + H ε̄ᵖ)
         let eqps = V::load(&state[0], part);
@@ -167,7 +168,7 @@ impl Kernel for Isotropic {
         let back = common.radial_return(&deviator, radius);
         *stress = trial.zip(deviator, |t, d| t - back.share * d);
         (eqps + V::splat(ROOT_TWO_THIRDS) * back.multiplier).store(&mut state[0], part);
-        Response { returned: V::splat(1.0) - back.share }
+        Response::returned(V::splat(1.0) - back.share)
     }
 }
 
@@ -180,12 +181,13 @@ struct Combined {
 
 impl Kernel for Combined {
     const STATE: &'static [&'static str] = &["EQPS", "ALPHA11", "ALPHA22", "ALPHA33", "ALPHA12", "ALPHA23", "ALPHA31"];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
         let common = &self.common;
         // (i) elastic predictor, seen from the back stress
-        let trial = common.elastic.trial(strain, stress);
+        let trial = common.elastic.trial(&step.strain, stress);
         let alpha = Sym3::load(&state[1..], part);
         let xi = trial.deviator().zip(alpha, |s, a| s - a);
         // (ii) radius √⅔ (Y₀ + β H ε̄ᵖ)
@@ -201,6 +203,6 @@ impl Kernel for Combined {
         for (row, value) in state[1..].iter_mut().zip(alpha.to_array()) {
             value.store(row, part);
         }
-        Response { returned: V::splat(1.0) - back.share }
+        Response::returned(V::splat(1.0) - back.share)
     }
 }

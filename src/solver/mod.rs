@@ -105,6 +105,7 @@ impl Solver {
             local: PassOutcome::NOTHING,
             control: model.time_step,
             pass: PassSettings {
+                time: 0.0,
                 time_step: 0.0,
                 bulk_viscosity: model.bulk_viscosity,
                 moduli: model.time_step.moduli,
@@ -193,7 +194,7 @@ impl Solver {
     /// Stress, viscosity and hourglass forces of all elements and the pressures on their faces, summed at the nodes
     /// in canonical order. What other ranks wait for is computed and sent first.
     fn internal_forces(&mut self, comm: &mut dyn Communicator) {
-        self.pass.time_step = self.time_step;
+        (self.pass.time, self.pass.time_step) = (self.time, self.time_step);
         let mut found = PassOutcome::NOTHING;
         self.clock.start();
         found = found.and(self.border_elements());
