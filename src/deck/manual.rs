@@ -7,7 +7,7 @@ use super::{
     language,
     page::{self, Body, Page},
 };
-use crate::material::MATERIALS;
+use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
 
 /// What stands before the commands: the rules of writing.
 const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"
@@ -69,6 +69,7 @@ pub fn manual() -> String {
         let mut pages: Vec<Page> = built.map(page::of_entry).collect();
         if *family == "material" {
             pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
+            pages.extend(EQUATIONS_OF_STATE.iter().map(|e| page::of_equation(e)));
         }
         if !pages.is_empty() {
             let _ = writeln!(text, ".SH {heading}");

@@ -1,6 +1,7 @@
 //! ELASTIC PLASTIC: von Mises plasticity with combined linear hardening.
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
+use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
@@ -19,6 +20,30 @@ pub struct ElasticPlastic {
     pub beta: f64,
 }
 
+/// Yield stress, for every law with one.
+pub(super) const YIELD_STRESS: Property =
+    Property::required("YIELD STRESS", "Y0", STRESS, Range::NotNegative, "Initial yield stress in uniaxial tension.");
+
+/// Linear hardening, for every law with it.
+pub(super) const HARDENING_MODULUS: Property = Property::required(
+    "HARDENING MODULUS",
+    "H",
+    STRESS,
+    Range::NotNegative,
+    "Slope of uniaxial stress against plastic strain.",
+)
+.or(0.0);
+
+/// Kind of hardening.
+const BETA: Property = Property::required(
+    "BETA",
+    "beta",
+    "-",
+    Range::Between { low: (0.0, true), high: (1.0, true) },
+    "1 for isotropic hardening, 0 for kinematic, linear between.",
+)
+.or(1.0);
+
 pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC PLASTIC",
     aliases: &["ELASTIC-PLASTIC"],
@@ -26,30 +51,9 @@ pub(super) static ENTRY: Entry = Entry {
     properties: &[
         YOUNGS_MODULUS,
         POISSONS_RATIO,
-        Property {
-            keyword: "YIELD STRESS",
-            symbol: "Y0",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: None,
-            meaning: "Initial yield stress in uniaxial tension.",
-        },
-        Property {
-            keyword: "HARDENING MODULUS",
-            symbol: "H",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: Some(0.0),
-            meaning: "Slope of uniaxial stress against plastic strain.",
-        },
-        Property {
-            keyword: "BETA",
-            symbol: "beta",
-            dimension: "-",
-            range: Range::Between { low: (0.0, true), high: (1.0, true) },
-            default: Some(1.0),
-            meaning: "1 for isotropic hardening, 0 for kinematic, linear between.",
-        },
+        YIELD_STRESS,
+        HARDENING_MODULUS,
+        BETA,
     ],
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },

@@ -5,6 +5,10 @@ use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 mod elastic;
 mod elastic_plastic;
+mod ep_hydrodynamic;
+mod equation_of_state;
+mod hydrodynamic;
+mod johnson_cook;
 mod plastic;
 #[cfg(test)]
 mod point;
@@ -15,6 +19,10 @@ mod tests;
 
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;
+pub use ep_hydrodynamic::ElasticPlasticHydrodynamic;
+pub use equation_of_state::{DetonationPoint, EQUATIONS_OF_STATE, EquationOfState, IdealGas, Jwl, PowerSeries, UsUp};
+pub use hydrodynamic::Hydrodynamic;
+pub use johnson_cook::JohnsonCook;
 pub use power_hardening::PowerHardening;
 pub use property::{Curve, Given, Origin, Property, Range, Refusal, StateVariable};
 
@@ -67,6 +75,20 @@ laws! {
     elastic::Elastic,
     elastic_plastic::ElasticPlastic,
     power_hardening::PowerHardening,
+    johnson_cook::JohnsonCook,
+    hydrodynamic::Hydrodynamic,
+    ep_hydrodynamic::ElasticPlasticHydrodynamic,
+}
+
+impl Law {
+    /// The equation of state of a law that has one.
+    pub fn equation_of_state(&self) -> Option<&EquationOfState> {
+        match self {
+            Law::Hydrodynamic(law) => Some(&law.equation),
+            Law::ElasticPlasticHydrodynamic(law) => Some(&law.equation),
+            _ => None,
+        }
+    }
 }
 
 /// Isotropic elastic constants.

@@ -1,6 +1,8 @@
 //! A single material point on a prescribed path: what the tests of all laws are made with.
 
-use super::{Kernel, KernelVisitor, Law, Response, Start, Step};
+use super::{
+    EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Kernel, KernelVisitor, Law, MATERIALS, Property, Response, Start, Step,
+};
 use crate::lanes::{Lanes, Matrix3, Pair, Row, Sym3};
 use nalgebra::{Matrix3 as Matrix, SymmetricEigen};
 
@@ -27,22 +29,35 @@ pub(super) fn close(what: &str, a: f64, b: f64, relative: f64) {
     assert!((a - b).abs() <= relative * b.abs(), "{what}: {a:e} instead of {b:e}, off by {:e}", a / b - 1.0);
 }
 
-/// The law of a table entry, made as a deck makes it: all its properties by keyword, functions by number.
+/// Values of an entry's properties from those given by keyword, and defaults.
+#[track_caller]
+fn values<T>(entry: &Entry<T>, given: &[(&str, f64)]) -> Vec<f64> {
+    for (keyword, _) in given {
+        assert!(entry.properties.iter().any(|p| p.keyword == *keyword), "{} has no {keyword}", entry.name);
+    }
+    let value = |p: &Property| {
+        let value = given.iter().find(|(keyword, _)| *keyword == p.keyword).map(|(_, value)| *value);
+        value.or(p.default).unwrap_or_else(|| panic!("{} is missing", p.keyword))
+    };
+    entry.properties.iter().map(value).collect()
+}
+
+/// The law of a table entry, made as a deck makes it: its properties by keyword, functions by number.
 #[track_caller]
 pub(super) fn made(name: &str, density: f64, given: &[(&str, f64)], functions: &[(i64, &[(f64, f64)])]) -> Law {
-    let entry = super::MATERIALS.iter().find(|entry| entry.name == name).expect("a law of this name");
-    assert!(given.iter().all(|(k, _)| entry.properties.iter().any(|p| p.keyword == *k)), "unknown property");
-    let values: Vec<f64> = entry
-        .properties
-        .iter()
-        .map(|p| {
-            let value = given.iter().find(|(keyword, _)| *keyword == p.keyword).map(|(_, value)| *value);
-            value.or(p.default).unwrap_or_else(|| panic!("{} is missing", p.keyword))
-        })
-        .collect();
+    let entry = MATERIALS.iter().find(|entry| entry.name == name).expect("a law of this name");
+    let values = values(entry, given);
     let function = |id| functions.iter().find(|f| f.0 == id).map(|f| f.1.to_vec());
-    let given = super::Given { values: &values, density, function: &function };
+    let given = Given { function: &function, ..Given::new(&values, density) };
     (entry.build)(&given).unwrap_or_else(|refusal| panic!("{} {}", refusal.keyword, refusal.reason))
+}
+
+/// An equation of state by name and properties.
+#[track_caller]
+pub(super) fn equation(name: &str, density: f64, given: &[(&str, f64)]) -> EquationOfState {
+    let entry = EQUATIONS_OF_STATE.iter().find(|entry| entry.name == name).expect("an equation of this name");
+    let given = values(entry, given);
+    (entry.build)(&Given::new(&given, density)).unwrap_or_else(|refusal| panic!("{} {}", refusal.keyword, refusal.reason))
 }
 
 /// Stress, stored state and motion of one point, driven by strain increments.

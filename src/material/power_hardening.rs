@@ -5,7 +5,9 @@
 //! keywords is recalled.
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
+use super::elastic_plastic::YIELD_STRESS;
 use super::plastic::{Flow, compose, largest_principal, radial_return, weakened_tension};
+use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
 
@@ -30,6 +32,9 @@ pub struct PowerHardening {
     pub opening: f64,
 }
 
+/// Exponents for which hardening is steepest at its start.
+const EXPONENT: Range = Range::Between { low: (0.0, false), high: (1.0, true) };
+
 pub(super) static ENTRY: Entry = Entry {
     name: "EP POWER HARD",
     aliases: &["EP POWER HARDENING"],
@@ -37,54 +42,27 @@ pub(super) static ENTRY: Entry = Entry {
     properties: &[
         YOUNGS_MODULUS,
         POISSONS_RATIO,
-        Property {
-            keyword: "YIELD STRESS",
-            symbol: "Y0",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: None,
-            meaning: "Initial yield stress in uniaxial tension.",
-        },
-        Property {
-            keyword: "HARDENING CONSTANT",
-            symbol: "A",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: None,
-            meaning: "Factor of the power law.",
-        },
-        Property {
-            keyword: "HARDENING EXPONENT",
-            symbol: "n",
-            dimension: "-",
-            range: Range::Between { low: (0.0, false), high: (1.0, true) },
-            default: None,
-            meaning: "Exponent of the power law.",
-        },
-        Property {
-            keyword: "LUDERS STRAIN",
-            symbol: "eL",
-            dimension: "-",
-            range: Range::NotNegative,
-            default: Some(0.0),
-            meaning: "Plastic strain at which hardening begins.",
-        },
-        Property {
-            keyword: "CRITICAL TEARING PARAMETER",
-            symbol: "tp",
-            dimension: "-",
-            range: Range::NotNegative,
-            default: Some(0.0),
-            meaning: "Tearing parameter at which the material begins to fail; 0 for one that does not.",
-        },
-        Property {
-            keyword: "CRITICAL CRACK OPENING STRAIN",
-            symbol: "ec",
-            dimension: "-",
-            range: Range::Positive,
-            default: Some(0.01),
-            meaning: "Strain across the crack over which the strength falls to nothing.",
-        },
+        YIELD_STRESS,
+        Property::required("HARDENING CONSTANT", "A", STRESS, Range::NotNegative, "Factor of the power law."),
+        Property::required("HARDENING EXPONENT", "n", "-", EXPONENT, "Exponent of the power law."),
+        Property::required("LUDERS STRAIN", "eL", "-", Range::NotNegative, "Plastic strain at which hardening begins.")
+            .or(0.0),
+        Property::required(
+            "CRITICAL TEARING PARAMETER",
+            "tp",
+            "-",
+            Range::NotNegative,
+            "Tearing parameter at which the material begins to fail; 0 for one that does not.",
+        )
+        .or(0.0),
+        Property::required(
+            "CRITICAL CRACK OPENING STRAIN",
+            "ec",
+            "-",
+            Range::Positive,
+            "Strain across the crack over which the strength falls to nothing.",
+        )
+        .or(0.01),
     ],
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },

@@ -1,7 +1,12 @@
 //! The vocabulary in which a law describes itself.
 
+use super::equation_of_state::{DetonationPoint, EquationOfState};
+use std::cell::Cell;
 use std::ops::Index;
 use std::sync::Arc;
+
+/// Dimension of stresses and moduli.
+pub(super) const STRESS: &str = "force/length^2";
 
 /// One parameter of a law.
 pub struct Property {
@@ -17,6 +22,24 @@ pub struct Property {
     pub default: Option<f64>,
     /// One sentence for the manual.
     pub meaning: &'static str,
+}
+
+impl Property {
+    /// One that the deck must give.
+    pub const fn required(
+        keyword: &'static str,
+        symbol: &'static str,
+        dimension: &'static str,
+        range: Range,
+        meaning: &'static str,
+    ) -> Property {
+        Property { keyword, symbol, dimension, range, default: None, meaning }
+    }
+
+    /// The same with a default.
+    pub const fn or(self, default: f64) -> Property {
+        Property { default: Some(default), ..self }
+    }
 }
 
 /// The values a number may take.
@@ -110,6 +133,12 @@ pub struct Given<'a> {
     pub density: f64,
     /// Finds the points of a function by its number.
     pub function: &'a dyn Fn(i64) -> Option<Vec<(f64, f64)>>,
+    /// Equation of state, if there is one.
+    pub equation: Option<EquationOfState>,
+    /// Whether the law asked for it.
+    pub equation_wanted: Cell<bool>,
+    /// Where explosives are lit.
+    pub detonation: &'a [DetonationPoint],
 }
 
 impl Index<usize> for Given<'_> {
@@ -120,9 +149,17 @@ impl Index<usize> for Given<'_> {
 }
 
 impl Given<'_> {
-    /// Values alone, for laws made without a deck.
-    pub fn values(values: &[f64]) -> Given<'_> {
-        Given { values, density: f64::NAN, function: &|_| None }
+    /// Values and density alone, for what is made without a deck or needs no more.
+    pub fn new(values: &[f64], density: f64) -> Given<'_> {
+        let equation_wanted = Cell::new(false);
+        Given { values, density, function: &|_| None, equation: None, equation_wanted, detonation: &[] }
+    }
+
+    /// The equation of state, for a law that cannot do without.
+    pub fn equation_of_state(&self) -> Result<EquationOfState, Refusal> {
+        self.equation_wanted.set(true);
+        let reason = "is missing; it is a group of its own with the number of the block".to_string();
+        self.equation.ok_or(Refusal { keyword: "EQUATION OF STATE", reason })
     }
 
     /// The function that the property at a position names.

@@ -6,11 +6,14 @@ use super::{
     properties::Properties,
 };
 use crate::{
-    deck::{Agreement, Card, Diagnostic, Field, Form, Row, Span, Spelled, language, spelling},
-    material::{Entry, Given, MATERIALS, Refusal},
+    deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, language, spelling},
+    material::{DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
 };
 
-pub(super) const COMMANDS: &[Setter] = &[("MATERIAL", material)];
+pub(super) const COMMANDS: &[Setter] = &[("MATERIAL", material), ("EQUATION OF STATE", lonely_equation)];
+
+/// What comes when all materials are there.
+pub(super) const LATER_COMMANDS: &[Setter] = &[("DETONATION POINT", detonation_point)];
 
 fn material(card: &Card, draft: &mut Draft) {
     let block = card.integer("block");
@@ -23,11 +26,115 @@ fn material(card: &Card, draft: &mut Draft) {
     let Some(entry) = model(card, draft) else { return };
     let Some(values) = Properties::new(card, entry, MATERIALS).values(card, draft) else { return };
     let density = card.number("density");
+    let equation_card = equation_cards(draft.deck, block).next();
+    let equation = equation_card.and_then(|card| equation_of_state(card, density, draft));
+    if equation_card.is_some() && equation.is_none() {
+        return; // Its mistake has been reported.
+    }
     let functions = &draft.model.functions;
     let function = |id| functions.iter().find(|f| f.id == id).map(|f| f.points.clone());
-    match (entry.build)(&Given { values: &values, density, function: &function }) {
+    let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(point).collect();
+    let given =
+        Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
+    let law = (entry.build)(&given);
+    if let (Some(equation_card), false, Ok(_)) = (equation_card, given.equation_wanted.get(), &law) {
+        let message = format!("EQUATION OF STATE {block}: {} does not use one", entry.name);
+        let wanted = "HYDRODYNAMIC and EP HYDRODYNAMIC do";
+        let diagnostic = Diagnostic::error(message).at(equation_card.record, "").at(card.record, "the material");
+        draft.report(diagnostic.help(wanted));
+    }
+    match law {
         Ok(law) => draft.model.materials.push(BlockMaterial { block, density, law }),
         Err(refusal) => refused(card, &refusal, draft),
+    }
+}
+
+/// The equations of state that a deck gives a block.
+fn equation_cards(deck: &Deck, block: i64) -> impl Iterator<Item = &Card> {
+    deck.cards_of("EQUATION OF STATE").filter(move |card| card.complete && card.maybe_integer("block") == Some(block))
+}
+
+fn equation_of_state(card: &Card, density: f64, draft: &mut Draft) -> Option<EquationOfState> {
+    let entry = equation_entry(card, draft)?;
+    let values = Properties::new(card, entry, EQUATIONS_OF_STATE).values(card, draft)?;
+    match (entry.build)(&Given::new(&values, density)) {
+        Ok(equation) => Some(equation),
+        Err(refusal) => {
+            refused(card, &refusal, draft);
+            None
+        }
+    }
+}
+
+/// The equation that a card names, or a message why there is none.
+fn equation_entry(card: &Card, draft: &mut Draft) -> Option<&'static Entry<EquationOfState>> {
+    let (name, place) = (card.text("equation"), card.place("equation"));
+    let words: Vec<Field> = name.split(' ').map(|word| Field::word(word, place)).collect();
+    let all = EQUATIONS_OF_STATE.iter().flat_map(|&entry| spellings(entry).map(move |s| (s, entry.name)));
+    let names: Vec<&str> = EQUATIONS_OF_STATE.iter().map(|entry| entry.name).collect();
+    if let Spelled::As { what, agreement, .. } = spelling::recognise_all(&words, all) {
+        if agreement == Agreement::Abbreviated || what != name {
+            draft.report(Diagnostic::note(format!("assumed equation of state {what} for `{name}`")).at(place, ""));
+        }
+        return EQUATIONS_OF_STATE.iter().find(|entry| entry.name == what).copied();
+    }
+    let owner = format!("EQUATION OF STATE {}", card.integer("block"));
+    let near = spelling::nearest(name, names.iter().copied());
+    draft.report(
+        Diagnostic::error(format!("{owner}: there is no equation of state {}", spelling::cut(name)))
+            .at(place, "expected the name of an equation of state")
+            .help(near.map_or(String::new(), |near| format!("did you mean {near}?")))
+            .help(format!("the equations of state are {}", spelling::all(&names))),
+    );
+    None
+}
+
+/// An equation of state acts with the material of its block; here it is seen that there is one, and one equation only.
+fn lonely_equation(card: &Card, draft: &mut Draft) {
+    let block = card.integer("block");
+    if let Some(first) = equation_cards(draft.deck, block).next().filter(|first| *first != card) {
+        let message = format!("element block {block} is given two equations of state");
+        let diagnostic = Diagnostic::error(message).at(card.record, "the second one");
+        return draft.report(diagnostic.at(first.record, "the first one"));
+    }
+    if !draft.deck.cards_of("MATERIAL").any(|material| material.maybe_integer("block") == Some(block)) {
+        let message = format!("EQUATION OF STATE {block}: there is no MATERIAL {block}");
+        draft.report(Diagnostic::error(message).at(card.place("block"), "the block that it is for"));
+    }
+}
+
+fn point(card: &Card) -> DetonationPoint {
+    DetonationPoint { position: ["x", "y", "z"].map(|axis| card.number(axis)), time: card.number("time") }
+}
+
+/// Detonation points act in the making of explosives; here it is seen that there is one.
+fn detonation_point(card: &Card, draft: &mut Draft) {
+    if !draft.model.materials.iter().any(|material| explosive(&material.law)) {
+        draft.report(
+            Diagnostic::warning("DETONATION POINT: no material is an explosive")
+                .at(card.record, "there is nothing to light")
+                .help("an explosive is a HYDRODYNAMIC material with the EQUATION OF STATE JWL"),
+        );
+    }
+}
+
+fn explosive(law: &Law) -> bool {
+    matches!(law.equation_of_state(), Some(EquationOfState::Jwl(_)))
+}
+
+/// Warns of explosives that nothing lights.
+pub(super) fn report_unlit(draft: &mut Draft) {
+    if draft.deck.cards_of("DETONATION POINT").next().is_some() {
+        return;
+    }
+    let unlit = |material: &&BlockMaterial| explosive(&material.law);
+    let blocks: Vec<i64> = draft.model.materials.iter().filter(unlit).map(|material| material.block).collect();
+    for block in blocks {
+        let Some(card) = equation_cards(draft.deck, block).next() else { continue };
+        draft.report(
+            Diagnostic::warning(format!("EQUATION OF STATE {block}: there is no DETONATION POINT"))
+                .at(card.record, "all of the explosive has burnt when the run begins"),
+        );
     }
 }
 
@@ -91,7 +198,7 @@ fn model(card: &Card, draft: &mut Draft) -> Option<&'static Entry> {
     }
 }
 
-fn spellings(entry: &'static Entry) -> impl Iterator<Item = &'static str> + Clone {
+fn spellings<T>(entry: &'static Entry<T>) -> impl Iterator<Item = &'static str> + Clone {
     std::iter::once(entry.name).chain(entry.aliases.iter().copied())
 }
 

@@ -29,6 +29,7 @@ const FAMILIES: &[&[Setter]] = &[
     control::COMMANDS,
     function::COMMANDS,
     material::COMMANDS,
+    material::LATER_COMMANDS,
     boundary::COMMANDS,
     initial::COMMANDS,
     contact::COMMANDS,
@@ -78,6 +79,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
         }
     }
     material::check_unfinished(&mut draft);
+    material::report_unlit(&mut draft);
     output::finish(&mut draft);
     function::report_unused(&mut draft);
     let Draft { model, found, .. } = draft;
