@@ -53,6 +53,12 @@ INITIAL VELOCITY NODESET, 4, 0., 0., -40.
 INITIAL VELOCITY ANGULAR, 2, 100., 0., 0., 0., 0., 0., 1.
 
 RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.1      $ the floor, rough
+CONTACT MATERIAL, 1, 2                              $ wherever the bar may meet itself
+CONTACT DATA, 1, 2, 0.2, 0.5
+CONTACT SURFACE, 100, 300, 0.1, 0.5
+CONTACT PASSES, 10, 1.E-6
+CONTACT SEARCH, GRID, 10, 0.05
+CONTACT EDGES, ON
 NO DISPLACEMENT, Y, 2                               $ plane of symmetry
 PRESCRIBED DISPLACEMENT, Z, 4, 3, -40.              $ the top comes down at 40 m/s
 PRESCRIBED ACCELERATION, X, 1, 1, 1.E5

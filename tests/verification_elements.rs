@@ -65,6 +65,8 @@ fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Mo
             InitialVelocity::Angular { block: 1, omega, point: [0.0; 3], axis: [0.0, 0.0, 1.0] },
         ],
         rigid_surfaces: Vec::new(),
+        contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
+        deaths: vec![],
         plot_requests: PlotRequests::default(),
     }
 }

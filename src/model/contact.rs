@@ -1,12 +1,131 @@
-//! Rigid planes.
+//! Contact and rigid planes.
 
 use super::{
+    ContactData, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable, ElementField, Friction,
     RigidSurface,
     problem::{Draft, Setter},
 };
-use crate::deck::{Card, Diagnostic};
+use crate::deck::{Card, Diagnostic, spelling};
 
-pub(super) const COMMANDS: &[Setter] = &[("RIGID SURFACE", rigid_surface)];
+pub(super) const COMMANDS: &[Setter] = &[
+    ("RIGID SURFACE", rigid_surface),
+    ("CONTACT MATERIAL", contact_material),
+    ("CONTACT SURFACE", contact_surface),
+    ("CONTACT DATA", contact_data),
+    ("CONTACT PASSES", contact_passes),
+    ("CONTACT SEARCH", contact_search),
+    ("CONTACT EDGES", contact_edges),
+    ("DEATH", death),
+];
+
+fn death(card: &Card, draft: &mut Draft) {
+    let block = card.integer("block");
+    let name = card.text("variable").to_uppercase();
+    let Some(variable) = death_variable(block, &name, draft) else {
+        let mut known = vec!["VOLUME".to_string(), "TMSTEP".to_string()];
+        known.extend(state_names(block, draft));
+        known.extend(ElementField::ALL.iter().flat_map(|field| field.components()).map(|name| name.to_string()));
+        let diagnostic = Diagnostic::error(format!("DEATH: there is no variable {} to watch", spelling::cut(&name)))
+            .at(card.place("variable"), "expected a state variable or a component of PLOT ELEMENT");
+        let near = spelling::nearest(&name, known.iter().map(String::as_str));
+        return draft.report(match near {
+            Some(near) => diagnostic.help(format!("did you mean {near}?")),
+            None => diagnostic.help(format!("block {block} has {}", spelling::all(&known))),
+        });
+    };
+    draft.model.deaths.push(Death {
+        block,
+        variable,
+        is_maximum: card.text("bound") == "MAX",
+        value: card.number("value"),
+        keeps_nodes: card.text("nodes") == "FREE",
+    });
+}
+
+fn state_names(block: i64, draft: &Draft) -> Vec<String> {
+    let material = draft.model.materials.iter().find(|material| material.block == block);
+    material.map_or(Vec::new(), |m| m.law.entry().state.iter().map(|variable| variable.name.to_string()).collect())
+}
+
+fn death_variable(block: i64, name: &str, draft: &Draft) -> Option<DeathVariable> {
+    match name {
+        "VOLUME" => return Some(DeathVariable::Volume),
+        "TMSTEP" => return Some(DeathVariable::TimeStep),
+        _ => (),
+    }
+    let field = ElementField::ALL.iter().find_map(|&field| {
+        let component = field.components().iter().position(|component| *component == name)?;
+        Some(DeathVariable::Field(field, component))
+    });
+    // A material that could not be read has been reported; its variables are not known.
+    let unread = draft.model.materials.iter().all(|material| material.block != block);
+    let of_material = state_names(block, draft).iter().any(|variable| variable == name);
+    field.or((of_material || unread).then(|| DeathVariable::State(name.to_string())))
+}
+
+fn contact_material(card: &Card, draft: &mut Draft) {
+    let named: Vec<i64> = card.items("block").iter().filter_map(|item| item.value.integer()).collect();
+    let materials = &mut draft.model.contact.materials;
+    *materials = Some(match (materials.take(), named.is_empty()) {
+        (Some(ContactMaterials::All), _) | (_, true) => ContactMaterials::All,
+        (Some(ContactMaterials::Blocks(mut blocks)), _) => {
+            blocks.extend(named);
+            ContactMaterials::Blocks(blocks)
+        }
+        (None, _) => ContactMaterials::Blocks(named),
+    });
+}
+
+/// Friction from the fields `friction`, `high_speed` and `decay`.
+fn friction(card: &Card) -> Friction {
+    Friction {
+        at_rest: card.number("friction"),
+        high_speed: card.number("high_speed"),
+        decay: card.number("decay"),
+    }
+}
+
+fn contact_surface(card: &Card, draft: &mut Draft) {
+    draft.model.contact.surfaces.push(ContactSurface {
+        side_sets: [card.integer("first"), card.integer("second")],
+        friction: friction(card),
+        partition: card.number("partition"),
+    });
+}
+
+fn contact_data(card: &Card, draft: &mut Draft) {
+    draft.model.contact.data.push(ContactData {
+        materials: [card.integer("first"), card.integer("second")],
+        friction: friction(card),
+        partition: card.maybe_number("partition"),
+    });
+    if draft.deck.cards_of("CONTACT MATERIAL").next().is_none() {
+        draft.report(
+            Diagnostic::warning("CONTACT DATA: there is no CONTACT MATERIAL, so that nothing follows from this")
+                .at(card.record, "friction and partition of contact that was not asked for")
+                .help("CONTACT MATERIAL, 1, 2 lets the blocks touch; CONTACT SURFACE has friction of its own"),
+        );
+    }
+}
+
+fn contact_passes(card: &Card, draft: &mut Draft) {
+    let control = &mut draft.model.contact.control;
+    (control.passes, control.tolerance) = (card.integer("passes") as u32, card.number("tolerance"));
+}
+
+fn contact_search(card: &Card, draft: &mut Draft) {
+    let control = &mut draft.model.contact.control;
+    control.search = match card.text("method") {
+        "POINT IN BOX" => ContactSearch::PointInBox,
+        "TREE" => ContactSearch::Tree,
+        _ => ContactSearch::Grid,
+    };
+    (control.reach, control.margin) = (card.number("steps"), card.number("margin"));
+}
+
+fn contact_edges(card: &Card, draft: &mut Draft) {
+    draft.model.contact.control.edges = card.text("switch") == "ON";
+}
 
 fn rigid_surface(card: &Card, draft: &mut Draft) {
     let Some(normal) = unit(card.vector(["nx", "ny", "nz"])) else {

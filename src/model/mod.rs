@@ -55,6 +55,10 @@ pub struct Model {
     pub initial_velocities: Vec<InitialVelocity>,
     /// Fixed rigid planes.
     pub rigid_surfaces: Vec<RigidSurface>,
+    /// Contact between surfaces of the body.
+    pub contact: Contact,
+    /// When elements are taken away.
+    pub deaths: Vec<Death>,
     /// What the plot file holds.
     pub plot_requests: PlotRequests,
 }
@@ -268,6 +272,138 @@ pub struct RigidSurface {
     pub friction: f64,
 }
 
+/// Contact between surfaces of the body: what may touch, and how it is enforced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// CONTACT MATERIAL: numbers of the blocks whose outside may touch any other and itself.
+    pub materials: Option<ContactMaterials>,
+    /// CONTACT SURFACE: pairs of side sets.
+    pub surfaces: Vec<ContactSurface>,
+    /// CONTACT DATA: what holds between two materials.
+    pub data: Vec<ContactData>,
+    /// CONTACT CONTROL.
+    pub control: ContactControl,
+}
+
+impl Contact {
+    /// Whether anything may touch anything.
+    pub fn is_some(&self) -> bool {
+        self.materials.is_some() || !self.surfaces.is_empty()
+    }
+}
+
+/// DEATH: elements of a block are taken away when a variable passes a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Death {
+    /// Element block number.
+    pub block: i64,
+    /// What is watched.
+    pub variable: DeathVariable,
+    /// Whether the value is a largest one; a smallest one otherwise.
+    pub is_maximum: bool,
+    /// The value.
+    pub value: f64,
+    /// Whether nodes that lose their last element go on as free masses.
+    pub keeps_nodes: bool,
+}
+
+/// What DEATH watches.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DeathVariable {
+    /// A state variable of the material.
+    State(String),
+    /// A component of an element field of the plot file.
+    Field(ElementField, usize),
+    /// Present volume over initial volume; 0 is inversion.
+    Volume,
+    /// The stable time step of the element.
+    TimeStep,
+}
+
+/// The blocks that CONTACT MATERIAL names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ContactMaterials {
+    /// Every block of the mesh.
+    All,
+    /// These.
+    Blocks(Vec<i64>),
+}
+
+/// CONTACT SURFACE: the nodes of each side set may touch the faces of the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSurface {
+    /// Side set numbers.
+    pub side_sets: [i64; 2],
+    /// Coulomb friction.
+    pub friction: Friction,
+    /// Share of the master role of the first side set: 1 makes it the master, 0 the slave.
+    pub partition: f64,
+}
+
+/// CONTACT DATA: friction and partition between two materials.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactData {
+    /// Block numbers; twice the same for a material with itself.
+    pub materials: [i64; 2],
+    /// Coulomb friction.
+    pub friction: Friction,
+    /// Share of the master role of the first material; from the impedances where `None`.
+    pub partition: Option<f64>,
+}
+
+/// Coulomb friction whose coefficient falls with the speed of sliding:
+/// μ(v) = μ_high + (μ_static − μ_high) exp(−decay v).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Friction {
+    /// Coefficient at rest.
+    pub at_rest: f64,
+    /// Coefficient at high speed.
+    pub high_speed: f64,
+    /// Decay, time/length; 0 keeps the coefficient at rest.
+    pub decay: f64,
+}
+
+/// CONTACT PASSES, CONTACT SEARCH and CONTACT EDGES: how contact is found and enforced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactControl {
+    /// Largest number of enforcement passes in a step.
+    pub passes: u32,
+    /// Overlap that ends the passes, as a part of the face's size.
+    pub tolerance: f64,
+    /// How near faces are found.
+    pub search: ContactSearch,
+    /// Steps that a search shall last for a point that keeps its velocity; 0 searches every step.
+    pub reach: f64,
+    /// Smallest reach of a search, as a part of the mean face size.
+    pub margin: f64,
+    /// Whether edges may touch edges.
+    pub edges: bool,
+}
+
+impl Default for ContactControl {
+    fn default() -> ContactControl {
+        ContactControl {
+            passes: 20,
+            tolerance: 1e-6,
+            search: ContactSearch::Grid,
+            reach: 10.0,
+            margin: 0.05,
+            edges: true,
+        }
+    }
+}
+
+/// Ways to find faces near a point; all find the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactSearch {
+    /// Three sorted lists (Swegle), the reference.
+    PointInBox,
+    /// Grids of cells.
+    Grid,
+    /// A tree of boxes.
+    Tree,
+}
+
 /// PLOT NODAL, PLOT ELEMENT, PLOT STATE.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlotRequests {
@@ -310,6 +446,8 @@ fields! {
         Reaction = "REACTION", ["RX", "RY", "RZ"], "force that holds or drives a node: constraints, prescribed motion, rigid surfaces";
         /// m
         Mass = "MASS", ["NODMASS"], "lumped nodal mass";
+        /// contact
+        Contact = "CONTACT", ["CONTX", "CONTY", "CONTZ", "CONTGAP", "CONTSTAT", "CONTFACE"], "contact force, of rigid surfaces too; overlap that is closed in the coming step; 0 free, 1 pushed, 2 pushed as a node on a face; element of that face";
     }
 }
 
@@ -330,6 +468,8 @@ fields! {
         Density = "DENSITY", ["DENSITY"], "current mass density";
         /// hourglass energy
         HourglassEnergy = "HOURGLASS", ["HGENERGY"], "hourglass energy per unit initial volume";
+        /// alive
+        Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank
         Rank = "RANK", ["RANK"], "rank that computes the element";
     }

@@ -105,6 +105,10 @@ pub(super) fn finish(draft: &mut Draft) {
     let nodal = &mut draft.model.plot_requests.nodal;
     nodal.retain(|field| *field != NodalField::Displacement);
     nodal.insert(0, NodalField::Displacement);
+    let element = &mut draft.model.plot_requests.element;
+    if !draft.model.deaths.is_empty() && !element.contains(&ElementField::Status) {
+        element.push(ElementField::Status);
+    }
     check_schedule(draft);
 }
 

@@ -1,7 +1,7 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl, boundary, check,
+    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl, boundary, check,
     contact, control, function, initial, material, output,
 };
 use crate::{
@@ -119,6 +119,13 @@ fn blank() -> Model {
         gravities: Vec::new(),
         initial_velocities: Vec::new(),
         rigid_surfaces: Vec::new(),
+        contact: Contact {
+            materials: None,
+            surfaces: Vec::new(),
+            data: Vec::new(),
+            control: ContactControl::default(),
+        },
+        deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
     }
 }

@@ -3,9 +3,8 @@
 use crate::lanes::Sym3;
 use crate::mesh::check::hexahedron_volume;
 use crate::model::{ElementField, Model, NodalField};
-use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix};
+use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix, logarithm};
 use crate::solver::{Solver, Totals};
-use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Global variables of the plot file with their meaning.
 pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
@@ -76,19 +75,23 @@ impl FieldList {
     pub fn nodal_values(&self, solver: &Solver) -> Vec<f64> {
         let nodes = &solver.domain.nodes;
         let owned: Vec<u32> = (0..nodes.len() as u32).filter(|&n| nodes.owned[n as usize]).collect();
-        let reactions = if self.nodal.contains(&NodalField::Reaction) { solver.reactions() } else { Vec::new() };
+        let wanted = |field: NodalField| self.nodal.contains(&field);
+        let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
+        let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
         let mut values = Vec::new();
         for field in &self.nodal {
             let first = values.len();
             let count = field.components().len();
             values.resize(first + count * owned.len(), 0.0);
             for (i, &node) in owned.iter().enumerate() {
-                let vector = match field {
-                    NodalField::Reaction => reactions[node as usize],
-                    _ => nodal_value(*field, solver, node),
+                let vector = nodal_value(*field, solver, node);
+                let components: &[f64] = match field {
+                    NodalField::Reaction => &reactions[node as usize],
+                    NodalField::Contact => &contact[node as usize],
+                    _ => &vector,
                 };
                 for c in 0..count {
-                    values[first + c * owned.len() + i] = vector[c];
+                    values[first + c * owned.len() + i] = components[c];
                 }
             }
         }
@@ -104,6 +107,10 @@ impl FieldList {
         for block in &solver.domain.blocks {
             for group in block.groups() {
                 for i in 0..group.len() {
+                    if !group.is_alive(i) {
+                        // All of it is zero, its STATUS too.
+                        continue;
+                    }
                     point.clear();
                     self.element_point(solver, block, group, i, rank, &mut point);
                     for (variable, value) in point.iter().enumerate() {
@@ -147,6 +154,7 @@ impl FieldList {
                     let corners = group.nodes(i).map(|n| solver.domain.nodes.position(n));
                     out.push(group.element_mass(i) / hexahedron_volume(&corners));
                 }
+                ElementField::Status => out.push(1.0),
                 ElementField::Rank => out.push(rank as f64),
             }
         }
@@ -170,15 +178,15 @@ fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
         }
         NodalField::Velocity => solver.velocity_now(node),
         NodalField::Acceleration => nodes.acceleration(node),
-        NodalField::Mass | NodalField::Reaction => [nodes.mass(node), 0.0, 0.0],
+        NodalField::Mass | NodalField::Reaction | NodalField::Contact => [nodes.mass(node), 0.0, 0.0],
     }
 }
 
-/// ln U by its eigenvectors.
-fn logarithm(u: Sym3<f64>) -> Sym3<f64> {
-    let m = u.matrix();
-    let eigen = SymmetricEigen::new(Matrix3::from_fn(|i, j| m[i][j]));
-    let logarithms = eigen.eigenvalues.map(libm::log);
-    let l = eigen.eigenvectors * Matrix3::from_diagonal(&logarithms) * eigen.eigenvectors.transpose();
-    Sym3 { xx: l[(0, 0)], yy: l[(1, 1)], zz: l[(2, 2)], xy: l[(0, 1)], yz: l[(1, 2)], zx: l[(2, 0)] }
+/// Contact force, overlap, status and element touched, at each local node.
+fn contact_values(solver: &Solver) -> Vec<[f64; 6]> {
+    let mut values = vec![[0.0; 6]; solver.domain.nodes.len()];
+    for (node, of_node) in solver.domain.contact.iter().flat_map(|contact| contact.node_values()) {
+        values[node as usize] = of_node;
+    }
+    values
 }

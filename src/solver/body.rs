@@ -7,25 +7,29 @@ use crate::mesh::check::hexahedron_volume;
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::Model;
 use crate::partition::{Contributors, rcb, space_filling_order};
+use crate::solver::contact::{self, Overlap};
+use std::sync::Arc;
 
-/// A mesh with masses and its canonical order.
+/// A mesh with masses and its canonical order. What the surface needs when it changes is shared, not copied, by ranks.
 pub struct Body {
     /// File position of each element, in canonical order: block by block, along a space-filling curve within each.
-    pub element_order: Vec<u32>,
+    pub element_order: Arc<Vec<u32>>,
     /// Index of the mesh block of each element, in canonical order.
-    pub element_block: Vec<u32>,
+    pub element_block: Arc<Vec<u32>>,
     /// Nodes of each element, in canonical order.
-    pub element_nodes: Vec<[u32; 8]>,
+    pub element_nodes: Arc<Vec<[u32; 8]>>,
     /// Element masses, in canonical order.
     pub element_mass: Vec<f64>,
     /// Lumped nodal masses, in file order.
     pub node_mass: Vec<f64>,
-    /// Initial positions, in file order.
-    pub positions: Vec<[f64; 3]>,
+    /// Initial positions, in file order; those of the mesh unless contact surfaces overlapped there.
+    pub positions: Arc<Vec<[f64; 3]>>,
     /// Faces under pressure, in canonical order after the elements.
     pub faces: Vec<LoadedFace>,
     /// Index into the model's materials of each mesh block.
     pub block_material: Vec<usize>,
+    /// Overlaps between contact surfaces that were taken out of the mesh by moving nodes.
+    pub overlap: Overlap,
 }
 
 /// A face under pressure.
@@ -80,16 +84,21 @@ impl Body {
             .map(|block| model.materials.iter().position(|m| m.block == block.id).unwrap_or(0))
             .collect();
         let mut body = Body {
-            element_order: Vec::with_capacity(mesh.element_count()),
-            element_block: Vec::with_capacity(mesh.element_count()),
-            element_nodes: Vec::with_capacity(mesh.element_count()),
+            element_order: Arc::default(),
+            element_block: Arc::default(),
+            element_nodes: Arc::default(),
             element_mass: Vec::with_capacity(mesh.element_count()),
             node_mass: vec![0.0; mesh.coordinates.len()],
-            positions: mesh.coordinates.clone(),
+            positions: Arc::new(mesh.coordinates.clone()),
             faces: Vec::new(),
             block_material,
+            overlap: Overlap::default(),
         };
         body.take_elements(mesh, model);
+        body.overlap = contact::remove_overlap(mesh, model, &mut body);
+        if body.overlap.nodes > 0 {
+            body.weigh(model);
+        }
         body.take_faces(mesh, model);
         body
     }
@@ -97,7 +106,7 @@ impl Body {
     /// Mass of each mesh block.
     pub fn block_masses(&self, blocks: usize) -> Vec<f64> {
         let mut masses = vec![0.0; blocks];
-        for (mass, &block) in self.element_mass.iter().zip(&self.element_block) {
+        for (mass, &block) in self.element_mass.iter().zip(&*self.element_block) {
             masses[block as usize] += mass;
         }
         masses
@@ -109,22 +118,36 @@ impl Body {
     }
 
     fn take_elements(&mut self, mesh: &Mesh, model: &Model) {
+        let count = mesh.element_count();
+        let (mut order, mut blocks) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut corners = Vec::with_capacity(count);
         let mut first = 0u32;
         for (index, block) in mesh.blocks.iter().enumerate() {
-            let density = model.materials[self.block_material[index]].density;
             let centroids: Vec<_> = block.connectivity.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
             for place in space_filling_order(&centroids) {
-                let nodes = block.connectivity[place as usize];
-                let mass = density * hexahedron_volume(&self.corners(&nodes));
-                self.element_order.push(first + place);
-                self.element_block.push(index as u32);
-                self.element_nodes.push(nodes);
-                self.element_mass.push(mass);
-                for node in nodes {
-                    self.node_mass[node as usize] += mass / 8.0;
-                }
+                order.push(first + place);
+                blocks.push(index as u32);
+                corners.push(block.connectivity[place as usize]);
             }
             first += block.connectivity.len() as u32;
+        }
+        (self.element_order, self.element_block) = (Arc::new(order), Arc::new(blocks));
+        self.element_nodes = Arc::new(corners);
+        self.weigh(model);
+    }
+
+    /// Masses of elements and nodes from the positions as they are.
+    fn weigh(&mut self, model: &Model) {
+        self.node_mass.fill(0.0);
+        self.element_mass.clear();
+        for element in 0..self.element_nodes.len() {
+            let nodes = self.element_nodes[element];
+            let material = self.block_material[self.element_block[element] as usize];
+            let mass = model.materials[material].density * hexahedron_volume(&self.corners(&nodes));
+            self.element_mass.push(mass);
+            for node in nodes {
+                self.node_mass[node as usize] += mass / 8.0;
+            }
         }
     }
 

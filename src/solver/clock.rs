@@ -13,6 +13,8 @@ pub enum Section {
     Communication,
     /// Rigid surfaces and contact.
     Contact,
+    /// Elements that are taken away.
+    Erosion,
     /// Constraints, work and the update of nodes.
     Integration,
     /// Sums, logs and files.
@@ -21,11 +23,12 @@ pub enum Section {
 
 impl Section {
     /// All sections with their names in the closing table.
-    pub const ALL: [(Section, &'static str); 6] = [
+    pub const ALL: [(Section, &'static str); 7] = [
         (Section::Elements, "ELEMENTS"),
         (Section::Assembly, "ASSEMBLY AND LOADS"),
         (Section::Communication, "COMMUNICATION"),
         (Section::Contact, "CONTACT"),
+        (Section::Erosion, "EROSION"),
         (Section::Integration, "INTEGRATION"),
         (Section::Output, "OUTPUT"),
     ];
@@ -34,7 +37,7 @@ impl Section {
 /// A stopwatch with one account per section.
 #[derive(Debug, Clone, Default)]
 pub struct Clock {
-    spent: [Duration; 6],
+    spent: [Duration; 7],
     since: Option<Instant>,
 }
 

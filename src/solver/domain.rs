@@ -2,11 +2,13 @@
 
 use super::body::{Body, LoadedFace};
 use super::constraints::{Constraint, Motion};
+use super::contact::Contact;
 use super::elements::{ElementBlock, Group, NewElement};
+use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
 use super::nodes::{Nodes, add, cross, scaled, subtract};
-use super::rigid_surface::PlaneNode;
+use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::Mesh;
@@ -33,8 +35,10 @@ pub struct Domain {
     pub gravity: loads::BodyForce,
     /// Constraints.
     pub constraints: Vec<Constraint>,
-    /// Nodes watched by rigid surfaces.
-    pub plane_nodes: Vec<PlaneNode>,
+    /// Contact and rigid surfaces, when there are any.
+    pub contact: Option<Contact>,
+    /// Elements that are taken away, when the deck asks for it.
+    pub erosion: Option<Erosion>,
     /// Sums over nodes shared with other ranks.
     pub exchange: Exchange,
 }
@@ -54,12 +58,12 @@ pub fn state_names(law: &Law) -> &'static [&'static str] {
 
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
-    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Domain {
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
         let local = local_numbers(body.positions.len(), &share.nodes);
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
         let mut domain = Domain {
-            nodes: nodes(body, share),
+            nodes: nodes(mesh, body, share),
             blocks: blocks(mesh, model, body, share, &local),
             element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
             element_file,
@@ -68,15 +72,17 @@ impl Domain {
             node_forces: Vec::new(),
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
             constraints: Vec::new(),
-            plane_nodes: Vec::new(),
+            contact: None,
+            erosion: None,
             exchange: Exchange::new(share),
         };
+        domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
         if !model.gravities.is_empty() {
             domain.gravity.work = vec![0.0; domain.nodes.len()];
         }
         let held = domain.set_constraints(mesh, model, &local);
         domain.set_forces(mesh, model, &local);
-        domain.set_plane_nodes(mesh, model, body, &local, &held);
+        domain.contact = Contact::new(mesh, model, body, &domain.nodes, held, &local, comm);
         domain.set_initial_velocities(mesh, model, &local);
         domain
     }
@@ -84,24 +90,23 @@ impl Domain {
     /// Forgets the forces of constraints and planes, when those of the elements are of no use.
     pub fn forget_reactions(&mut self) {
         self.constraints.iter_mut().for_each(|constraint| constraint.reaction = 0.0);
-        for plane in &mut self.plane_nodes {
-            (plane.normal_force, plane.friction_force) = ([0.0; 3], [0.0; 3]);
-        }
+        self.contact.iter_mut().for_each(Contact::forget);
     }
 
-    /// Returns which directions of each node are taken.
-    fn set_constraints(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) -> Vec<[bool; 3]> {
+    /// Returns which constraint takes each direction of each node, [`ABSENT`] where none does.
+    fn set_constraints(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) -> Vec<[u32; 3]> {
         let still = model.no_displacements.iter().map(|c| (c.node_set, c.direction, None));
         let moving = model.prescribed_motions.iter().map(|m| {
             let motion = Motion { kind: m.kind, function: m.function, scale: m.scale };
             (m.node_set, m.direction, Some(motion))
         });
-        let mut taken = vec![[false; 3]; self.nodes.len()];
+        let mut taken = vec![[ABSENT; 3]; self.nodes.len()];
         for (set, direction, motion) in still.chain(moving) {
             let axis = direction.axis();
             for node in nodes_of_set(mesh, set, local) {
                 // Sets overlap; a node is held once in each direction, the first command counts.
-                if !std::mem::replace(&mut taken[node as usize][axis], true) {
+                if taken[node as usize][axis] == ABSENT {
+                    taken[node as usize][axis] = self.constraints.len() as u32;
                     self.constraints.push(Constraint { node, axis, motion, reaction: 0.0, work: 0.0 });
                 }
             }
@@ -124,18 +129,6 @@ impl Domain {
                     force: 0.0,
                     work: 0.0,
                 });
-            }
-        }
-    }
-
-    fn set_plane_nodes(&mut self, mesh: &Mesh, model: &Model, body: &Body, local: &[u32], held: &[[bool; 3]]) {
-        for (surface, plane) in model.rigid_surfaces.iter().enumerate() {
-            for node in mesh.side_set_nodes(plane.side_set) {
-                let here = local[node as usize];
-                if here != ABSENT {
-                    let position = body.positions[node as usize];
-                    self.plane_nodes.push(PlaneNode::new(here, surface, plane, position, held[here as usize]));
-                }
             }
         }
     }
@@ -174,9 +167,10 @@ impl Domain {
 }
 
 /// Marks a node that a rank does not have.
-const ABSENT: u32 = u32::MAX;
+pub(super) const ABSENT: u32 = u32::MAX;
 
-fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {
+/// Local number of each node of the mesh, [`ABSENT`] where it has none.
+pub(super) fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {
     let mut local = vec![ABSENT; nodes];
     for (here, &file) in used.iter().enumerate() {
         local[file as usize] = here as u32;
@@ -200,7 +194,7 @@ fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     nodes
 }
 
-fn nodes(body: &Body, share: &Share) -> Nodes {
+fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
     let row = |&file: &u32| {
         let ([x, y, z], m) = (body.positions[file as usize], body.node_mass[file as usize]);
         Row([x, y, z, m, 0.0, 0.0, 0.0, 1.0 / m])
@@ -208,7 +202,7 @@ fn nodes(body: &Body, share: &Share) -> Nodes {
     Nodes {
         rows: share.nodes.iter().map(row).collect(),
         forces: vec![Default::default(); share.nodes.len()],
-        initial: share.nodes.iter().map(|&file| body.positions[file as usize]).collect(),
+        initial: share.nodes.iter().map(|&file| mesh.coordinates[file as usize]).collect(),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
     }

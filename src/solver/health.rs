@@ -31,7 +31,7 @@ pub(super) fn energy_floor(body: &Body, model: &Model) -> f64 {
     let stiffness: f64 = body
         .element_mass
         .iter()
-        .zip(&body.element_block)
+        .zip(&*body.element_block)
         .map(|(mass, &block)| {
             let material = &model.materials[body.block_material[block as usize]];
             mass / material.density * material.law.moduli().dilatational()

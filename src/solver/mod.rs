@@ -6,14 +6,15 @@
 mod body;
 mod clock;
 mod constraints;
+pub mod contact;
 mod domain;
 pub mod elements;
+mod erosion;
 mod exchange;
 mod function;
 mod health;
 mod loads;
 pub mod nodes;
-mod rigid_surface;
 mod stop;
 mod totals;
 
@@ -26,7 +27,7 @@ pub use totals::Totals;
 use crate::comm::Communicator;
 use crate::lanes::{Force, InstructionSet};
 use crate::mesh::Mesh;
-use crate::model::{Function, Model, RigidSurface, TimeStepControl};
+use crate::model::{Function, Model, TimeStepControl};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
@@ -57,7 +58,6 @@ pub struct Solver {
     control: TimeStepControl,
     pass: PassSettings,
     functions: Vec<Function>,
-    planes: Vec<RigidSurface>,
 }
 
 /// Something that all ranks agree on at every step; the largest request of any rank wins.
@@ -87,7 +87,7 @@ impl Request {
 impl Solver {
     /// One rank's share of the problem in its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Solver {
-        let domain = Domain::new(mesh, model, body, share);
+        let domain = Domain::new(mesh, model, body, share, comm);
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
             energy_floor: health::energy_floor(body, model),
@@ -112,7 +112,6 @@ impl Solver {
                 instructions: InstructionSet::detect(),
             },
             functions: model.functions.clone(),
-            planes: model.rigid_surfaces.clone(),
         }
     }
 
@@ -127,6 +126,7 @@ impl Solver {
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
     /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
     pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
+        self.erode(comm);
         self.internal_forces(comm);
         let agreed = match self.agree(request, comm) {
             Ok(agreed) => agreed,
@@ -137,7 +137,7 @@ impl Solver {
                 return Err(stop);
             }
         };
-        self.external_forces();
+        self.external_forces(comm);
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
             self.last_totals = Some((0, totals::totals(&self.domain, 0.0, comm)));
@@ -184,9 +184,9 @@ impl Solver {
         for constraint in &self.domain.constraints {
             reactions[constraint.node as usize][constraint.axis] += constraint.reaction;
         }
-        for plane in &self.domain.plane_nodes {
-            let sum = &mut reactions[plane.node as usize];
-            *sum = nodes::add(*sum, nodes::add(plane.normal_force, plane.friction_force));
+        for (node, force) in self.domain.contact.iter().flat_map(|contact| contact.plane_forces()) {
+            let sum = &mut reactions[node as usize];
+            *sum = nodes::add(*sum, force);
         }
         reactions
     }
@@ -209,6 +209,20 @@ impl Solver {
         self.domain.exchange.finish(comm, &mut self.domain.nodes.forces);
         self.clock.stop(Section::Communication);
         self.local = found;
+    }
+
+    /// Takes failed elements away, and lets the surface grow inwards.
+    fn erode(&mut self, comm: &mut dyn Communicator) {
+        let Domain { erosion, blocks, nodes, element_canonical, contact, .. } = &mut self.domain;
+        let Some(erosion) = erosion else { return };
+        self.clock.start();
+        let dead = erosion.advance(blocks, element_canonical, nodes, self.time_step, comm);
+        if let Some(contact) = contact
+            && !dead.is_empty()
+        {
+            contact.erode(&dead, erosion, nodes, comm);
+        }
+        self.clock.stop(Section::Erosion);
     }
 
     fn border_elements(&mut self) -> PassOutcome {
@@ -279,35 +293,35 @@ impl Solver {
         Ok(Request::from_number(-wish))
     }
 
-    /// Forces from outside, from constraints, and from planes on what the constraints leave free.
-    fn external_forces(&mut self) {
+    /// Forces from outside, from constraints, and from contact on what the constraints leave free.
+    fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, node_forces, gravity, plane_nodes, constraints, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, contact, constraints, .. } = &mut self.domain;
         gravity.apply(nodes, &self.functions, self.time);
         for load in node_forces {
             load.apply(nodes, &self.functions, self.time);
         }
         self.clock.stop(Section::Assembly);
-        for constraint in constraints {
+        for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
         }
         self.clock.stop(Section::Integration);
-        for node in plane_nodes {
-            node.apply(nodes, &self.planes[node.surface], &step);
+        if let Some(contact) = contact {
+            contact.apply(nodes, constraints, &step, comm);
+            self.clock.stop(Section::Contact);
         }
-        self.clock.stop(Section::Contact);
     }
 
     /// Books half the step's work of everything that acts from outside, with the velocities as they stand.
     fn book_work(&mut self) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, node_forces, gravity, plane_nodes, constraints, pressure_faces, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, contact, constraints, pressure_faces, .. } = &mut self.domain;
         gravity.book(nodes, half_step);
         pressure_faces.iter_mut().for_each(|face| face.book(nodes, half_step));
         node_forces.iter_mut().for_each(|load| load.book(nodes, half_step));
-        plane_nodes.iter_mut().for_each(|node| node.book(nodes, half_step));
+        contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
         self.clock.stop(Section::Integration);
     }

@@ -9,7 +9,7 @@ pub struct Nodes {
     pub rows: Vec<Row>,
     /// Force sums; zero between steps.
     pub forces: Vec<Force>,
-    /// Initial positions.
+    /// Positions in the mesh.
     pub initial: Vec<[f64; 3]>,
     /// Node of the mesh file.
     pub file: Vec<u32>,

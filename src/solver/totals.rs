@@ -25,7 +25,7 @@ pub struct Totals {
     pub eroded: f64,
     /// Work of loads and prescribed motions.
     pub external: f64,
-    /// Work of normal contact forces: rigid surfaces stop nodal masses dead, which takes energy out.
+    /// Work of normal contact forces: they stop nodal masses dead, which takes energy out.
     pub contact: f64,
     /// Linear momentum.
     pub momentum: [f64; 3],
@@ -33,7 +33,7 @@ pub struct Totals {
 
 impl Totals {
     /// Number of sums.
-    const COUNT: usize = 10;
+    const COUNT: usize = 11;
 
     fn from_array(s: [f64; Self::COUNT]) -> Totals {
         Totals {
@@ -45,7 +45,7 @@ impl Totals {
             external: s[5],
             contact: s[6],
             momentum: [s[7], s[8], s[9]],
-            eroded: 0.0,
+            eroded: s[10],
         }
     }
 
@@ -73,6 +73,7 @@ pub fn totals(domain: &Domain, kick: f64, comm: &mut dyn Communicator) -> Totals
     add_nodes(domain, kick, &mut sums);
     add_elements(domain, &mut sums);
     add_work(domain, &mut sums);
+    add_eroded(domain, &mut sums);
     ExactSum::merge_ranks(&mut sums, comm);
     Totals::from_array(sums.map(|sum| sum.value()))
 }
@@ -120,9 +121,15 @@ fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
             sums[5].add(*work);
         }
     }
-    for node in domain.plane_nodes.iter().filter(|node| owned(node.node)) {
-        sums[6].add(node.normal_work);
-        sums[4].add(-node.friction_work);
+    for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works(&domain.nodes)) {
+        sums[6].add(normal);
+        sums[4].add(-friction);
+    }
+}
+
+fn add_eroded(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+    for energy in domain.erosion.iter().flat_map(|erosion| &erosion.energy) {
+        sums[10].add(*energy);
     }
 }
 

@@ -44,6 +44,8 @@ pub struct Group {
     pub state: Vec<Row>,
     /// Rows per chunk.
     pub stride: usize,
+    /// Which elements have been taken away; empty while none have.
+    pub gone: Vec<bool>,
 }
 
 /// An element as a group takes it in.
@@ -69,6 +71,7 @@ impl Group {
             mass: vec![Row::default(); chunks],
             state: vec![Row::default(); chunks * stride],
             stride,
+            gone: Vec::new(),
         };
         for slot in 0..chunks * CHUNK {
             let (chunk, lane) = (slot / CHUNK, slot % CHUNK);

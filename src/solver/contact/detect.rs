@@ -1,0 +1,221 @@
+//! The detailed check: which faces a point touches, where, how deep, and which way it must be moved.
+//!
+//! A point that comes anew is checked by motion: when does it come through the moving face from the front? A point
+//! that has touched before is checked where it would be at the end of the step. Of several faces those count that
+//! come first; ties go to the face that the point's body faces most, then to the lower number (Heinstein et al. 1993;
+//! Attaway et al. 1996, figures 3 and 4).
+
+use super::face::{self, Stand};
+use super::faces::Faces;
+use super::points::Points;
+use crate::solver::nodes::{dot, subtract};
+
+/// No face.
+pub const NONE: u32 = u32::MAX;
+
+/// Faces that one point can touch at a time: three planes hold a point.
+pub const TOUCHES: usize = 3;
+
+/// A point that has left its face by less than this part of half an element is still watched by it.
+const KEEP: f64 = 0.05;
+
+/// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
+const SAME_WAY: f64 = 0.8;
+
+/// Part of an old overlap that stays each step: it fades without giving velocity.
+const FADE: f64 = 0.998;
+
+/// Where a face has seen a point before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Past {
+    /// The face, or [`NONE`].
+    pub face: u32,
+    /// Overlap that is tolerated because it was not made by motion; at most 0.
+    pub allowed: f64,
+}
+
+/// Of a point that touches nothing.
+pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0 }; TOUCHES];
+
+/// A point on a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// The face.
+    pub face: u32,
+    /// Part of the step after which it is touched; −1 where it has been touched before.
+    pub time: f64,
+    /// Cosine between the normals of point and face, −1 where they are opposed.
+    pub opposition: f64,
+    /// Where the point would be at the end of the step.
+    pub stand: Stand,
+    /// Overlap that stays.
+    pub allowed: f64,
+}
+
+/// How far beyond its corners a face looks for points.
+pub fn keep(faces: &Faces, face: u32) -> f64 {
+    KEEP * faces.depth[face as usize]
+}
+
+/// The detailed check of points against faces.
+pub struct Check<'a> {
+    /// Points.
+    pub points: &'a Points,
+    /// Faces.
+    pub faces: &'a Faces,
+}
+
+impl Check<'_> {
+    /// Fills `touches` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
+    /// this step meet the point's; `past` the faces touched before.
+    pub fn point(&self, point: u32, near: &[u32], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
+        touches.clear();
+        if past[0].face != NONE {
+            self.watched(point, near, past, touches);
+        }
+        let held = touches.len();
+        for &face in near {
+            // Faces around those that hold the point have had their turn.
+            if touches[..held].iter().all(|touch| touch.face != face && !self.faces.touch(touch.face, face)) {
+                touches.extend(self.newcomer(point, face));
+            }
+        }
+        if touches.len() > 1 {
+            self.choose(point, touches);
+        }
+    }
+
+    fn related(&self, past: u32, face: u32) -> bool {
+        past != NONE && self.faces.touch(past, face)
+    }
+
+    fn stand_at_end(&self, point: u32, face: u32) -> Option<Stand> {
+        face::stand(&self.faces.end(face, self.points), self.points.end[point as usize])
+    }
+
+    /// Faces that held the point before, and those around them to which it may have moved on.
+    fn watched(&self, point: u32, near: &[u32], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
+        let mut left: Option<(u32, f64, Stand)> = None;
+        for past in past.iter().filter(|past| past.face != NONE && near.contains(&past.face)) {
+            let Some(stand) = self.stand_at_end(point, past.face) else { continue };
+            if stand.outside == 0.0 {
+                if self.in_reach(past.face, &stand, past.allowed) {
+                    touches.push(self.held(past.face, stand, past.allowed * FADE));
+                }
+            } else if left.is_none() {
+                left = Some((past.face, past.allowed, stand));
+            }
+        }
+        let Some((old, allowed, stand)) = left.filter(|_| touches.is_empty()) else {
+            // Held where it was; of the faces around only those that fold towards the point can hold it as well.
+            return self.folds(point, near, touches);
+        };
+        let mut behind = 0;
+        let mut next: Option<(u32, Stand)> = None;
+        for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
+            let Some(stand) = self.stand_at_end(point, face) else { continue };
+            behind += u32::from(stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs());
+            if stand.outside == 0.0
+                && self.in_reach(face, &stand, allowed)
+                && next.is_none_or(|(_, best)| stand.gap.abs() < best.gap.abs())
+            {
+                next = Some((face, stand));
+            }
+        }
+        match next {
+            Some((face, stand)) => touches.push(self.held(face, stand, allowed * FADE)),
+            // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
+            None if behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
+                if self.in_reach(old, &stand, allowed) {
+                    touches.push(self.held(old, stand, allowed * FADE));
+                }
+            }
+            None => (),
+        }
+    }
+
+    /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
+    fn folds(&self, point: u32, near: &[u32], touches: &mut Vec<Touch>) {
+        let held = touches.len();
+        for i in 0..held {
+            let old = touches[i];
+            let middle = face::centre(&self.faces.end(old.face, self.points));
+            for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
+                if touches.iter().any(|touch| touch.face == face) {
+                    continue;
+                }
+                let Some(stand) = self.stand_at_end(point, face) else { continue };
+                let other = face::centre(&self.faces.end(face, self.points));
+                let hollow = dot(subtract(other, middle), old.stand.normal) > 0.0;
+                if hollow && stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
+                    touches.push(self.held(face, stand, 0.0));
+                }
+            }
+        }
+    }
+
+    fn held(&self, face: u32, stand: Stand, allowed: f64) -> Touch {
+        Touch { face, time: -1.0, opposition: 0.0, stand, allowed }
+    }
+
+    /// Neither away from the face nor so deep that it must have come from elsewhere.
+    fn in_reach(&self, face: u32, stand: &Stand, allowed: f64) -> bool {
+        stand.gap < keep(self.faces, face) + allowed && stand.gap > -self.faces.depth[face as usize]
+    }
+
+    /// A point that this face has not seen before.
+    fn newcomer(&self, point: u32, face: u32) -> Option<Touch> {
+        let end = self.stand_at_end(point, face).filter(|stand| stand.gap < 0.0)?;
+        let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
+        let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
+        if start.gap >= 0.0 {
+            let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
+            let time = face::first_crossing(&corners, self.points.path(point))?;
+            return Some(touch(time, 0.0));
+        }
+        // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
+        let depth = self.faces.depth[face as usize];
+        let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
+        (shallow && self.opposition(point, &end) < 0.0).then(|| touch(0.0, start.gap))
+    }
+
+    fn opposition(&self, point: u32, stand: &Stand) -> f64 {
+        let normal = self.faces.point_normal(point, self.points);
+        let length = dot(normal, normal).sqrt();
+        // A free node faces everything.
+        if length > 0.0 { dot(normal, stand.normal) / length } else { -1.0 }
+    }
+
+    /// Puts touches in order and keeps those that push in ways of their own.
+    fn choose(&self, point: u32, touches: &mut Vec<Touch>) {
+        for touch in touches.iter_mut() {
+            touch.opposition = self.opposition(point, &touch.stand);
+        }
+        let number = |touch: &Touch| self.faces.number[touch.face as usize];
+        touches.sort_by(|a, b| {
+            a.time.total_cmp(&b.time).then(a.opposition.total_cmp(&b.opposition)).then(number(a).cmp(&number(b)))
+        });
+        let mut kept = 0;
+        for i in 0..touches.len() {
+            let touch = touches[i];
+            if kept < TOUCHES && touches[..kept].iter().all(|other| self.apart(other, &touch)) {
+                touches[kept] = touch;
+                kept += 1;
+            }
+        }
+        touches.truncate(kept);
+    }
+
+    /// Whether a face holds a point in a way that the one chosen before does not: it pushes another way, and does not
+    /// merely lie around the corner of the same body.
+    fn apart(&self, first: &Touch, second: &Touch) -> bool {
+        if dot(first.stand.normal, second.stand.normal) > SAME_WAY {
+            return false;
+        }
+        if !self.faces.touch(first.face, second.face) {
+            return true;
+        }
+        let middle = |face| face::centre(&self.faces.end(face, self.points));
+        dot(subtract(middle(second.face), middle(first.face)), first.stand.normal) > 0.0
+    }
+}

@@ -1,0 +1,149 @@
+//! Where a point stands against a face, and when it comes through.
+//!
+//! A quadrilateral of four free corners is not flat. Everywhere in contact it is taken as the four triangles around
+//! the mean of its corners; neighbouring faces then share their edges exactly, and the outside has no gaps.
+
+use super::cubic::{self, Path};
+use crate::solver::nodes::{add, cross, dot, scaled, subtract};
+
+/// Beyond a triangle's border by this part of it is still on it: neighbours overlap by round-off, not by less.
+const BORDER: f64 = 1e-9;
+
+/// A point against a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// Distance along the normal, negative behind the face.
+    pub gap: f64,
+    /// Unit normal, outwards.
+    pub normal: [f64; 3],
+    /// Shares of the four corners in the foot of the perpendicular, which add up to one. Where the foot lies beyond
+    /// the border, the nearest point of the border.
+    pub weights: [f64; 4],
+    /// How far the foot lies beyond the border; 0 on the face.
+    pub outside: f64,
+}
+
+/// Mean of four corners.
+pub fn centre(corners: &[[f64; 3]; 4]) -> [f64; 3] {
+    scaled(add(add(corners[0], corners[1]), add(corners[2], corners[3])), 0.25)
+}
+
+/// Normal with the length of the face's area.
+pub fn area_normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
+    scaled(cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1])), 0.5)
+}
+
+/// Where a point stands against a face. `None` for a face without area, or where something is not finite.
+pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
+    let middle = centre(corners);
+    let arms = corners.map(|corner| subtract(corner, middle));
+    let r = subtract(point, middle);
+    let mean = area_normal(corners);
+    // Which side of each arm the point is on, seen along the mean normal.
+    let turn = arms.map(|arm| dot(r, cross(mean, arm)));
+    let sector = (0..4).find(|&k| turn[k] >= 0.0 && turn[(k + 1) % 4] < 0.0).unwrap_or(0);
+    let next = (sector + 1) % 4;
+    let (e1, e2) = (arms[sector], arms[next]);
+    let normal = cross(e1, e2);
+    let square = dot(normal, normal);
+    if square.is_nan() || square <= 0.0 {
+        return None;
+    }
+    let (b1, b2) = (dot(cross(r, e2), normal) / square, dot(cross(e1, r), normal) / square);
+    let length = square.sqrt();
+    let edge = subtract(e2, e1);
+    let beyond = b1 + b2 - 1.0;
+    let (b1, b2, outside) = if beyond > BORDER {
+        let along = (dot(subtract(r, e1), edge) / dot(edge, edge)).clamp(0.0, 1.0);
+        (1.0 - along, along, beyond * length / dot(edge, edge).sqrt())
+    } else {
+        (b1.max(0.0), b2.max(0.0), 0.0)
+    };
+    let rest = 0.25 * (1.0 - b1 - b2).max(0.0);
+    let mut weights = [rest; 4];
+    weights[sector] += b1;
+    weights[next] += b2;
+    let gap = dot(r, normal) / length;
+    gap.is_finite().then(|| Stand { gap, normal: scaled(normal, 1.0 / length), weights, outside })
+}
+
+/// Part of the step, 0 to 1, after which a point comes through a face from the front (Heinstein et al. 1993), or
+/// `None`. Corners and point move straight.
+pub fn first_crossing(corners: &[Path; 4], point: Path) -> Option<f64> {
+    let mean = |pick: fn(&Path) -> [f64; 3]| centre(&[0, 1, 2, 3].map(|i| pick(&corners[i])));
+    let middle: Path = (mean(|path| path.0), mean(|path| path.1));
+    let r = cubic::relative(point, middle);
+    let arms = corners.map(|corner| cubic::relative(corner, middle));
+    (0..4)
+        .filter_map(|k| {
+            let (e1, e2) = (arms[k], arms[(k + 1) % 4]);
+            let g = cubic::coplanarity(r, e1, e2);
+            cubic::roots(&g).find(|&t| falls(&g, t) && on_triangle(at(r, t), at(e1, t), at(e2, t)))
+        })
+        .min_by(f64::total_cmp)
+}
+
+/// Position on a path at part `t` of the step.
+fn at(path: Path, t: f64) -> [f64; 3] {
+    add(path.0, scaled(path.1, t))
+}
+
+/// Whether the volume falls at a root: the point passes from the front to the back.
+fn falls(g: &[f64; 4], t: f64) -> bool {
+    (3.0 * g[3] * t + 2.0 * g[2]) * t + g[1] < 0.0
+}
+
+fn on_triangle(r: [f64; 3], e1: [f64; 3], e2: [f64; 3]) -> bool {
+    let normal = cross(e1, e2);
+    let square = dot(normal, normal);
+    let (b1, b2) = (dot(cross(r, e2), normal) / square, dot(cross(e1, r), normal) / square);
+    b1 >= -BORDER && b2 >= -BORDER && b1 + b2 <= 1.0 + BORDER
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn the_foot_of_the_perpendicular() {
+        let s = stand(&SQUARE, [0.3, 0.6, -0.1]).expect("a face");
+        let foot = (0..4).fold([0.0; 3], |sum, i| add(sum, scaled(SQUARE[i], s.weights[i])));
+        assert!((s.gap + 0.1).abs() < 1e-15 && s.outside == 0.0 && s.normal == [0.0, 0.0, 1.0]);
+        assert!(subtract(foot, [0.3, 0.6, 0.0]).iter().all(|d| d.abs() < 1e-15), "{foot:?}");
+        assert!((s.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn beyond_the_border_the_nearest_point_of_it() {
+        let s = stand(&SQUARE, [1.25, 0.5, 0.5]).expect("a face");
+        assert!((s.outside - 0.25).abs() < 1e-15 && (s.gap - 0.5).abs() < 1e-15);
+        assert_eq!(s.weights, [0.0, 0.5, 0.5, 0.0]);
+        let corner = stand(&SQUARE, [2.0, 2.5, 0.0]).expect("a face");
+        assert_eq!(corner.weights, [0.0, 0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn triangles_and_faces_without_area() {
+        let triangle = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[2]];
+        let s = stand(&triangle, [0.7, 0.3, 0.2]).expect("a face");
+        assert!((s.gap - 0.2).abs() < 1e-15 && s.outside == 0.0);
+        assert_eq!(stand(&[SQUARE[0]; 4], [0.0; 3]), None);
+        assert_eq!(stand(&SQUARE, [f64::NAN; 3]).map(|s| s.outside), None);
+    }
+
+    #[test]
+    fn a_point_comes_through_a_moving_face_from_the_front_only() {
+        let moving = SQUARE.map(|x| (x, [0.0, 0.0, 0.4]));
+        let down = ([0.2, 0.7, 0.3], [0.0, 0.0, -0.6]);
+        assert!((first_crossing(&moving, down).expect("a hit") - 0.3).abs() < 1e-12);
+        let up = ([0.2, 0.7, -0.3], [0.0, 0.0, 1.4]);
+        assert_eq!(first_crossing(&moving, up), None);
+        let beside = ([1.2, 0.7, 0.3], [0.0, 0.0, -0.6]);
+        assert_eq!(first_crossing(&moving, beside), None);
+        // Exactly on the corner of the face.
+        let corner = ([1.0, 1.0, 0.3], [0.0, 0.0, -0.6]);
+        assert!(first_crossing(&moving, corner).is_some());
+    }
+}

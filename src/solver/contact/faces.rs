@@ -1,0 +1,117 @@
+//! The faces of contact.
+
+use super::face::area_normal;
+use super::points::Points;
+use super::surface::{back_nodes, face_nodes};
+use crate::solver::nodes::{dot, subtract};
+
+/// Faces that points may touch, in ascending order of their numbers.
+#[derive(Debug, Clone, Default)]
+pub struct Faces {
+    /// Number in the whole body: 6 × canonical element + side.
+    pub number: Vec<u32>,
+    /// Corner points, counter-clockwise seen from outside.
+    pub corners: Vec<[u32; 4]>,
+    /// Index of the mesh block.
+    pub block: Vec<u32>,
+    /// Square root of the area at the start.
+    pub size: Vec<f64>,
+    /// A point deeper than this behind a face did not come through it: half the element at the start.
+    pub depth: Vec<f64>,
+    /// Faces around each point: `around[first[p]..first[p + 1]]`.
+    first: Vec<u32>,
+    around: Vec<u32>,
+    /// Element nodes of each face as points, `u32::MAX` for nodes that are none.
+    element: Vec<[u32; 8]>,
+}
+
+impl Faces {
+    /// Takes faces in by their numbers from the nodes and blocks of the elements and the initial positions; `point`
+    /// gives the point of a node of the mesh.
+    pub fn new(
+        numbers: &[u32],
+        (elements, blocks, positions): (&[[u32; 8]], &[u32], &[[f64; 3]]),
+        point: impl Fn(u32) -> u32,
+        points: usize,
+    ) -> Faces {
+        let mut faces = Faces { number: numbers.to_vec(), ..Default::default() };
+        for &number in numbers {
+            let nodes = face_nodes(elements, number);
+            let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);
+            let element = number as usize / 6;
+            let (front, back) = (at(nodes), at(back_nodes(elements, number)));
+            let normal = area_normal(&front);
+            let area = dot(normal, normal).sqrt();
+            let through = subtract(super::face::centre(&front), super::face::centre(&back));
+            faces.corners.push(nodes.map(&point));
+            faces.block.push(blocks[element]);
+            faces.size.push(area.sqrt());
+            faces.depth.push(if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 });
+            faces.element.push(elements[element].map(&point));
+        }
+        faces.connect(points);
+        faces
+    }
+
+    /// Number of faces.
+    pub fn len(&self) -> usize {
+        self.number.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.number.is_empty()
+    }
+
+    fn connect(&mut self, points: usize) {
+        self.first = vec![0; points + 1];
+        let pairs = || self.corners.iter().zip(0u32..).flat_map(|(corners, face)| corners.map(|point| (point, face)));
+        for (point, _) in pairs() {
+            self.first[point as usize + 1] += 1;
+        }
+        for i in 0..points {
+            self.first[i + 1] += self.first[i];
+        }
+        let mut next = self.first.clone();
+        let mut around = vec![0; 4 * self.corners.len()];
+        for (point, face) in pairs() {
+            around[next[point as usize] as usize] = face;
+            next[point as usize] += 1;
+        }
+        self.around = around;
+    }
+
+    /// Faces with this point as a corner.
+    pub fn around(&self, point: u32) -> &[u32] {
+        &self.around[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
+    }
+
+    /// Whether the point is a node of the face's element: never a contact, however crushed the element.
+    pub fn same_element(&self, face: u32, point: u32) -> bool {
+        self.element[face as usize].contains(&point)
+    }
+
+    /// Whether two faces have a corner in common.
+    pub fn touch(&self, a: u32, b: u32) -> bool {
+        let other = self.corners[b as usize];
+        self.corners[a as usize].iter().any(|corner| other.contains(corner))
+    }
+
+    /// Corner positions at the present state.
+    pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
+        self.corners[face as usize].map(|p| points.start[p as usize])
+    }
+
+    /// Corner positions at the end of the step without contact.
+    pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
+        self.corners[face as usize].map(|p| points.end[p as usize])
+    }
+
+    /// Sum of the area normals of the faces around a point: which way its body faces there.
+    pub fn point_normal(&self, point: u32, points: &Points) -> [f64; 3] {
+        self.around(point).iter().fold([0.0; 3], |sum, &face| {
+            let normal = area_normal(&self.start(face, points));
+            [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]
+        })
+    }
+}

@@ -1,0 +1,234 @@
+//! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
+
+use super::detect::keep;
+use super::edges::{self, Edge};
+use super::faces::Faces;
+use super::points::Points;
+use super::search::{Box3, Candidates, Search, SearchKind};
+
+/// Points and faces that may touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interface {
+    /// Whether a point takes part.
+    pub points: Vec<bool>,
+    /// Faces that take part, ascending.
+    pub faces: Vec<u32>,
+    /// What holds where they touch.
+    pub rule: Rule,
+}
+
+/// Where friction and partition of an interface come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// From the blocks of point and face.
+    Blocks,
+    /// From a table, by number.
+    Pair(u32),
+}
+
+/// A face near a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Near {
+    /// The face.
+    pub face: u32,
+    /// The interface to which the two belong.
+    pub interface: u32,
+}
+
+/// How far points may go before the search is repeated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Multiple of the way that a point goes in the present step.
+    pub steps: f64,
+    /// Smallest reach, a length.
+    pub least: f64,
+}
+
+/// Candidates and how long they hold.
+pub struct Locator {
+    search: Box<dyn Search>,
+    reach: Reach,
+    /// Where every point was at the last search.
+    reference: Vec<[f64; 3]>,
+    /// How far it may go from there along each axis.
+    allowance: Vec<f64>,
+    /// Points with candidates, ascending, and where their candidates begin.
+    watched: Vec<u32>,
+    first: Vec<u32>,
+    near: Vec<Near>,
+    /// Faces that are candidates, ascending.
+    active: Vec<u32>,
+    /// Box of every active face over the present step.
+    boxes: Vec<Box3>,
+    found: Vec<Candidates>,
+    edge_pairs: Vec<[u32; 2]>,
+    /// Number of searches so far.
+    pub searches: u64,
+}
+
+/// Box around the way of a point over the step.
+fn way(points: &Points, point: u32) -> Box3 {
+    Box3::around(&[points.start[point as usize], points.end[point as usize]])
+}
+
+/// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
+fn capture_box(faces: &Faces, face: u32, points: &Points) -> Box3 {
+    let [a, b, c, d] = faces.corners[face as usize].map(|corner| way(points, corner));
+    a.joined(&b).joined(&c).joined(&d).grown(keep(faces, face))
+}
+
+impl Locator {
+    /// A locator that has not searched yet.
+    pub fn new(kind: SearchKind, reach: Reach) -> Locator {
+        Locator {
+            search: kind.make(),
+            reach,
+            reference: Vec::new(),
+            allowance: Vec::new(),
+            watched: Vec::new(),
+            first: Vec::new(),
+            near: Vec::new(),
+            active: Vec::new(),
+            boxes: Vec::new(),
+            found: Vec::new(),
+            edge_pairs: Vec::new(),
+            searches: 0,
+        }
+    }
+
+    /// Forgets the candidates, because the surface has changed.
+    pub fn forget(&mut self) {
+        self.reference.clear();
+    }
+
+    /// Makes sure that the candidates hold for the coming step, and finds the boxes of their faces.
+    pub fn locate(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface], edges: &[Edge]) {
+        if self.expired(points) {
+            self.search(points, faces, interfaces);
+            self.search_edges(points, faces, edges);
+        }
+        for &face in &self.active {
+            self.boxes[face as usize] = capture_box(faces, face, points);
+        }
+    }
+
+    /// Whether a point has left the box that the last search gave it.
+    fn expired(&self, points: &Points) -> bool {
+        if self.reference.len() != points.len() {
+            return true;
+        }
+        let positions = points.start.iter().zip(&points.end);
+        self.reference.iter().zip(&self.allowance).zip(positions).any(|((reference, allowance), (start, end))| {
+            let away = |i: usize| (start[i] - reference[i]).abs().max((end[i] - reference[i]).abs());
+            // A position that is not a number is not away.
+            away(0).max(away(1)).max(away(2)) > *allowance
+        })
+    }
+
+    fn search(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface]) {
+        self.searches += 1;
+        self.reference.clone_from(&points.start);
+        let step = |p: usize| (0..3).map(|i| (points.end[p][i] - points.start[p][i]).abs()).fold(0.0, f64::max);
+        self.allowance.clear();
+        self.allowance.extend((0..points.len()).map(|p| (self.reach.steps * step(p)).max(self.reach.least)));
+        self.found.resize_with(interfaces.len(), Candidates::default);
+        let around = |p: usize| Box3::around(&[points.start[p]]).grown(self.allowance[p]);
+        for (interface, found) in interfaces.iter().zip(&mut self.found) {
+            let nodes: Vec<Box3> = (0..points.len())
+                .map(|p| if interface.points[p] { around(p) } else { Box3::empty() })
+                .collect();
+            let boxes: Vec<Box3> = (interface.faces.iter())
+                .map(|&face| {
+                    let [a, b, c, d] = faces.corners[face as usize].map(|corner| around(corner as usize));
+                    a.joined(&b).joined(&c).joined(&d).grown(keep(faces, face))
+                })
+                .collect();
+            let corners: Vec<[u32; 4]> = interface.faces.iter().map(|&f| faces.corners[f as usize]).collect();
+            self.search.find(&nodes, &boxes, &corners, found);
+        }
+        self.collect(points.len(), faces, interfaces);
+    }
+
+    /// Puts the candidates of all interfaces together, point by point, faces ascending.
+    fn collect(&mut self, points: usize, faces: &Faces, interfaces: &[Interface]) {
+        (self.watched.clear(), self.first.clear(), self.near.clear());
+        let mut is_active = vec![false; faces.len()];
+        for point in 0..points as u32 {
+            let begin = self.near.len();
+            for (number, (interface, found)) in interfaces.iter().zip(&self.found).enumerate() {
+                for &place in found.of(point as usize) {
+                    let face = interface.faces[place as usize];
+                    if !faces.same_element(face, point) {
+                        self.near.push(Near { face, interface: number as u32 });
+                    }
+                }
+            }
+            if self.near.len() > begin {
+                // Of interfaces that name the same pair, the first holds.
+                self.near[begin..].sort_by_key(|near| (near.face, near.interface));
+                let mut kept = begin + 1;
+                for i in begin + 1..self.near.len() {
+                    if self.near[i].face != self.near[kept - 1].face {
+                        self.near[kept] = self.near[i];
+                        kept += 1;
+                    }
+                }
+                self.near.truncate(kept);
+                self.watched.push(point);
+                self.first.push(begin as u32);
+                self.near[begin..].iter().for_each(|near| is_active[near.face as usize] = true);
+            }
+        }
+        self.first.push(self.near.len() as u32);
+        self.active.clear();
+        self.active.extend((0..faces.len() as u32).filter(|&face| is_active[face as usize]));
+        self.boxes.resize(faces.len(), Box3::empty());
+    }
+
+    /// Pairs of edges that may cross, ascending.
+    fn search_edges(&mut self, points: &Points, faces: &Faces, edges: &[Edge]) {
+        self.edge_pairs.clear();
+        if edges.is_empty() {
+            return;
+        }
+        let around = |p: u32| Box3::around(&[points.start[p as usize]]).grown(self.allowance[p as usize]);
+        let boxes: Vec<Box3> = (edges.iter())
+            .map(|edge| {
+                let margin = edges::keep(faces, edge);
+                around(edge.ends[0]).joined(&around(edge.ends[1])).grown(margin)
+            })
+            .collect();
+        let selves: Vec<[u32; 4]> = (0..edges.len() as u32).map(|edge| [edge; 4]).collect();
+        let mut found = Candidates::default();
+        self.search.find(&boxes, &boxes, &selves, &mut found);
+        for first in 0..edges.len() as u32 {
+            for &second in found.of(first as usize).iter().filter(|&&second| second > first) {
+                if edges::strangers(&edges[first as usize], &edges[second as usize], faces) {
+                    self.edge_pairs.push([first, second]);
+                }
+            }
+        }
+    }
+
+    /// Pairs of edges that may cross, ascending.
+    pub fn edge_pairs(&self) -> &[[u32; 2]] {
+        &self.edge_pairs
+    }
+
+    /// Points with candidates, ascending.
+    pub fn watched(&self) -> &[u32] {
+        &self.watched
+    }
+
+    /// Candidates of the `i`-th watched point whose boxes over this step meet that of the point.
+    pub fn near<'a>(&'a self, i: usize, points: &Points) -> impl Iterator<Item = Near> + 'a {
+        let own = way(points, self.watched[i]);
+        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].overlaps(&own))
+    }
+
+    /// Numbers of watched points and of candidate pairs.
+    pub fn counts(&self) -> [usize; 2] {
+        [self.watched.len(), self.near.len()]
+    }
+}

@@ -1,0 +1,103 @@
+//! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
+
+use super::detect::{Check, UNTOUCHED};
+use super::enforce::{Enforcer, Limits};
+use super::locate::{Locator, Near, Reach};
+use super::points::Points;
+use super::search::SearchKind;
+use super::setup::{ABSENT, Layout, Pairings, Skin};
+use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::solver::Body;
+use crate::solver::constraints::StepTimes;
+use crate::solver::nodes::{add, dot, subtract};
+use std::sync::Arc;
+
+/// Overlap below this part of a face's size is round-off of the mesh's coordinates.
+const NOTHING: f64 = 1e-9;
+
+/// Rounds of finding overlaps and moving nodes: what moves may overlap elsewhere.
+const ROUNDS: usize = 10;
+
+/// What was moved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Overlap {
+    /// Number of nodes moved.
+    pub nodes: usize,
+    /// Farthest move, a length.
+    pub farthest: f64,
+}
+
+/// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition.
+pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
+    if !model.contact.is_some() {
+        return Overlap::default();
+    }
+    let layout = Skin::new(mesh, model, body, Vec::new()).layout();
+    let pairings = Pairings::new(mesh, model, body);
+    let mut points = Points::new(layout.nodes.len());
+    weigh(mesh, model, body, &layout, &mut points);
+    let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
+    let mut enforcer = Enforcer::new(points.len());
+    for _ in 0..ROUNDS {
+        for (point, &node) in layout.nodes.iter().enumerate() {
+            points.set(point, body.positions[node as usize], [0.0; 3], 0.0);
+        }
+        let mut constraints = overlaps(&layout, &pairings, &points);
+        if constraints.is_empty() {
+            break;
+        }
+        enforcer.solve(&mut constraints, &points, &still, Limits { passes: 100, tolerance: 0.1 * NOTHING });
+        let positions = Arc::make_mut(&mut body.positions);
+        for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
+            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point));
+        }
+    }
+    moved(mesh, body, &layout)
+}
+
+/// Inverse masses; none in directions that the deck holds.
+fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut Points) {
+    for (point, &node) in layout.nodes.iter().enumerate() {
+        points.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
+    }
+    let still = model.no_displacements.iter().map(|held| (held.node_set, held.direction));
+    let driven = model.prescribed_motions.iter().map(|motion| (motion.node_set, motion.direction));
+    for (set, direction) in still.chain(driven) {
+        for node in mesh.node_set(set).map_or(&[][..], |set| &set.nodes) {
+            if let Ok(point) = layout.nodes.binary_search(node) {
+                points.inverse_mass[point][direction.axis()] = 0.0;
+            }
+        }
+    }
+}
+
+/// Every point behind a face that faces it.
+fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super::enforce::Constraint> {
+    let mut locator = Locator::new(SearchKind::Grid, Reach { steps: 1.0, least: 0.0 });
+    locator.locate(points, &layout.faces, &layout.interfaces, &[]);
+    let check = Check { points, faces: &layout.faces };
+    let (mut touches, mut constraints) = (Vec::new(), Vec::new());
+    for (i, &point) in locator.watched().iter().enumerate() {
+        let near: Vec<Near> = locator.near(i, points).collect();
+        let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
+        check.point(point, &faces, &UNTOUCHED, &mut touches);
+        for touch in &mut touches {
+            touch.allowed = 0.0;
+            let size = layout.faces.size[touch.face as usize];
+            let interface = near.iter().find(|near| near.face == touch.face).map_or(ABSENT, |near| near.interface);
+            if touch.stand.gap < -NOTHING * size && interface != ABSENT {
+                constraints.extend(super::constraint(layout, pairings, point, touch, interface));
+            }
+        }
+    }
+    constraints
+}
+
+fn moved(mesh: &Mesh, body: &Body, layout: &Layout) -> Overlap {
+    layout.nodes.iter().fold(Overlap::default(), |sum, &node| {
+        let way = subtract(body.positions[node as usize], mesh.coordinates[node as usize]);
+        let length = dot(way, way).sqrt();
+        Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length) }
+    })
+}

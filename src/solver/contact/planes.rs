@@ -1,0 +1,53 @@
+//! Fixed rigid planes: constraints on single points.
+
+use super::enforce::{Constraint, MEMBERS};
+use super::points::Points;
+use crate::model::{Friction, RigidSurface};
+use crate::solver::nodes::{dot, subtract};
+
+/// One point that a plane watches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanePoint {
+    /// The point.
+    pub point: u32,
+    /// Index into the model's rigid surfaces.
+    pub plane: u32,
+    /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
+    /// it is, not thrown out.
+    allowed: f64,
+}
+
+fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
+    dot(subtract(position, plane.point), plane.normal)
+}
+
+impl PlanePoint {
+    /// A point at its initial position.
+    pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlanePoint {
+        PlanePoint { point, plane: number as u32, allowed: gap(plane, position).min(0.0) }
+    }
+
+    /// The constraint that keeps the point from crossing, when it would or when `always`.
+    pub fn constraint(&self, planes: &[RigidSurface], points: &Points, always: bool) -> Option<Constraint> {
+        let plane = &planes[self.plane as usize];
+        let end = points.end[self.point as usize];
+        let gap = gap(plane, end) - self.allowed;
+        if gap >= 0.0 && !always {
+            return None;
+        }
+        let mut constraint = Constraint {
+            members: [0; MEMBERS],
+            weights: [0.0; MEMBERS],
+            count: 1,
+            normal: plane.normal,
+            gap,
+            size: f64::MIN_POSITIVE,
+            share: 1.0,
+            friction: Friction::constant(plane.friction),
+            push: 0.0,
+            drag: [0.0; 3],
+        };
+        (constraint.members[0], constraint.weights[0]) = (self.point, 1.0);
+        Some(constraint)
+    }
+}

@@ -1,0 +1,154 @@
+//! The search by grids: of a pair, the smaller box is put into cells of the larger one's size, and the larger one looks
+//! through the cells around it.
+
+use super::sizes::{CLASSES, Sizes, present};
+use super::{Box3, Candidates, Search, lowest_start};
+
+/// Edge of a cell in typical sizes of the class that looks through it.
+const CELL: f64 = 1.0;
+/// Cells are numbered within this bound, which keeps numbers in 32 bits; the outermost cells have no end.
+const OUTERMOST: f64 = (1 << 30) as f64;
+
+/// One grid for each class of sizes that occurs, so that neither a huge face nor a fast node slows the others down. Faces
+/// look for nodes of smaller classes, and nodes for faces of the same or smaller classes; nearly always nodes are small,
+/// faces are alike, and one grid is enough.
+#[derive(Debug, Default)]
+pub struct Grid {
+    sizes: Sizes,
+    node_classes: Vec<u8>,
+    face_classes: Vec<u8>,
+    cells: Cells,
+}
+
+impl Search for Grid {
+    fn find(&mut self, nodes: &[Box3], faces: &[Box3], connectivity: &[[u32; 4]], found: &mut Candidates) {
+        let Grid { sizes, node_classes, face_classes, cells } = self;
+        found.clear();
+        sizes.measure(faces);
+        sizes.classes(nodes, node_classes);
+        sizes.classes(faces, face_classes);
+        let (of_nodes, of_faces) = (present(node_classes), present(face_classes));
+        for class in 0..CLASSES {
+            // The last class has boxes of any size, for which there is one cell.
+            let edge = if class + 1 < CLASSES { CELL * sizes.typical(class) } else { f64::INFINITY };
+            let smaller = &of_nodes[..class as usize];
+            if of_faces[class as usize] && smaller.contains(&true) {
+                cells.fill(nodes, edge, |node| node_classes[node] < class);
+                for (face, of) in (0..).zip(faces).filter(|(face, _)| face_classes[*face as usize] == class) {
+                    cells.visit(of, |node| found.push(node, face, &connectivity[face as usize]));
+                }
+            }
+            let smaller = &of_faces[..=class as usize];
+            if of_nodes[class as usize] && smaller.contains(&true) {
+                cells.fill(faces, edge, |face| face_classes[face] <= class);
+                for (node, of) in (0..).zip(nodes).filter(|(node, _)| node_classes[*node as usize] == class) {
+                    cells.visit(of, |face| found.push(node, face, &connectivity[face as usize]));
+                }
+            }
+        }
+        found.sort_by_node(nodes.len());
+    }
+
+    fn name(&self) -> &'static str {
+        "grid"
+    }
+}
+
+/// Boxes by the cells of their low corners. Space has any number of cells; they share a table whose length is that of the
+/// list of boxes. Cells along x are neighbours in the table too, so a row of them is one run.
+#[derive(Debug, Default)]
+struct Cells {
+    /// Where each bucket of the table begins in `members`; one more than there are buckets.
+    starts: Vec<u32>,
+    /// Boxes by bucket: their indices and themselves.
+    members: Vec<u32>,
+    boxes: Vec<Box3>,
+    /// The chosen boxes and their buckets, as they came.
+    chosen: Vec<(u32, u32)>,
+    /// Cells per length.
+    inverse: f64,
+    /// Longest of the boxes along each axis.
+    extent: [f64; 3],
+    /// Number of buckets, a power of two, less one.
+    mask: u32,
+    /// Distance in the table of cells that are neighbours along y and z.
+    strides: [u32; 2],
+}
+
+impl Cells {
+    fn fill(&mut self, boxes: &[Box3], edge: f64, chosen: impl Fn(usize) -> bool) {
+        self.inverse = 1.0 / edge;
+        self.size_table(boxes.len());
+        self.chosen.clear();
+        self.extent = [0.0; 3];
+        for (index, one) in boxes.iter().enumerate().filter(|(index, _)| chosen(*index)) {
+            let [x, y, z] = one.low.map(|x| self.cell(x));
+            let bucket = self.row(y, z).wrapping_add(x as u32) & self.mask;
+            self.starts[bucket as usize] += 1;
+            self.chosen.push((index as u32, bucket));
+            for axis in 0..3 {
+                self.extent[axis] = self.extent[axis].max(one.high[axis] - one.low[axis]);
+            }
+        }
+        let mut end = 0;
+        for start in &mut self.starts {
+            end += *start;
+            *start = end;
+        }
+        self.members.resize(self.chosen.len(), 0);
+        self.boxes.resize(self.chosen.len(), Box3::empty());
+        for (index, bucket) in self.chosen.iter().rev() {
+            let start = &mut self.starts[*bucket as usize];
+            *start -= 1;
+            self.members[*start as usize] = *index;
+            self.boxes[*start as usize] = boxes[*index as usize];
+        }
+    }
+
+    /// Clears the table for so many boxes. The strides are irrational fractions of its length, so that rows next to each
+    /// other in a sheet or a block spread evenly.
+    fn size_table(&mut self, boxes: usize) {
+        let length = boxes.next_power_of_two().clamp(16, 1 << 30);
+        self.mask = length as u32 - 1;
+        self.strides = [0.618_033_988_75, 0.414_213_562_37].map(|part| (part * length as f64) as u32 | 1);
+        self.starts.clear();
+        self.starts.resize(length + 1, 0);
+    }
+
+    /// Number of the cell along an axis. It never falls when `x` grows; rounding towards zero makes cell 0 twice as long.
+    fn cell(&self, x: f64) -> i32 {
+        (x * self.inverse).clamp(-OUTERMOST, OUTERMOST) as i32
+    }
+
+    /// Place in the table, before wrapping, of the cell `[0, y, z]`.
+    fn row(&self, y: i32, z: i32) -> u32 {
+        (y as u32).wrapping_mul(self.strides[0]).wrapping_add((z as u32).wrapping_mul(self.strides[1]))
+    }
+
+    /// Visits each box that overlaps `of`, once.
+    fn visit(&self, of: &Box3, mut visit: impl FnMut(u32)) {
+        let first = [0, 1, 2].map(|axis| self.cell(lowest_start(of.low[axis], self.extent[axis])));
+        let last = of.high.map(|x| self.cell(x));
+        let more = ((last[0] - first[0]) as u32).min(self.mask);
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                let from = self.row(y, z).wrapping_add(first[0] as u32) & self.mask;
+                let to = from + more;
+                self.visit_run(from, to.min(self.mask), [y, z], of, &mut visit);
+                if to > self.mask {
+                    self.visit_run(0, to - self.mask - 1, [y, z], of, &mut visit);
+                }
+            }
+        }
+    }
+
+    /// Visits the boxes that overlap `of` in buckets `from` to `to`, but for those of other rows in the same buckets.
+    fn visit_run(&self, from: u32, to: u32, row: [i32; 2], of: &Box3, visit: &mut impl FnMut(u32)) {
+        let run = self.starts[from as usize] as usize..self.starts[to as usize + 1] as usize;
+        for (member, one) in self.members[run.clone()].iter().zip(&self.boxes[run]) {
+            if one.overlaps(of) && [self.cell(one.low[1]), self.cell(one.low[2])] == row {
+                visit(*member);
+            }
+        }
+    }
+}

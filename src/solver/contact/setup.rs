@@ -1,0 +1,251 @@
+//! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
+
+use super::faces::Faces;
+use super::locate::{Interface, Rule};
+use super::surface::{Surface, face_nodes};
+use crate::mesh::Mesh;
+use crate::model::{Contact, ContactMaterials, Friction, Model};
+use crate::solver::Body;
+use std::sync::Arc;
+
+/// No point.
+pub const ABSENT: u32 = u32::MAX;
+
+/// What holds where a point of one kind touches a face of another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pairing {
+    /// Coulomb friction.
+    pub friction: Friction,
+    /// Share of the slave role of the point, that of the master role of the face.
+    pub share: f64,
+}
+
+/// Pairings by the blocks of point and face, and by interface.
+#[derive(Debug, Clone, Default)]
+pub struct Pairings {
+    blocks: Vec<Pairing>,
+    count: usize,
+    pairs: Vec<Pairing>,
+}
+
+impl Pairings {
+    /// What holds where a point of block `point` touches a face of block `face` through an interface.
+    pub fn of(&self, rule: Rule, point: u32, face: u32) -> Pairing {
+        match rule {
+            Rule::Blocks => self.blocks[point as usize * self.count + face as usize],
+            Rule::Pair(number) => self.pairs[number as usize],
+        }
+    }
+
+    /// Pairings of all blocks and of all pairs of side sets.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body) -> Pairings {
+        let count = mesh.blocks.len();
+        let impedance = |block: usize| {
+            let material = &model.materials[body.block_material[block]];
+            (material.density * material.law.moduli().dilatational()).sqrt()
+        };
+        let pairing = |point: usize, face: usize| {
+            let ids = [mesh.blocks[point].id, mesh.blocks[face].id];
+            let by_impedance =
+                if point == face { 0.5 } else { impedance(face) / (impedance(point) + impedance(face)) };
+            // The last command about two blocks holds, whichever it names first.
+            let data = model.contact.data.iter().rev().find_map(|data| match data.materials {
+                [a, b] if [b, a] == ids => Some((data, data.partition)),
+                [a, b] if [a, b] == ids => Some((data, data.partition.map(|partition| 1.0 - partition))),
+                _ => None,
+            });
+            match data {
+                Some((data, share)) => Pairing { friction: data.friction, share: share.unwrap_or(by_impedance) },
+                None => Pairing { friction: Friction::default(), share: by_impedance },
+            }
+        };
+        let blocks = (0..count * count).map(|i| pairing(i / count, i % count)).collect();
+        let pairs = model.contact.surfaces.iter().flat_map(|pair| {
+            // Points of the first set on faces of the second, then the other way round.
+            [1.0 - pair.partition, pair.partition].map(|share| Pairing { friction: pair.friction, share })
+        });
+        Pairings { blocks, count, pairs: pairs.collect() }
+    }
+}
+
+/// Points and faces as they are now.
+#[derive(Debug, Clone, Default)]
+pub struct Layout {
+    /// Node of the mesh of each point, ascending.
+    pub nodes: Vec<u32>,
+    /// Block of each point: that of the first of its faces.
+    pub point_block: Vec<u32>,
+    /// Faces.
+    pub faces: Faces,
+    /// Interfaces; explicit pairs first.
+    pub interfaces: Vec<Interface>,
+}
+
+impl Layout {
+    /// The interface of CONTACT MATERIAL.
+    pub fn automatic(&self) -> Option<&Interface> {
+        self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
+    }
+
+    /// The point of a node of the mesh, or [`ABSENT`].
+    pub fn point(&self, node: u32) -> u32 {
+        self.nodes.binary_search(&node).map_or(ABSENT, |point| point as u32)
+    }
+
+    /// The place of a face by its number, or [`ABSENT`].
+    pub fn face(&self, number: u32) -> u32 {
+        self.faces.number.binary_search(&number).map_or(ABSENT, |face| face as u32)
+    }
+}
+
+/// What layouts are made of, and made of again when elements go.
+pub struct Skin {
+    element_order: Arc<Vec<u32>>,
+    element_nodes: Arc<Vec<[u32; 8]>>,
+    element_block: Arc<Vec<u32>>,
+    positions: Arc<Vec<[f64; 3]>>,
+    /// Whether CONTACT MATERIAL names a block.
+    chosen: Vec<bool>,
+    surface: Option<Surface>,
+    /// Faces of the side sets of each CONTACT SURFACE, two lists for each, ascending.
+    sets: Vec<Vec<u32>>,
+    /// Nodes that are points although they may not be on any face.
+    more: Vec<u32>,
+    /// Nodes that have lost their last face and go on as free points.
+    free: Vec<u32>,
+}
+
+impl Skin {
+    /// Finds the surfaces. `more` are nodes that are points although they may not be on any face.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, more: Vec<u32>) -> Skin {
+        let contact = &model.contact;
+        let chosen: Vec<bool> = (mesh.blocks.iter())
+            .map(|block| match &contact.materials {
+                None => false,
+                Some(ContactMaterials::All) => true,
+                Some(ContactMaterials::Blocks(ids)) => ids.contains(&block.id),
+            })
+            .collect();
+        Skin {
+            element_order: body.element_order.clone(),
+            element_nodes: body.element_nodes.clone(),
+            element_block: body.element_block.clone(),
+            positions: body.positions.clone(),
+            surface: contact.materials.is_some().then(|| surface(&chosen, body)),
+            sets: side_set_faces(mesh, contact, body),
+            chosen,
+            more,
+            free: Vec::new(),
+        }
+    }
+
+    /// Place in the mesh file, from 1, of the element of a face.
+    pub fn file_number(&self, face: u32) -> f64 {
+        f64::from(self.element_order[face as usize / 6] + 1)
+    }
+
+    /// Points, faces and interfaces as they are now.
+    pub fn layout(&self) -> Layout {
+        let automatic: Vec<u32> = self.surface.iter().flat_map(|surface| self.outside(surface)).collect();
+        let mut numbers: Vec<u32> = automatic.iter().chain(self.sets.iter().flatten()).copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let mut layout = Layout::default();
+        layout.nodes = numbers.iter().flat_map(|&face| face_nodes(&self.element_nodes, face)).collect();
+        layout.nodes.extend(self.more.iter().chain(&self.free));
+        layout.nodes.sort_unstable();
+        layout.nodes.dedup();
+        let points = layout.nodes.len();
+        let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
+        layout.faces = Faces::new(&numbers, body, |node| layout.point(node), points);
+        let faces = &layout.faces;
+        let block = |point: u32| faces.around(point).first().map_or(0, |&face| faces.block[face as usize]);
+        layout.point_block = (0..points as u32).map(block).collect();
+        layout.interfaces = self.interfaces(&layout, &automatic);
+        layout
+    }
+
+    /// Takes elements away. Nodes that lose their last face and that `keeps` wants become free points.
+    pub fn delete(&mut self, elements: &[u32], old: &Layout, keeps: impl Fn(u32) -> bool) {
+        let Some(surface) = &mut self.surface else { return self.shorten_sets(elements) };
+        elements.iter().for_each(|&element| surface.delete(element));
+        self.shorten_sets(elements);
+        let Some(automatic) = old.automatic() else { return };
+        let mut on_a_face = vec![false; old.nodes.len()];
+        for face in self.surface.iter().flat_map(|surface| self.outside(surface)) {
+            for node in face_nodes(&self.element_nodes, face) {
+                if let Some(on) = on_a_face.get_mut(old.point(node) as usize) {
+                    *on = true;
+                }
+            }
+        }
+        let lost = (0..old.nodes.len()).filter(|&point| automatic.points[point] && !on_a_face[point]);
+        self.free = lost.map(|point| old.nodes[point]).filter(|&node| keeps(node)).collect();
+    }
+
+    fn shorten_sets(&mut self, dead: &[u32]) {
+        for set in &mut self.sets {
+            set.retain(|face| dead.binary_search(&(face / 6)).is_err());
+        }
+    }
+
+    /// Exterior faces of the chosen blocks.
+    fn outside<'a>(&'a self, surface: &'a Surface) -> impl Iterator<Item = u32> + 'a {
+        surface.exterior().filter(|&face| self.chosen[self.element_block[face as usize / 6] as usize])
+    }
+
+    fn interfaces(&self, layout: &Layout, automatic: &[u32]) -> Vec<Interface> {
+        let places = |numbers: &[u32]| -> Vec<u32> { numbers.iter().map(|&number| layout.face(number)).collect() };
+        let corners = |places: &[u32]| {
+            let mut taken = vec![false; layout.nodes.len()];
+            let corners = places.iter().flat_map(|&face| layout.faces.corners[face as usize]);
+            corners.for_each(|point| taken[point as usize] = true);
+            taken
+        };
+        let mut interfaces = Vec::new();
+        for (number, pair) in self.sets.chunks_exact(2).enumerate() {
+            let [first, second] = [places(&pair[0]), places(&pair[1])];
+            let rule = |side: u32| Rule::Pair(2 * number as u32 + side);
+            if first != second {
+                interfaces.push(Interface { points: corners(&first), faces: second.clone(), rule: rule(0) });
+            }
+            interfaces.push(Interface { points: corners(&second), faces: first, rule: rule(1) });
+        }
+        if !automatic.is_empty() {
+            let faces = places(automatic);
+            let mut points = corners(&faces);
+            self.free.iter().for_each(|&node| points[layout.point(node) as usize] = true);
+            interfaces.push(Interface { points, faces, rule: Rule::Blocks });
+        }
+        interfaces
+    }
+}
+
+/// The surface of the chosen blocks and of what is joined to them.
+fn surface(chosen: &[bool], body: &Body) -> Surface {
+    let mut wanted = vec![false; body.positions.len()];
+    let elements = body.element_nodes.iter().zip(&*body.element_block);
+    for (nodes, _) in elements.filter(|(_, block)| chosen[**block as usize]) {
+        nodes.iter().for_each(|&node| wanted[node as usize] = true);
+    }
+    Surface::new(&body.element_nodes, body.positions.len(), |node| wanted[node as usize])
+}
+
+fn side_set_faces(mesh: &Mesh, contact: &Contact, body: &Body) -> Vec<Vec<u32>> {
+    if contact.surfaces.is_empty() {
+        return Vec::new();
+    }
+    let mut canonical = vec![0u32; body.element_order.len()];
+    for (place, &file) in body.element_order.iter().enumerate() {
+        canonical[file as usize] = place as u32;
+    }
+    let list = |id: i64| {
+        let sides = mesh.side_set(id).map_or(&[][..], |set| &set.sides);
+        let mut faces: Vec<u32> =
+            sides.iter().map(|&(element, side)| 6 * canonical[element as usize] + u32::from(side)).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    };
+    contact.surfaces.iter().flat_map(|pair| pair.side_sets.map(list)).collect()
+}

@@ -1,0 +1,314 @@
+//! Erosion: elements that have failed are taken away, with their energy booked.
+//!
+//! An element that goes leaves its lane of the chunk to a cube at rest far larger than any element, made of eight nodes
+//! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
+
+use super::domain::ABSENT;
+use super::elements::geometry::{corners, gradient, modes};
+use super::elements::hex8::rows;
+use super::elements::kinematics::rotation_matrix;
+use super::elements::{ElementBlock, Group};
+use super::nodes::{Nodes, dot};
+use super::Body;
+use crate::comm::Communicator;
+use crate::lanes::{CHUNK, Row, Sym3};
+use crate::mesh::Mesh;
+use crate::mesh::check::hexahedron_volume;
+use crate::model::{Death, DeathVariable, ElementField, Model};
+use std::sync::Arc;
+
+/// Edge of the cube that stands in for what is gone, in units of the body's size.
+const STAND_IN: f64 = 1e3;
+
+/// Corners of a unit cube in the order of an element's nodes.
+const CUBE: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
+
+/// What is watched, what has gone, and its energy.
+pub struct Erosion {
+    rules: Vec<Death>,
+    element_nodes: Arc<Vec<[u32; 8]>>,
+    /// Block number of each mesh block.
+    block_ids: Vec<i64>,
+    element_block: Arc<Vec<u32>>,
+    /// Local number of each node of the mesh.
+    local: Vec<u32>,
+    /// Elements left at each local node, of all ranks.
+    left: Vec<u32>,
+    /// First of the eight nodes of the stand-in.
+    stand_in: u32,
+    edge: f64,
+    /// Energy of what went, one entry for each element and each dropped node of this rank.
+    pub energy: Vec<f64>,
+    /// Number of elements of the whole body that are gone.
+    pub gone: u64,
+}
+
+impl Erosion {
+    /// `None` for a model without DEATH. Adds the stand-in's nodes behind those of the rank.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, nodes: &mut Nodes, local: &[u32]) -> Option<Erosion> {
+        if model.deaths.is_empty() {
+            return None;
+        }
+        let mut left = vec![0; nodes.len()];
+        for &node in body.element_nodes.iter().flatten().filter(|&&node| local[node as usize] != ABSENT) {
+            left[local[node as usize] as usize] += 1;
+        }
+        let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+        let edge = STAND_IN * if extent > 0.0 { extent } else { 1.0 };
+        let stand_in = nodes.len() as u32;
+        for corner in CUBE {
+            let [x, y, z] = corner.map(|c| c * edge);
+            nodes.rows.push(Row([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0]));
+            nodes.forces.push(Default::default());
+            nodes.initial.push([x, y, z]);
+            nodes.file.push(ABSENT);
+            nodes.owned.push(false);
+        }
+        Some(Erosion {
+            rules: model.deaths.clone(),
+            element_nodes: body.element_nodes.clone(),
+            block_ids: mesh.blocks.iter().map(|block| block.id).collect(),
+            element_block: body.element_block.clone(),
+            local: local.to_vec(),
+            left,
+            stand_in,
+            edge,
+            energy: Vec::new(),
+            gone: 0,
+        })
+    }
+
+    /// Takes away what fails, and returns the canonical numbers of what went on all ranks, ascending. `time_step` has
+    /// led to the present positions.
+    pub fn advance(
+        &mut self,
+        blocks: &mut [ElementBlock],
+        canonical: &[u32],
+        nodes: &mut Nodes,
+        time_step: f64,
+        comm: &mut dyn Communicator,
+    ) -> Vec<u32> {
+        let mut dead: Vec<u32> = Vec::new();
+        for block in blocks {
+            let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
+            if rules.is_empty() {
+                continue;
+            }
+            for border in [true, false] {
+                let group = if border { &block.border } else { &block.interior };
+                let failed: Vec<usize> = (0..group.len())
+                    .filter(|&i| group.is_alive(i) && rules.iter().any(|rule| fails(rule, block, group, i, nodes)))
+                    .collect();
+                for i in failed {
+                    let group = if border { &block.border } else { &block.interior };
+                    dead.push(canonical[group.places[i] as usize]);
+                    self.energy.push(stored_energy(group, i) + last_half_step(group, i, nodes, time_step));
+                    let density = block.density;
+                    let group = if border { &mut block.border } else { &mut block.interior };
+                    group.retire(i, self.stand_in, density * self.edge * self.edge * self.edge);
+                }
+            }
+        }
+        let dead = everyone(dead, comm);
+        self.gone += dead.len() as u64;
+        self.release(&dead, nodes);
+        dead
+    }
+
+    /// Counts the elements that nodes lose, and drops free nodes where that is asked for.
+    fn release(&mut self, dead: &[u32], nodes: &mut Nodes) {
+        for &element in dead {
+            let block = self.block_ids[self.element_block[element as usize] as usize];
+            let keeps = self.keeps_nodes(block);
+            for node in self.element_nodes[element as usize] {
+                let here = self.local[node as usize];
+                if here == ABSENT {
+                    continue;
+                }
+                self.left[here as usize] -= 1;
+                if self.left[here as usize] == 0 && !keeps {
+                    let v = nodes.velocity(here);
+                    if nodes.owned[here as usize] {
+                        self.energy.push(0.5 * nodes.mass(here) * dot(v, v));
+                    }
+                    nodes.rows[here as usize].0[3..8].fill(0.0);
+                }
+            }
+        }
+    }
+
+    fn keeps_nodes(&self, block: i64) -> bool {
+        self.rules.iter().any(|rule| rule.block == block && rule.keeps_nodes)
+    }
+
+    /// Whether a node of the mesh that has lost its elements goes on; those of other ranks are judged by their elements.
+    pub fn keeps(&self, dead: &[u32]) -> impl Fn(u32) -> bool + '_ {
+        let mut dropped: Vec<u32> = (dead.iter())
+            .filter(|&&element| !self.keeps_nodes(self.block_ids[self.element_block[element as usize] as usize]))
+            .flat_map(|&element| self.element_nodes[element as usize])
+            .collect();
+        dropped.sort_unstable();
+        move |node| dropped.binary_search(&node).is_err()
+    }
+
+    /// Local number of each node of the mesh.
+    pub fn local(&self) -> &[u32] {
+        &self.local
+    }
+}
+
+/// The numbers of all ranks, ascending.
+fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
+    let mut count = [own.len() as u64];
+    comm.all_sum(&mut count);
+    if count[0] > 0 && comm.size() > 1 {
+        let bytes: Vec<u8> = own.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let others = (0..comm.size()).filter(|&rank| rank != comm.rank());
+        let incoming = comm.sparse_exchange(others.map(|rank| (rank, bytes.clone())).collect());
+        for (_, bytes) in incoming {
+            own.extend(bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
+        }
+    }
+    own.sort_unstable();
+    own
+}
+
+/// Whether an element has passed the value of a rule. NaN has passed every value.
+fn fails(rule: &Death, block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> bool {
+    let value = match &rule.variable {
+        DeathVariable::Volume => {
+            volume(group, i, nodes) * block.density / group.element_mass(i)
+        }
+        DeathVariable::TimeStep => stable_step(block, group, i, nodes),
+        DeathVariable::State(name) => state(block, group, i, name),
+        DeathVariable::Field(field, component) => field_value(*field, *component, block, group, i, nodes),
+    };
+    if rule.is_maximum { !(value <= rule.value) } else { !(value > rule.value) }
+}
+
+fn positions(group: &Group, i: usize, nodes: &Nodes) -> [[f64; 3]; 8] {
+    group.nodes(i).map(|node| nodes.position(node))
+}
+
+fn volume(group: &Group, i: usize, nodes: &Nodes) -> f64 {
+    hexahedron_volume(&positions(group, i, nodes))
+}
+
+/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B).
+fn stable_step(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+    let x = positions(group, i, nodes);
+    let operator = gradient(&[0, 1, 2].map(|axis| modes(&x.map(|corner| corner[axis] - x[0][axis]))));
+    let square = operator.square4608() / 4608.0;
+    let volume = operator.volume192 / 192.0;
+    (group.element_mass(i) * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
+}
+
+fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {
+    let variables = block.law.entry().state;
+    let Some(place) = variables.iter().position(|variable| variable.name == name) else { return 0.0 };
+    let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, rows::LAW + k)).collect();
+    block.law.state(&stored, &rotation_matrix(&group.values::<4>(i, rows::FRAME)))[place]
+}
+
+fn stress(group: &Group, i: usize) -> Sym3<f64> {
+    let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, rows::STRESS);
+    Sym3 { xx, yy, zz, xy, yz, zx }
+}
+
+fn field_value(
+    field: ElementField,
+    component: usize,
+    block: &ElementBlock,
+    group: &Group,
+    i: usize,
+    nodes: &Nodes,
+) -> f64 {
+    let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
+    let initial_volume = group.element_mass(i) / block.density;
+    match field {
+        ElementField::Stress => stress(group, i).rotate(&frame).to_array()[component],
+        ElementField::Pressure => -stress(group, i).trace() / 3.0,
+        ElementField::VonMises => {
+            let s = stress(group, i).deviator();
+            (1.5 * s.contract(s)).sqrt()
+        }
+        ElementField::Strain => {
+            let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, rows::STRETCH);
+            super::elements::logarithm(Sym3 { xx, yy, zz, xy, yz, zx }).rotate(&frame).to_array()[component]
+        }
+        ElementField::Energy => group.value(i, rows::INTERNAL_ENERGY) / initial_volume,
+        ElementField::HourglassEnergy => group.value(i, rows::HOURGLASS_ENERGY) / initial_volume,
+        ElementField::Density => group.element_mass(i) / volume(group, i, nodes),
+        ElementField::Status => 1.0,
+        ElementField::Rank => 0.0,
+    }
+}
+
+fn stored_energy(group: &Group, i: usize) -> f64 {
+    group.value(i, rows::INTERNAL_ENERGY)
+        + group.value(i, rows::HOURGLASS_ENERGY)
+        + group.value(i, rows::VISCOUS_ENERGY)
+}
+
+/// Work that the element's last forces have done since the last state: they acted for half of the step that led here,
+/// and no new forces come to be averaged with them. Stress and bulk viscosity; hourglass forces are left out.
+fn last_half_step(group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
+    let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
+    let total = stress(group, i).add_diagonal(group.value(i, rows::VISCOUS_STRESS)).rotate(&frame).matrix();
+    let v = group.nodes(i).map(|node| nodes.velocity(node));
+    let before = positions(group, i, nodes);
+    let operator = gradient(&[0, 1, 2].map(|axis| {
+        modes(&[0, 1, 2, 3, 4, 5, 6, 7].map(|n: usize| {
+            (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])
+        }))
+    }));
+    let mut work = 0.0;
+    for j in 0..3 {
+        let g = operator.g24[j];
+        let b = corners(&[g[0], g[1], g[2], g[3], g[4], g[5], 0.0]);
+        for n in 0..8 {
+            work += (0..3).map(|k| total[k][j] * v[n][k]).sum::<f64>() * b[n] / 192.0;
+        }
+    }
+    let work = 0.5 * time_step * work;
+    // An element that dies inverted may have moved beyond all measure.
+    if work.is_finite() { work } else { 0.0 }
+}
+
+impl Group {
+    /// Whether the `i`-th element is still there.
+    pub fn is_alive(&self, i: usize) -> bool {
+        self.gone.is_empty() || !self.gone[i]
+    }
+
+    /// Gives the lane of the `i`-th element to the stand-in, and with it the lanes that copy the last element.
+    fn retire(&mut self, i: usize, stand_in: u32, mass: f64) {
+        if self.gone.is_empty() {
+            self.gone = vec![false; self.len()];
+        }
+        self.gone[i] = true;
+        let copies = if i + 1 == self.len() { self.len()..self.connectivity.len() * CHUNK } else { 0..0 };
+        for slot in std::iter::once(i).chain(copies) {
+            let (chunk, lane) = (slot / CHUNK, slot % CHUNK);
+            for corner in 0..8 {
+                self.connectivity[chunk][corner][lane] = stand_in + corner as u32;
+            }
+            self.mass[chunk].0[lane] = mass;
+            let state = &mut self.state[chunk * self.stride..(chunk + 1) * self.stride];
+            state.iter_mut().for_each(|row| row.0[lane] = 0.0);
+            for component in 0..3 {
+                state[rows::STRETCH + component].0[lane] = 1.0;
+            }
+            state[rows::FRAME].0[lane] = 1.0;
+        }
+    }
+}
