@@ -57,9 +57,7 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
     }
     let models: Vec<(String, String)> = match entry.name.as_str() {
         "MATERIAL" => MATERIALS.iter().map(|m| (m.name.to_string(), m.summary.to_string())).collect(),
-        "EQUATION OF STATE" => {
-            EQUATIONS_OF_STATE.iter().map(|e| (e.name.to_string(), e.summary.to_string())).collect()
-        }
+        "EQUATION OF STATE" => EQUATIONS_OF_STATE.iter().map(|e| (e.name.to_string(), e.summary.to_string())).collect(),
         _ => Vec::new(),
     };
     let summary = match &entry.status {

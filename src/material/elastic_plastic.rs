@@ -48,13 +48,7 @@ pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC PLASTIC",
     aliases: &["ELASTIC-PLASTIC"],
     summary: "Von Mises plasticity with linear hardening, isotropic, kinematic or combined.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        YIELD_STRESS,
-        HARDENING_MODULUS,
-        BETA,
-    ],
+    properties: &[YOUNGS_MODULUS, POISSONS_RATIO, YIELD_STRESS, HARDENING_MODULUS, BETA],
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "RADIUS", meaning: "Radius of the yield surface in deviatoric stress space." },

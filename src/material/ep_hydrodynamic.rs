@@ -5,9 +5,7 @@ use super::elastic_plastic::{HARDENING_MODULUS, YIELD_STRESS};
 use super::equation_of_state::EquationOfState;
 use super::hydrodynamic::PRESSURE_CUTOFF;
 use super::plastic::{Flow, compose, radial_return};
-use super::{
-    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness,
-};
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 /// A solid under high pressure.

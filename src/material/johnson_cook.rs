@@ -6,7 +6,9 @@ use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::elastic_plastic::YIELD_STRESS;
 use super::plastic::{Flow, compose, radial_return, weakened_tension};
 use super::property::STRESS;
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step};
+use super::{
+    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
+};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, exp, ln, power};
 
 /// Y = (A + B ε̄ᵖⁿ)(1 + C ln ε̇*)(1 − T*ᵐ), with ε̇* = max(1, ε̄̇ᵖ/ε̇₀) and T* = (T − T_r)/(T_m − T_r) between 0 and 1.
@@ -56,8 +58,14 @@ pub(super) static ENTRY: Entry = Entry {
         YIELD_STRESS,
         Property::required("HARDENING CONSTANT", "B", STRESS, Range::NotNegative, "Factor of strain hardening."),
         Property::required("HARDENING EXPONENT", "n", "-", Range::Positive, "Exponent of strain hardening."),
-        Property::required("RATE CONSTANT", "C", "-", Range::NotNegative, "Factor on the logarithm of the strain rate.")
-            .or(0.0),
+        Property::required(
+            "RATE CONSTANT",
+            "C",
+            "-",
+            Range::NotNegative,
+            "Factor on the logarithm of the strain rate.",
+        )
+        .or(0.0),
         Property::required("REFERENCE RATE", "rate0", "1/time", Range::Positive, "Plastic strain rate of no effect.")
             .or(1.0),
         Property::required("THERMAL EXPONENT", "m", "-", Range::Positive, "Exponent of thermal softening.").or(1.0),
@@ -404,7 +412,8 @@ mod tests {
         for yield_stress in [0.0, 90e6] {
             for size in [0.0, 1e-320, 1e-160, 1e-12, 1e-3, 1.0, 50.0] {
                 let strength = [("YIELD STRESS", yield_stress), ("D1", 0.0), ("D2", 1.0), ("D3", -800.0)];
-                let given: Vec<(&str, f64)> = strength.iter().chain(&COPPER).chain(&RATE).chain(&HEAT).copied().collect();
+                let given: Vec<(&str, f64)> =
+                    strength.iter().chain(&COPPER).chain(&RATE).chain(&HEAT).copied().collect();
                 let mut point = Point::new(made("JOHNSON COOK", DENSITY, &given, &[]));
                 point.time_step = 1e-9;
                 for _ in 0..4 {

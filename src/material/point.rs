@@ -1,7 +1,8 @@
 //! A single material point on a prescribed path: what the tests of all laws are made with.
 
 use super::{
-    EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Kernel, KernelVisitor, Law, MATERIALS, Property, Response, Start, Step,
+    EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Kernel, KernelVisitor, Law, MATERIALS, Property, Response,
+    Start, Step,
 };
 use crate::lanes::{Lanes, Matrix3, Pair, Row, Sym3};
 use nalgebra::{Matrix3 as Matrix, SymmetricEigen};
@@ -57,7 +58,8 @@ pub(super) fn made(name: &str, density: f64, given: &[(&str, f64)], functions: &
 pub(super) fn equation(name: &str, density: f64, given: &[(&str, f64)]) -> EquationOfState {
     let entry = EQUATIONS_OF_STATE.iter().find(|entry| entry.name == name).expect("an equation of this name");
     let given = values(entry, given);
-    (entry.build)(&Given::new(&given, density)).unwrap_or_else(|refusal| panic!("{} {}", refusal.keyword, refusal.reason))
+    (entry.build)(&Given::new(&given, density))
+        .unwrap_or_else(|refusal| panic!("{} {}", refusal.keyword, refusal.reason))
 }
 
 /// Stress, stored state and motion of one point, driven by strain increments.

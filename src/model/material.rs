@@ -34,8 +34,7 @@ fn material(card: &Card, draft: &mut Draft) {
     let functions = &draft.model.functions;
     let function = |id| functions.iter().find(|f| f.id == id).map(|f| f.points.clone());
     let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(point).collect();
-    let given =
-        Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
+    let given = Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
     let law = (entry.build)(&given);
     if let (Some(equation_card), false, Ok(_)) = (equation_card, given.equation_wanted.get(), &law) {
         let message = format!("EQUATION OF STATE {block}: {} does not use one", entry.name);

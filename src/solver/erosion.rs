@@ -3,13 +3,13 @@
 //! An element that goes leaves its lane of the chunk to a cube at rest far larger than any element, made of eight nodes
 //! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
 
+use super::Body;
 use super::domain::ABSENT;
 use super::elements::geometry::{corners, gradient, modes};
 use super::elements::hex8::rows;
 use super::elements::kinematics::rotation_matrix;
 use super::elements::{ElementBlock, Group};
 use super::nodes::{Nodes, dot};
-use super::Body;
 use crate::comm::Communicator;
 use crate::lanes::{CHUNK, Row, Sym3};
 use crate::mesh::Mesh;
@@ -185,9 +185,7 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
 /// Whether an element has passed the value of a rule. NaN has passed every value.
 fn fails(rule: &Death, block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> bool {
     let value = match &rule.variable {
-        DeathVariable::Volume => {
-            volume(group, i, nodes) * block.density / group.element_mass(i)
-        }
+        DeathVariable::Volume => volume(group, i, nodes) * block.density / group.element_mass(i),
         DeathVariable::TimeStep => stable_step(block, group, i, nodes),
         DeathVariable::State(name) => state(block, group, i, name),
         DeathVariable::Field(field, component) => field_value(*field, *component, block, group, i, nodes),
@@ -267,9 +265,10 @@ fn last_half_step(group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64
     let v = group.nodes(i).map(|node| nodes.velocity(node));
     let before = positions(group, i, nodes);
     let operator = gradient(&[0, 1, 2].map(|axis| {
-        modes(&[0, 1, 2, 3, 4, 5, 6, 7].map(|n: usize| {
-            (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])
-        }))
+        modes(
+            &[0, 1, 2, 3, 4, 5, 6, 7]
+                .map(|n: usize| (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])),
+        )
     }));
     let mut work = 0.0;
     for j in 0..3 {

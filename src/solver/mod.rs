@@ -54,6 +54,7 @@ pub struct Solver {
     first_stable_step: Option<f64>,
     supplied_peak: f64,
     energy_floor: f64,
+    stored_energy: f64,
     local: PassOutcome,
     control: TimeStepControl,
     pass: PassSettings,
@@ -91,6 +92,7 @@ impl Solver {
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
             energy_floor: health::energy_floor(body, model),
+            stored_energy: health::stored_energy(body, model),
             domain,
             clock: Clock::default(),
             step: 0,

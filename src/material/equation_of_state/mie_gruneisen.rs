@@ -133,10 +133,5 @@ fn terms<V: Lanes>(compression: V, hugoniot: V, slope: V, gamma: f64) -> Terms<V
     // In tension there is no shock to take the energy from.
     let share = V::splat(1.0) - half * compression.max(V::splat(0.0));
     let lost = V::select_less(V::splat(0.0), compression, half * hugoniot, V::splat(0.0));
-    Terms {
-        a: hugoniot * share,
-        b: V::splat(gamma),
-        a_slope: lost - slope * share,
-        b_slope: V::splat(0.0),
-    }
+    Terms { a: hugoniot * share, b: V::splat(gamma), a_slope: lost - slope * share, b_slope: V::splat(0.0) }
 }
