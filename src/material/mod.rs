@@ -9,13 +9,18 @@ mod ep_hydrodynamic;
 mod equation_of_state;
 mod hydrodynamic;
 mod johnson_cook;
+mod low_density_foam;
+mod mooney_rivlin;
+mod orthotropic_crush;
 mod plastic;
 #[cfg(test)]
 mod point;
 mod power_hardening;
 mod property;
+mod soil;
 #[cfg(test)]
 mod tests;
+mod viscoplastic;
 
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;
@@ -23,8 +28,13 @@ pub use ep_hydrodynamic::ElasticPlasticHydrodynamic;
 pub use equation_of_state::{DetonationPoint, EQUATIONS_OF_STATE, EquationOfState, IdealGas, Jwl, PowerSeries, UsUp};
 pub use hydrodynamic::Hydrodynamic;
 pub use johnson_cook::JohnsonCook;
+pub use low_density_foam::LowDensityFoam;
+pub use mooney_rivlin::MooneyRivlin;
+pub use orthotropic_crush::OrthotropicCrush;
 pub use power_hardening::PowerHardening;
 pub use property::{Curve, Given, Origin, Property, Range, Refusal, StateVariable};
+pub use soil::Soil;
+pub use viscoplastic::Viscoplastic;
 
 /// Everything the deck, the manual and the plot file need to know of a law, or of another thing with properties.
 pub struct Entry<T = Law> {
@@ -75,9 +85,14 @@ laws! {
     elastic::Elastic,
     elastic_plastic::ElasticPlastic,
     power_hardening::PowerHardening,
+    viscoplastic::Viscoplastic,
     johnson_cook::JohnsonCook,
     hydrodynamic::Hydrodynamic,
     ep_hydrodynamic::ElasticPlasticHydrodynamic,
+    soil::Soil,
+    low_density_foam::LowDensityFoam,
+    orthotropic_crush::OrthotropicCrush,
+    mooney_rivlin::MooneyRivlin,
 }
 
 impl Law {
