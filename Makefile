@@ -5,7 +5,7 @@ URTO     = target/release/urto
 # MPI is built in where the machine has it; URTO_MPI=no leaves it out.
 FEATURES = $$(.ci/packages features)
 
-.PHONY: demo test build mpi bench verify man install clean packages
+.PHONY: demo test build mpi bench verify man install clean packages needed
 
 demo: build            # runs the Taylor bar, a minute or two on two cores, and draws it
 	@mkdir -p out
@@ -20,28 +20,33 @@ demo: build            # runs the Taylor bar, a minute or two on two cores, and 
 test: packages         # every test; those over MPI too where the machine has it
 	cargo test $(FEATURES)
 
-build: packages        # the program, in target/release
+build: needed          # the program, in target/release
 	cargo build --release $(FEATURES)
 
-mpi: packages          # the program with MPI, or the reason why not
+mpi: needed            # the program with MPI, or the reason why not
 	cargo build --release --features mpi
 
-bench: packages        # times the kernels and the whole step beside the machine's bandwidth
+bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench
 
-verify: packages       # the problems with known answers only, with what they found
+verify: needed         # the problems with known answers only, with what they found
 	cargo test --release --test 'verif*' -- --nocapture
 
 man: build             # man pages from the option table and the grammar
 	$(URTO) generate man > man/urto.1
 	$(URTO) generate man-deck > man/urto-deck.5
+	$(URTO) generate man-mesh > man/urto-mesh.5
 
 install: build         # program, man pages and completions, under PREFIX
 	install -D $(URTO) $(DESTDIR)$(PREFIX)/bin/urto
 	install -D -m 644 man/urto.1 $(DESTDIR)$(PREFIX)/share/man/man1/urto.1
 	install -D -m 644 man/urto-deck.5 $(DESTDIR)$(PREFIX)/share/man/man5/urto-deck.5
+	install -D -m 644 man/urto-mesh.5 $(DESTDIR)$(PREFIX)/share/man/man5/urto-mesh.5
 	install -d $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 	$(URTO) generate bash > $(DESTDIR)$(PREFIX)/share/bash-completion/completions/urto
+
+needed:
+	@.ci/packages build
 
 packages:
 	@.ci/packages

@@ -63,7 +63,7 @@ fn model(law: Law, hourglass: Hourglass) -> Model {
         gravities: vec![],
         initial_velocities: vec![InitialVelocity::Material { block: 1, velocity: [1e-2, 3e-3, 0.0] }],
         rigid_surfaces: vec![],
-        contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
+        contact: Contact::default(),
         deaths: vec![],
         plot_requests: PlotRequests::default(),
     }

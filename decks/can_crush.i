@@ -3,9 +3,9 @@ $ folds touch each other.
 $ Source      the can crush of the PRONTO3D paper (Attaway et al. 1996), with the mesh of ParaView's can.ex2; yield stress
 $             and hardening were never published and are ours
 $ Run         urto can_crush           about a minute on two cores
-$ Look        urto view can_crush.e, at 1.6 and 3.2 ms
+$ Look        urto view can_crush.e -v EQPS -f front --mirror y -t 1.6e-3, and at 3.2e-3
 $ Units       inch, second, pound-force  -> psi, lb s2/in
-$ Mesh        meshes/can.mesh: 7152 elements; block 1 can, block 2 plate; node sets 1 symmetry plane, 100 bottom
+$ Mesh        meshes/can_crush.mesh: 7152 elements; block 1 can, block 2 plate; node sets 1 symmetry plane, 100 bottom
 TITLE
  STEEL CAN CRUSHED BY A PLATE TILTED 10 DEGREES, HALF MODEL
 TERMINATION TIME, 4.3E-3

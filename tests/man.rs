@@ -1,23 +1,45 @@
-//! The man page urto.1 is made from the option table. `URTO_BLESS=1 cargo test --test man` rewrites it.
+//! The man pages are made from the option table and the grammars. `URTO_BLESS=1 cargo test --test man` rewrites them.
 
 mod program;
 
-#[test]
-fn the_man_page_is_current() {
-    let path = program::project("man/urto.1");
-    let made = urto::cli::manual();
-    if std::env::var_os("URTO_BLESS").is_some() {
-        std::fs::write(&path, &made).expect("the page can be written");
-    }
-    let kept = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(made == kept, "man/urto.1 is stale: run `make man`");
+/// What `urto generate` calls each page, its file, and its text.
+fn pages() -> [(&'static str, &'static str, String); 3] {
+    [
+        ("man", "man/urto.1", urto::cli::manual()),
+        ("man-deck", "man/urto-deck.5", urto::deck::manual()),
+        ("man-mesh", "man/urto-mesh.5", urto::mesher::manual()),
+    ]
 }
 
 #[test]
-fn the_program_prints_the_page() {
+fn the_man_pages_are_current() {
+    for (_, file, made) in pages() {
+        let path = program::project(file);
+        if std::env::var_os("URTO_BLESS").is_some() {
+            std::fs::write(&path, &made).expect("the page can be written");
+        }
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(made == kept, "{file} is stale: run `make man`");
+    }
+}
+
+#[test]
+fn the_program_prints_the_pages_and_installs_them() {
     let desk = program::Desk::new();
-    let left = desk.urto(&["generate", "man"]).with(0);
-    assert!(left.out == urto::cli::manual());
+    let makefile = std::fs::read_to_string(program::project("Makefile")).expect("the project's Makefile");
+    for (name, file, made) in pages() {
+        assert!(desk.urto(&["generate", name]).with(0).out == made, "{name}");
+        assert!(makefile.contains(&format!("install -D -m 644 {file} ")), "{file}");
+        assert!(makefile.contains(&format!("generate {name} > {file}")), "{file}");
+    }
+}
+
+#[test]
+fn the_page_on_recipes_has_every_command() {
+    let page = urto::mesher::manual();
+    for entry in &urto::mesher::language().entries {
+        assert!(page.contains(&format!("\n.SS {}\n", entry.name)), "{}", entry.name);
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use urto::comm::Serial;
 use urto::material::{Elastic, Law};
 use urto::mesh::{Block, Mesh};
 use urto::model::{
-    BlockMaterial, BulkViscosity, Hourglass, InitialVelocity, Model, PlotRequests, PlotSchedule, StepModuli,
+    BlockMaterial, BulkViscosity, Contact, Hourglass, InitialVelocity, Model, PlotRequests, PlotSchedule, StepModuli,
     TimeStepControl,
 };
 use urto::partition::Decomposition;
@@ -65,7 +65,7 @@ fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Mo
             InitialVelocity::Angular { block: 1, omega, point: [0.0; 3], axis: [0.0, 0.0, 1.0] },
         ],
         rigid_surfaces: Vec::new(),
-        contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
+        contact: Contact::default(),
         deaths: vec![],
         plot_requests: PlotRequests::default(),
     }

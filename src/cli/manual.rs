@@ -106,7 +106,8 @@ The mesh: EXODUS II (GENESIS) with eight\-node hexahedra, in any netCDF format.
 .B BASE.mesh
 A recipe, from which
 .B urto mesh
-makes BASE.g.
+makes BASE.g, see
+.BR urto\-mesh (5).
 .TP
 .B BASE.o
 The print log: the deck, what is modelled, masses, one line per OUTPUT TIME, the energy balance, where the time went.
@@ -179,5 +180,6 @@ A mesh with twice as many elements along each edge.
 Whether two runs agree to six digits.
 .SH "SEE ALSO"
 .BR urto\-deck (5),
+.BR urto\-mesh (5),
 .BR mpiexec (1)
 "#;

@@ -192,6 +192,8 @@ pub enum Generated {
     Man,
     /// urto-deck.5
     ManDeck,
+    /// urto-mesh.5
+    ManMesh,
     /// Completion for bash
     Bash,
     /// Completion for zsh

@@ -123,6 +123,7 @@ pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     match options.what {
         Generated::Man => out = super::manual().into_bytes(),
         Generated::ManDeck => out = deck::manual().into_bytes(),
+        Generated::ManMesh => out = mesher::manual().into_bytes(),
         Generated::Bash => complete(clap_complete::Shell::Bash),
         Generated::Zsh => complete(clap_complete::Shell::Zsh),
         Generated::Fish => complete(clap_complete::Shell::Fish),

@@ -2,7 +2,9 @@
 
 use std::{fmt, sync::Arc};
 
-use annotate_snippets::{AnnotationKind, Group, Level as Rank, Origin, Renderer, Snippet, renderer::DecorStyle};
+use annotate_snippets::{
+    Annotation, AnnotationKind, Group, Level as Rank, Message, Origin, Renderer, Snippet, renderer::DecorStyle,
+};
 
 use super::source::{Source, Span};
 
@@ -96,9 +98,15 @@ impl Diagnostics {
         &self.source
     }
 
-    /// Adds a message.
+    /// Adds a message, unless it follows from an expression that could not be evaluated, which has been reported.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.list.push(diagnostic);
+        let doubtful = match &diagnostic.labels[..] {
+            [] => self.source.is_doubtful(None),
+            labels => labels.iter().any(|label| self.source.is_doubtful(Some(label.span))),
+        };
+        if !doubtful {
+            self.list.push(diagnostic);
+        }
     }
 
     /// Adds all messages of another collection about the same source.
@@ -138,11 +146,10 @@ impl Diagnostics {
     /// Errors and warnings in the order of the deck, those without a place last, as text for a terminal; plain
     /// ASCII without `color`. Ends with a line that counts them; empty when there are none.
     pub fn render(&self, color: bool) -> String {
-        let mut shown: Vec<&Diagnostic> = self.list.iter().filter(|d| d.level != Level::Note).collect();
+        let shown = self.shown();
         if shown.is_empty() {
             return String::new();
         }
-        shown.sort_by_key(|d| d.labels.first().map_or(usize::MAX, |label| label.span.start));
         let renderer = if color { Renderer::styled() } else { Renderer::plain() }.decor_style(DecorStyle::Ascii);
         let mut text = String::new();
         for diagnostic in shown.iter().take(PRINTED_AT_MOST) {
@@ -152,18 +159,17 @@ impl Diagnostics {
         if shown.len() > PRINTED_AT_MOST {
             text += &format!("... and {} more\n\n", shown.len() - PRINTED_AT_MOST);
         }
-        text += &format!("{}: {}\n", self.source.name(), self.count());
+        text += &format!("{}: {}\n", self.source.name(), count(&shown));
         text
     }
 
-    /// "2 errors, 1 warning".
-    fn count(&self) -> String {
-        let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
-        match (self.errors().count(), self.warnings().count()) {
-            (errors, 0) => plural(errors, "error"),
-            (0, warnings) => plural(warnings, "warning"),
-            (errors, warnings) => format!("{}, {}", plural(errors, "error"), plural(warnings, "warning")),
-        }
+    /// Errors and warnings in the order of their places; what a loop repeats, once.
+    fn shown(&self) -> Vec<&Diagnostic> {
+        let order = |d: &Diagnostic| d.labels.first().map_or(vec![usize::MAX], |l| self.source.order_of(l.span));
+        let mut keyed: Vec<_> = self.list.iter().filter(|d| d.level != Level::Note).map(|d| (order(d), d)).collect();
+        keyed.sort_by(|a, b| a.0.cmp(&b.0));
+        keyed.dedup_by(|a, b| a.0 == b.0 && a.1.message == b.1.message && a.1.level == b.1.level);
+        keyed.into_iter().map(|(_, diagnostic)| diagnostic).collect()
     }
 
     fn group<'a>(&'a self, diagnostic: &'a Diagnostic) -> Group<'a> {
@@ -173,17 +179,46 @@ impl Diagnostics {
             Level::Note => Rank::NOTE,
         };
         let mut group = Group::with_title(rank.primary_title(diagnostic.message.as_str()));
-        if diagnostic.labels.is_empty() {
-            group = group.element(Origin::path(self.source.name()));
-        } else {
-            let annotations = diagnostic.labels.iter().enumerate().map(|(i, label)| {
-                let kind = if i == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
-                kind.span(label.span.start..label.span.end).label(label.text.as_str())
-            });
-            let snippet = Snippet::source(self.source.text()).path(self.source.name()).annotations(annotations);
-            group = group.element(snippet);
+        let Some(main) = diagnostic.labels.first() else {
+            let group = group.element(Origin::path(self.source.name()));
+            return group.elements(helps(diagnostic));
+        };
+        for (file, annotations) in self.by_file(diagnostic) {
+            group = group.element(Snippet::source(file.text()).path(file.name()).annotations(annotations));
         }
-        group.elements(diagnostic.help.iter().map(|help| Rank::HELP.message(help.as_str())))
+        let included = self.source.included_at(main.span).into_iter();
+        group = group.elements(included.map(|place| Rank::NOTE.message(format!("included at {place}"))));
+        group.elements(helps(diagnostic))
+    }
+
+    /// The labels of a message by the file that they came from, that of the first one first.
+    fn by_file<'a>(&'a self, diagnostic: &'a Diagnostic) -> Vec<(&'a Source, Vec<Annotation<'a>>)> {
+        let mut files: Vec<(&Source, Vec<Annotation>)> = Vec::new();
+        for (i, label) in diagnostic.labels.iter().enumerate() {
+            let kind = if i == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
+            let (file, span) = self.source.origin_of(label.span);
+            let annotation = kind.span(span.start..span.end).label(label.text.as_str());
+            match files.iter_mut().find(|(known, _)| std::ptr::eq(*known, file)) {
+                Some((_, annotations)) => annotations.push(annotation),
+                None => files.push((file, vec![annotation])),
+            }
+        }
+        files
+    }
+}
+
+fn helps(diagnostic: &Diagnostic) -> impl Iterator<Item = Message<'_>> {
+    diagnostic.help.iter().map(|help| Rank::HELP.message(help.as_str()))
+}
+
+/// "2 errors, 1 warning".
+fn count(shown: &[&Diagnostic]) -> String {
+    let of = |level: Level| shown.iter().filter(|d| d.level == level).count();
+    let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+    match (of(Level::Error), of(Level::Warning)) {
+        (errors, 0) => plural(errors, "error"),
+        (0, warnings) => plural(warnings, "warning"),
+        (errors, warnings) => format!("{}, {}", plural(errors, "error"), plural(warnings, "warning")),
     }
 }
 

@@ -155,8 +155,6 @@ impl<'a> Reader<'a> {
 fn foreign_comment(word: &str) -> String {
     if word.starts_with(['#', '!', '%']) || word.starts_with("//") || word.starts_with("--") {
         "comments start with $".into()
-    } else if word.starts_with('{') {
-        "expressions in braces are aprepro's: run the file through aprepro first".into()
     } else if word == "BEGIN" {
         "this looks like a Sierra deck; here a command is one line, and `urto explain` lists them".into()
     } else {

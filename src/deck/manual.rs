@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{
+    aprepro,
     grammar::{Form, Grammar, Status},
     language,
     page::{self, Body, Page},
@@ -42,6 +43,62 @@ A number with the value of a whole number counts as one.
 .SS Words
 Each word of a command, a material model or a keyword may be shortened to its first letters, three at least, if it stays
 clear what is meant. What was assumed is noted in the print log.
+.SS Expressions
+What stands in braces is evaluated before the deck is read, in comments too, in the manner of aprepro:
+.PP
+.RS
+.nf
+$ Young's modulus {E = 30.e6}, time of one transit {t = length / sqrt(E / rho)}
+TERMINATION TIME, {4 * t}
+.fi
+.RE
+.PP
+A value is printed in the place of its braces, numbers in the format
+.BR %.10g ,
+or the one given by
+.BR "{_FORMAT = \(dq%.6e\(dq}" .
+Two pairs of braces,
+.BR {{x=1}} ,
+print nothing, and
+.B \e{
+is a brace as it stands.
+A name that has no value is an error.
+Small and capital letters differ in names.
+.TP
+.B Operators
+.BR "+ \- * / %" ", " "^ **" " for powers, " "< > <= >= == !=" ", " "&& || !" ", " "condition ? a : b" ,
+.BR "= += \-= *= /= ^= ++ \-\-" ,
+and
+.B //
+to join texts, which stand in quotes.
+.TP
+.B Functions
+@FUNCTIONS@.
+.TP
+.B Constants
+@CONSTANTS@.
+They can be given other values.
+.TP
+.B Blocks
+.BR {if(e)} ,
+.BR {ifdef(name)} " or " {ifndef(name)} ", " {elseif(e)} ", " {else} ", " {endif} ;
+.BR "{loop(passes, name, start, step)}" ", " {endloop} .
+Each stands alone on its line, or after a
+.BR $ .
+.TP
+.B Files
+.B {include(\(dqfile\(dq)}
+puts a file in, which is looked for beside the file that includes it, then where the program runs.
+.B {cinclude(\(dqfile\(dq)}
+does not mind when there is none.
+.TP
+.B Switches
+.BR {ECHO(OFF)} " to " {ECHO(ON)}
+leave out what stands between, but evaluate it;
+.BR {VERBATIM(ON)} " to " {VERBATIM(OFF)}
+take it as it stands.
+.PP
+Messages point into the text as it was written. The print log and the results hold the deck as it was evaluated.
 .SS Units
 Any consistent set of units will do. Square brackets below give dimensions.
 .SS Numbers of things
@@ -63,20 +120,44 @@ const HEADINGS: &[(&str, &str)] = &[
 /// The manual page in roff.
 pub fn manual() -> String {
     let grammar = language();
-    let mut text = RULES.to_string();
+    let mut text = rules();
     for (family, heading) in HEADINGS {
-        let built = grammar.commands().filter(|e| e.family == *family && e.status == Status::Built);
-        let mut pages: Vec<Page> = built.map(page::of_entry).collect();
+        let mut pages = pages_of(grammar, family);
         if *family == "material" {
             pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
             pages.extend(EQUATIONS_OF_STATE.iter().map(|e| page::of_equation(e)));
         }
-        if !pages.is_empty() {
-            let _ = writeln!(text, ".SH {heading}");
-        }
-        text.extend(pages.iter().map(roff));
+        text += &chapter(heading, &pages);
     }
-    text + &not_built(grammar) + ".SH SEE ALSO\n.BR urto (1)\n"
+    text + &not_built(grammar) + ".SH SEE ALSO\n.BR urto (1),\n.BR urto\\-mesh (5)\n"
+}
+
+/// The rules of writing, with the names that expressions can use.
+fn rules() -> String {
+    RULES
+        .replace("@FUNCTIONS@", &aprepro::functions().join(", "))
+        .replace("@CONSTANTS@", &aprepro::constants().join(", "))
+}
+
+/// Chapters in roff for the families of a language that is all our own, given with their headings.
+pub fn chapters(grammar: &Grammar, headings: &[(&str, &str)]) -> String {
+    let chapter_of = |&(family, heading): &(&str, &str)| {
+        let mut pages = pages_of(grammar, family);
+        // Where nothing is PRONTO's, it need not be said of every command.
+        pages.iter_mut().for_each(|page| page.sections.retain(|(title, _)| title != page::SPELLING));
+        chapter(heading, &pages)
+    };
+    headings.iter().map(chapter_of).collect()
+}
+
+fn pages_of(grammar: &Grammar, family: &str) -> Vec<Page> {
+    let built = grammar.commands().filter(|e| e.family == family && e.status == Status::Built);
+    built.map(page::of_entry).collect()
+}
+
+fn chapter(heading: &str, pages: &[Page]) -> String {
+    let heading = if pages.is_empty() { String::new() } else { format!(".SH {heading}\n") };
+    heading + &pages.iter().map(roff).collect::<String>()
 }
 
 /// The list of what is known but cannot be used.

@@ -1,9 +1,10 @@
 //! Text → cards: the command language, which knows no physics.
 //!
-//! A [`Grammar`] lists the commands of a language as data. [`Deck::read`] turns a [`Source`] into [`Card`]s with
+//! Expressions in braces are evaluated first. A [`Grammar`] lists the commands of a language as data. [`Deck::read`] turns a [`Source`] into [`Card`]s with
 //! named, typed fields, and gathers every mistake in [`Diagnostics`]. The decks of `urto run` and the recipes of
 //! `urto mesh` are two languages for the same engine.
 
+mod aprepro;
 mod card;
 mod diagnostic;
 mod explain;
@@ -14,6 +15,7 @@ mod language;
 mod lexer;
 mod manual;
 mod number;
+mod origin;
 mod page;
 mod reader;
 mod source;
@@ -27,7 +29,7 @@ pub use fields::FieldReader;
 pub use grammar::{Absent, Choice, Entry, FieldRule, Form, Grammar, Kind, Standing, Status};
 pub use language::{CARDS, language};
 pub use lexer::{Field, FieldKind, Lexer, Record};
-pub use manual::manual;
+pub use manual::{chapters, manual};
 pub use number::Number;
 pub use reader::Deck;
 pub use source::{Source, Span};

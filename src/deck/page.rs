@@ -26,6 +26,9 @@ pub(super) enum Body {
     Terms(Vec<(String, String)>),
 }
 
+/// Heading of the section that says whose words these are.
+pub(super) const SPELLING: &str = "Spelling";
+
 impl Body {
     fn is_empty(&self) -> bool {
         match self {
@@ -82,7 +85,7 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
             ("Example", Body::Lines(entry.example.clone())),
             ("Other spellings", Body::Text(entry.aliases.clone())),
             ("See also", Body::Text(if entry.see.is_empty() { Vec::new() } else { vec![entry.see.join(", ")] })),
-            ("Spelling", Body::Text(vec![origin(entry.from).to_string()])),
+            (SPELLING, Body::Text(vec![origin(entry.from).to_string()])),
         ],
     )
 }
@@ -115,7 +118,7 @@ fn of_properties<T>(entry: &material::Entry<T>, first: String, see: &str) -> Pag
             ("State variables, for PLOT STATE", Body::Terms(state)),
             ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
             ("See also", Body::Text(vec![see.into()])),
-            ("Spelling", Body::Text(vec![origin(entry.origin).to_string()])),
+            (SPELLING, Body::Text(vec![origin(entry.origin).to_string()])),
         ],
     )
 }

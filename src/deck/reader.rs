@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{
+    aprepro::{self, Evaluated},
     card::{Card, Item, Row, Value},
     diagnostic::{Diagnostic, Diagnostics},
     fields::FieldReader,
@@ -23,9 +24,16 @@ pub struct Deck {
 }
 
 impl Deck {
-    /// Reads a text in the language of a grammar. Cards with a mistake are kept, marked as not complete.
+    /// Evaluates the expressions of a text and reads it in the language of a grammar. Cards with a mistake are kept,
+    /// marked as not complete. Where the evaluation comes to nothing, there are no cards.
     pub fn read(source: Source, grammar: &Grammar) -> (Deck, Diagnostics) {
+        let Evaluated { source, found, readable } = aprepro::evaluate(source);
         let source = Arc::new(source);
+        let mut diagnostics = Diagnostics::new(source.clone());
+        found.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic));
+        if !readable {
+            return (Deck { source, cards: Vec::new() }, diagnostics);
+        }
         let mut reader = Reader {
             grammar,
             source: &source,
@@ -33,7 +41,7 @@ impl Deck {
             pending: None,
             cards: Vec::new(),
             unbuilt: Vec::new(),
-            diagnostics: Diagnostics::new(source.clone()),
+            diagnostics,
         };
         if reader.is_text() {
             reader.read_all();
@@ -294,7 +302,7 @@ impl<'a> Reader<'a> {
     /// One message per entry that cannot be used, however often it stands in the deck.
     fn report_unbuilt(&mut self) {
         for (entry, places) in std::mem::take(&mut self.unbuilt) {
-            let lines: Vec<String> = places.iter().map(|p| self.source.position(p.start).0.to_string()).collect();
+            let lines: Vec<String> = places.iter().map(|p| self.source.line_name(p.start)).collect();
             let mut diagnostic = unbuilt(entry).at(places[0], entry.does.trim_end_matches('.'));
             if places.len() > 1 {
                 diagnostic = diagnostic.help(format!("it stands on lines {}", spelling::all(&lines)));

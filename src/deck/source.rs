@@ -1,11 +1,17 @@
 //! The text of a deck with the places in it: byte spans, lines and columns.
 
-/// A file's name and text. Spans are byte offsets into the text.
+use std::sync::Arc;
+
+use super::origin::Origin;
+
+/// A file's name and text. Spans are byte offsets into the text. Where the text was made by evaluating expressions, it
+/// knows the files that it was made from, and [`Source::origin_of`] leads back to them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
     name: String,
     text: String,
     line_starts: Vec<usize>,
+    origin: Option<Arc<Origin>>,
 }
 
 /// A stretch of the text, from byte `start` up to but not including byte `end`.
@@ -29,7 +35,12 @@ impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
         let text = text.into();
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Source { name: name.into(), text, line_starts }
+        Source { name: name.into(), text, line_starts, origin: None }
+    }
+
+    /// Evaluated text.
+    pub(super) fn evaluated(name: &str, text: String, origin: Origin) -> Source {
+        Source { origin: Some(Arc::new(origin)), ..Source::new(name, text) }
     }
 
     /// A source from the bytes of a file. Bytes that are not UTF-8 (an umlaut in an old comment) become U+FFFD.
@@ -69,6 +80,48 @@ impl Source {
     /// The text of a span; empty when the span does not fit this source.
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.start..span.end).unwrap_or("")
+    }
+
+    /// The file that a span came from, and its place there: this source itself, unless it was evaluated.
+    pub fn origin_of(&self, span: Span) -> (&Source, Span) {
+        let Some(origin) = &self.origin else { return (self, span) };
+        let (file, span) = origin.resolve(self.text.len(), span);
+        (&origin.files[file].source, span)
+    }
+
+    /// The places where the file of a span was included, as `file:line`, the nearest first; none in the deck itself.
+    pub fn included_at(&self, span: Span) -> Vec<String> {
+        let Some(origin) = &self.origin else { return Vec::new() };
+        let (mut file, _) = origin.resolve(self.text.len(), span);
+        let mut places = Vec::new();
+        while let Some((above, at)) = origin.files[file].included_at {
+            let source = &origin.files[above].source;
+            places.push(format!("{}:{}", source.name(), source.position(at.start).0));
+            file = above;
+        }
+        places
+    }
+
+    /// What orders places: as they are met from the deck downwards, those of an included file at its include.
+    pub fn order_of(&self, span: Span) -> Vec<usize> {
+        let Some(origin) = &self.origin else { return vec![span.start] };
+        let (file, place) = origin.resolve(self.text.len(), span);
+        origin.chain(file, place.start)
+    }
+
+    /// Whether a message about this place, or about none, can be the consequence of an expression with a mistake.
+    pub fn is_doubtful(&self, span: Option<Span>) -> bool {
+        self.origin.as_ref().is_some_and(|origin| match span {
+            Some(span) => origin.is_guess(self.text.len(), span),
+            None => origin.has_guesses(),
+        })
+    }
+
+    /// The line of a byte in the file it came from, counted from one; with the file's name if that is not the deck.
+    pub fn line_name(&self, offset: usize) -> String {
+        let (file, place) = self.origin_of(Span { start: offset, end: offset });
+        let line = file.position(place.start).0;
+        if file.name == self.name { line.to_string() } else { format!("{line} of {}", file.name) }
     }
 
     /// Line and column of a byte, both counted from one; columns count characters.

@@ -100,8 +100,8 @@ fn number_hint(text: &str) -> String {
     let ascii = text.replace(['\u{2212}', '\u{2013}', '\u{2014}'], "-");
     let digits = text.replace('O', "0").replace(['I', 'L'], "1");
     let without_unit = text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.');
-    if text.contains(['{', '}']) {
-        "expressions in braces are aprepro's: run the file through aprepro first".into()
+    if text.ends_with('}') {
+        "this brace has no { before it".into()
     } else if ascii != text && parses(&ascii) {
         format!("this minus sign is a typeset dash: write {ascii}")
     } else if digits != text && parses(&digits) {

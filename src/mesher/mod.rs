@@ -22,7 +22,7 @@ mod transform;
 mod tube;
 mod turn;
 
-pub use recipe::{CARDS, language};
+pub use recipe::{CARDS, language, manual};
 
 use assembly::{Assembled, Assembly};
 use recipe::Recipe;

@@ -273,7 +273,7 @@ pub struct RigidSurface {
 }
 
 /// Contact between surfaces of the body: what may touch, and how it is enforced.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {
     /// CONTACT MATERIAL: numbers of the blocks whose outside may touch any other and itself.
     pub materials: Option<ContactMaterials>,

@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli,
-    TimeStepControl, boundary, check, contact, control, function, initial, material, output,
+    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl,
+    boundary, check, contact, control, function, initial, material, output,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -119,12 +119,7 @@ fn blank() -> Model {
         gravities: Vec::new(),
         initial_velocities: Vec::new(),
         rigid_surfaces: Vec::new(),
-        contact: Contact {
-            materials: None,
-            surfaces: Vec::new(),
-            data: Vec::new(),
-            control: ContactControl::default(),
-        },
+        contact: Contact::default(),
         deaths: Vec::new(),
         plot_requests: PlotRequests::default(),
     }

@@ -14,6 +14,7 @@ use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
 use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, Schedule, global_values};
 use crate::partition::Decomposition;
+use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -222,6 +223,7 @@ impl<'a> Writer<'a> {
             warnings: job.warnings,
             model: job.model,
             mesh: job.mesh,
+            overlap: job.body.overlap,
             masses: &job.body.block_masses(job.mesh.blocks.len()),
             variables: [nodal, element, global],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
@@ -327,7 +329,15 @@ impl<'a> Writer<'a> {
         };
         let states = self.results.as_ref().map_or(0, ResultsWriter::states);
         let initial_energy = solver.initial_energy;
-        let ending = Ending { outcome: &words, steps: solver.step, states, totals: &totals, initial_energy };
+        let ending = Ending {
+            outcome: &words,
+            steps: solver.step,
+            states,
+            totals: &totals,
+            initial_energy,
+            contact: solver.domain.contact.as_ref().map(Contact::report),
+            gone: solver.domain.erosion.as_ref().map(|erosion| erosion.gone),
+        };
         let printed = self.print(&print::closing(&table, &ending));
         let by = outcome?;
         together(printed, comm)?;

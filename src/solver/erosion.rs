@@ -100,21 +100,15 @@ impl Erosion {
         let mut dead: Vec<u32> = Vec::new();
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
-            if rules.is_empty() {
-                continue;
-            }
+            let mass = block.density * self.edge * self.edge * self.edge;
             for border in [true, false] {
                 let group = if border { &block.border } else { &block.interior };
-                let failed: Vec<usize> = (0..group.len())
-                    .filter(|&i| group.is_alive(i) && rules.iter().any(|rule| fails(rule, block, group, i, nodes)))
-                    .collect();
+                let failed = failing(&rules, block, group, nodes);
+                let group = if border { &mut block.border } else { &mut block.interior };
                 for i in failed {
-                    let group = if border { &block.border } else { &block.interior };
                     dead.push(canonical[group.places[i] as usize]);
                     self.energy.push(stored_energy(group, i) + last_half_step(group, i, nodes, time_step));
-                    let density = block.density;
-                    let group = if border { &mut block.border } else { &mut block.interior };
-                    group.retire(i, self.stand_in, density * self.edge * self.edge * self.edge);
+                    group.retire(i, self.stand_in, mass);
                 }
             }
         }
@@ -182,15 +176,37 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
     own
 }
 
-/// Whether an element has passed the value of a rule. NaN has passed every value.
-fn fails(rule: &Death, block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> bool {
-    let value = match &rule.variable {
-        DeathVariable::Volume => volume(group, i, nodes) * block.density / group.element_mass(i),
-        DeathVariable::TimeStep => stable_step(block, group, i, nodes),
-        DeathVariable::State(name) => state(block, group, i, name),
-        DeathVariable::Field(field, component) => field_value(*field, *component, block, group, i, nodes),
-    };
-    if rule.is_maximum { !(value <= rule.value) } else { !(value > rule.value) }
+/// Elements that have passed the value of a rule, ascending. NaN has passed every value.
+fn failing(rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
+    let mut failed = Vec::new();
+    for rule in rules {
+        let value = watched(rule, block, group, nodes);
+        let passed = |value: f64| {
+            if rule.is_maximum { value.is_nan() || value > rule.value } else { value.is_nan() || value <= rule.value }
+        };
+        failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && passed(value(i))));
+    }
+    failed.sort_unstable();
+    failed.dedup();
+    failed
+}
+
+/// The variable of a rule as a function of the element.
+fn watched<'a>(
+    rule: &'a Death,
+    block: &'a ElementBlock,
+    group: &'a Group,
+    nodes: &'a Nodes,
+) -> Box<dyn Fn(usize) -> f64 + 'a> {
+    match &rule.variable {
+        DeathVariable::Volume => Box::new(|i| volume(group, i, nodes) * block.density / group.element_mass(i)),
+        DeathVariable::TimeStep => Box::new(|i| stable_step(block, group, i, nodes)),
+        DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
+            Some(row) => Box::new(move |i| group.value(i, rows::LAW + row)),
+            None => Box::new(|i| state(block, group, i, name)),
+        },
+        DeathVariable::Field(field, component) => Box::new(|i| field_value(*field, *component, block, group, i, nodes)),
+    }
 }
 
 fn positions(group: &Group, i: usize, nodes: &Nodes) -> [[f64; 3]; 8] {

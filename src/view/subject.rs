@@ -10,8 +10,8 @@ use super::skin::{Face, outer_faces};
 use crate::exodus::{Results, ResultsError};
 use crate::mesh::{Block, Mesh};
 
-/// Element variable that is 1 in elements that have died; they are not drawn.
-const DEATH: &str = "DEATH";
+/// Element variables that tell which elements have gone, with the value that says so; these are not drawn.
+const FATES: [(&str, f64); 2] = [("DEATH", 1.0), ("STATUS", 0.0)];
 /// The word that asks for colours by block.
 const NO_VARIABLE: &str = "none";
 
@@ -132,13 +132,20 @@ impl<'a> Subject<'a> {
 
     /// Elements can die.
     fn mortal(&self) -> bool {
-        self.results.element_names().iter().any(|name| name.eq_ignore_ascii_case(DEATH))
+        self.fate().is_some()
+    }
+
+    /// The variable that says which elements are gone, and its value for those that are.
+    fn fate(&self) -> Option<(&'static str, f64)> {
+        let names = self.results.element_names();
+        FATES.into_iter().find(|(fate, _)| names.iter().any(|name| name.eq_ignore_ascii_case(fate)))
     }
 
     fn alive(&self, state: usize) -> Result<Vec<usize>, ViewError> {
-        let death = self.read(Place::Elements, DEATH, state)?;
+        let Some((name, gone)) = self.fate() else { return Ok(self.elements.clone()) };
+        let values = self.read(Place::Elements, name, state)?;
         // A block that does not have the variable has NaN, and lives.
-        Ok(self.elements.iter().copied().filter(|&element| death[element] != 1.0).collect())
+        Ok(self.elements.iter().copied().filter(|&element| values[element] != gone).collect())
     }
 
     /// The surface of some elements, its faces naming elements by their position in the mesh.

@@ -1,7 +1,10 @@
 //! What the verification tests share: meshes made in code, decks run through the library, and the numbers they leave.
 #![allow(dead_code)]
 
+pub mod bodies;
 pub mod meshes;
+pub mod momentum;
+pub mod penetration;
 pub mod run;
 pub mod stiffness;
 

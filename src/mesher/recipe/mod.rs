@@ -1,11 +1,13 @@
 //! Recipes: cards → what to make, checked as far as that goes without making it.
 
 mod language;
+mod manual;
 mod moves;
 mod selections;
 mod shapes;
 
 pub use language::{CARDS, language};
+pub use manual::manual;
 
 use super::{
     body::Shape,

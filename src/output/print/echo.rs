@@ -3,6 +3,7 @@
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
+use crate::solver::contact::Overlap;
 use std::fmt::Write;
 
 /// What the front part needs to know.
@@ -19,6 +20,8 @@ pub struct Echo<'a> {
     pub model: &'a Model,
     /// The mesh.
     pub mesh: &'a Mesh,
+    /// Overlaps that were taken out of the mesh.
+    pub overlap: Overlap,
     /// Mass of each block, in mesh order.
     pub masses: &'a [f64],
     /// Names of the nodal, element and global variables of the plot file.
@@ -52,6 +55,7 @@ pub fn problem(echo: &Echo) -> String {
     out += &materials(echo.model, echo.mesh);
     out += &functions(echo.model);
     out += &conditions(echo.model);
+    out += &super::contact::tables(echo.model, echo.overlap);
     out += &end_of_phase("END OF DATA INPUT PHASE", echo.seconds[0], None);
     out += &masses(echo);
     out += &end_of_phase("END OF DATA INITIALIZATION PHASE", echo.seconds[1], echo.memory);
@@ -88,7 +92,7 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("NUMBER OF NODES", &count(mesh.coordinates.len()));
     out += &leader("NUMBER OF MATERIALS", &count(model.materials.len()));
     out += &leader("NUMBER OF FUNCTIONS", &count(model.functions.len()));
-    out += &leader("NUMBER OF CONTACT SURFACES", "0");
+    out += &leader("NUMBER OF CONTACT SURFACES", &count(model.contact.surfaces.len()));
     out += &leader("NUMBER OF RIGID SURFACES", &count(model.rigid_surfaces.len()));
     out += &leader("NUMBER OF MATERIAL POINTS MONITORED", "0");
     out += &leader("ANALYSIS TYPE", "3D SOLID");
@@ -158,7 +162,7 @@ fn vector(v: [f64; 3]) -> String {
 }
 
 /// A table with a heading and one line per entry; nothing when there are none.
-fn table(title: &str, columns: &str, lines: Vec<String>) -> String {
+pub(super) fn table(title: &str, columns: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();
     }

@@ -17,7 +17,14 @@ pub const NONE: u32 = u32::MAX;
 pub const TOUCHES: usize = 3;
 
 /// A point that has left its face by less than this part of half an element is still watched by it.
-const KEEP: f64 = 0.05;
+pub const KEEP: f64 = 0.05;
+
+/// A point that has slid beyond its face by less than this part of its size is still held by it, unless another face
+/// that goes on in the same way takes over.
+const HOLD: f64 = 0.01;
+
+/// Cosine between the normals of two faces that look at each other, at most.
+const FACING: f64 = -0.02;
 
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
@@ -52,8 +59,8 @@ pub struct Touch {
     pub allowed: f64,
 }
 
-/// How far beyond its corners a face looks for points.
-pub fn keep(faces: &Faces, face: u32) -> f64 {
+/// How far in front of a face a point that has left it is still watched.
+fn keep(faces: &Faces, face: u32) -> f64 {
     KEEP * faces.depth[face as usize]
 }
 
@@ -110,10 +117,16 @@ impl Check<'_> {
             // Held where it was; of the faces around only those that fold towards the point can hold it as well.
             return self.folds(point, near, touches);
         };
+        let slightly = stand.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
         let mut next: Option<(u32, Stand)> = None;
         for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
-            let Some(stand) = self.stand_at_end(point, face) else { continue };
+            // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
+            let Some(stand) =
+                self.stand_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &stand, next))
+            else {
+                continue;
+            };
             behind += u32::from(stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs());
             if stand.outside == 0.0
                 && self.in_reach(face, &stand, allowed)
@@ -125,13 +138,19 @@ impl Check<'_> {
         match next {
             Some((face, stand)) => touches.push(self.held(face, stand, allowed * FADE)),
             // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
-            None if behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
+            None if slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
                 if self.in_reach(old, &stand, allowed) {
                     touches.push(self.held(old, stand, allowed * FADE));
                 }
             }
             None => (),
         }
+    }
+
+    /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
+    fn goes_on(&self, old: u32, face: u32, stand: &Stand, next: &Stand) -> bool {
+        let middle = |face| face::centre(&self.faces.end(face, self.points));
+        dot(stand.normal, next.normal) > SAME_WAY || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
@@ -171,12 +190,24 @@ impl Check<'_> {
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
             let time = face::first_crossing(&corners, self.points.path(point))?;
-            return Some(touch(time, 0.0));
+            return self.faced(point, &end).then(|| touch(time, 0.0));
         }
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
         (shallow && self.opposition(point, &end) < 0.0).then(|| touch(0.0, start.gap))
+    }
+
+    /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
+    /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
+    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
+    fn faced(&self, point: u32, stand: &Stand) -> bool {
+        let around = self.faces.around(point);
+        around.is_empty()
+            || around.iter().any(|&face| {
+                let normal = face::area_normal(&self.faces.start(face, self.points));
+                dot(normal, stand.normal) < FACING * dot(normal, normal).sqrt()
+            })
     }
 
     fn opposition(&self, point: u32, stand: &Stand) -> f64 {

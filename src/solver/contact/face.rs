@@ -6,8 +6,10 @@
 use super::cubic::{self, Path};
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 
-/// Beyond a triangle's border by this part of it is still on it: neighbours overlap by round-off, not by less.
-const BORDER: f64 = 1e-9;
+/// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
+/// round-off decides which corner is inside; without the margin each may be beyond the other's border, and they pass
+/// through each other.
+const BORDER: f64 = 1e-6;
 
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,9 +55,11 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
     let length = square.sqrt();
     let edge = subtract(e2, e1);
     let beyond = b1 + b2 - 1.0;
-    let (b1, b2, outside) = if beyond > BORDER {
+    let (b1, b2, outside) = if beyond > 0.0 {
+        // The shares must add up to one in the margin, too: forces are spread by them.
         let along = (dot(subtract(r, e1), edge) / dot(edge, edge)).clamp(0.0, 1.0);
-        (1.0 - along, along, beyond * length / dot(edge, edge).sqrt())
+        let distance = beyond * length / dot(edge, edge).sqrt();
+        (1.0 - along, along, if beyond > BORDER { distance } else { 0.0 })
     } else {
         (b1.max(0.0), b2.max(0.0), 0.0)
     };
@@ -122,6 +126,15 @@ mod tests {
         assert_eq!(s.weights, [0.0, 0.5, 0.5, 0.0]);
         let corner = stand(&SQUARE, [2.0, 2.5, 0.0]).expect("a face");
         assert_eq!(corner.weights, [0.0, 0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn within_the_margin_of_the_border_a_point_is_on_the_face() {
+        for beyond in [0.0, 1e-12, 0.4e-6] {
+            let s = stand(&SQUARE, [1.0 + beyond, 0.3, 0.0]).expect("a face");
+            assert!(s.outside == 0.0 && s.weights.iter().sum::<f64>() == 1.0, "{s:?}");
+        }
+        assert!(stand(&SQUARE, [1.0 + 1e-6, 0.3, 0.0]).is_some_and(|s| s.outside > 0.0));
     }
 
     #[test]

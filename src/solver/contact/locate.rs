@@ -1,6 +1,5 @@
 //! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
 
-use super::detect::keep;
 use super::edges::{self, Edge};
 use super::faces::Faces;
 use super::points::Points;
@@ -42,6 +41,9 @@ pub struct Reach {
     pub steps: f64,
     /// Smallest reach, a length.
     pub least: f64,
+    /// How far a face looks beyond its corners, as a part of half its element: a little, to keep an eye on points that
+    /// it has held; all of it, to find points that are behind it at the start.
+    pub depth: f64,
 }
 
 /// Candidates and how long they hold.
@@ -72,9 +74,9 @@ fn way(points: &Points, point: u32) -> Box3 {
 }
 
 /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
-fn capture_box(faces: &Faces, face: u32, points: &Points) -> Box3 {
+fn capture_box(faces: &Faces, face: u32, points: &Points, margin: f64) -> Box3 {
     let [a, b, c, d] = faces.corners[face as usize].map(|corner| way(points, corner));
-    a.joined(&b).joined(&c).joined(&d).grown(keep(faces, face))
+    a.joined(&b).joined(&c).joined(&d).grown(margin * faces.depth[face as usize])
 }
 
 impl Locator {
@@ -108,7 +110,7 @@ impl Locator {
             self.search_edges(points, faces, edges);
         }
         for &face in &self.active {
-            self.boxes[face as usize] = capture_box(faces, face, points);
+            self.boxes[face as usize] = capture_box(faces, face, points, self.reach.depth);
         }
     }
 
@@ -139,7 +141,7 @@ impl Locator {
             let boxes: Vec<Box3> = (interface.faces.iter())
                 .map(|&face| {
                     let [a, b, c, d] = faces.corners[face as usize].map(|corner| around(corner as usize));
-                    a.joined(&b).joined(&c).joined(&d).grown(keep(faces, face))
+                    a.joined(&b).joined(&c).joined(&d).grown(self.reach.depth * faces.depth[face as usize])
                 })
                 .collect();
             let corners: Vec<[u32; 4]> = interface.faces.iter().map(|&f| faces.corners[f as usize]).collect();

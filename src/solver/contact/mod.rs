@@ -80,6 +80,25 @@ pub struct Contact {
     touches: Vec<Touch>,
 }
 
+/// Contact in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Points of contact.
+    pub points: usize,
+    /// Faces that they may touch.
+    pub faces: usize,
+    /// Edges that stand out.
+    pub edges: usize,
+    /// Points that the last search found near faces.
+    pub watched: usize,
+    /// Pairs of these points and faces.
+    pub pairs: usize,
+    /// Searches so far.
+    pub searches: u64,
+    /// Enforcement.
+    pub tally: Tally,
+}
+
 /// Counts for the log.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {
@@ -392,10 +411,18 @@ impl Contact {
         self.constraints.clear();
     }
 
-    /// Numbers of points, faces, watched points, candidate pairs and searches so far.
-    pub fn counts(&self) -> [usize; 5] {
+    /// What the log tells at the end.
+    pub fn report(&self) -> Report {
         let [watched, pairs] = self.locator.counts();
-        [self.points.len(), self.layout.faces.len(), watched, pairs, self.locator.searches as usize]
+        Report {
+            points: self.points.len(),
+            faces: self.layout.faces.len(),
+            edges: self.edges.len(),
+            watched,
+            pairs,
+            searches: self.locator.searches,
+            tally: self.tally,
+        }
     }
 }
 
@@ -418,7 +445,8 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     let sizes = &layout.faces.size;
     let mean = if sizes.is_empty() { 0.0 } else { sizes.iter().sum::<f64>() / sizes.len() as f64 };
     // A reach of one step at least: the search must hold for the step it is made for.
-    Reach { steps: control.reach.max(1.0), least: if control.reach > 0.0 { control.margin * mean } else { 0.0 } }
+    let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
+    Reach { steps: control.reach.max(1.0), least, depth: detect::KEEP }
 }
 
 fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlanePoint> {

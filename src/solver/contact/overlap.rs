@@ -74,7 +74,7 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut 
 
 /// Every point behind a face that faces it.
 fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super::enforce::Constraint> {
-    let mut locator = Locator::new(SearchKind::Grid, Reach { steps: 1.0, least: 0.0 });
+    let mut locator = Locator::new(SearchKind::Grid, Reach { steps: 1.0, least: 0.0, depth: 1.0 });
     locator.locate(points, &layout.faces, &layout.interfaces, &[]);
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());

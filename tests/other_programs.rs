@@ -1,0 +1,124 @@
+//! Results as other programs read them: Python's netCDF4, and VTK, which is ParaView's reader, where it is installed.
+//! `.ci/packages` installs netCDF4; with no interpreter that has it, these tests say that they were skipped.
+
+mod program;
+
+use program::{Desk, box_mesh, project};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// The interpreter on the PATH need not be the one that the system's packages belong to.
+const INTERPRETERS: [&str; 2] = ["python3", "/usr/bin/python3"];
+
+/// Names in the order of the deck below.
+const NODAL: [&str; 6] = ["DISPLX", "DISPLY", "DISPLZ", "VELX", "VELY", "VELZ"];
+const ELEMENT: [&str; 7] = ["SIGXX", "SIGYY", "SIGZZ", "TAUXY", "TAUYZ", "TAUZX", "EQPS"];
+
+/// What another program found in a file: values by key.
+type Seen = BTreeMap<String, Vec<String>>;
+
+/// An elastic block on a plastic one, which hits a wall obliquely: no two nodes move alike.
+fn ran() -> Desk {
+    let desk = Desk::new();
+    desk.put_mesh("two.g", &box_mesh([2, 3, 4], [0.02, 0.03, 0.05], true));
+    desk.put(
+        "two.i",
+        "TITLE\n two blocks\nTERMINATION TIME, 1.E-5\nPLOT TIME, 2.E-6\nPLOT NODAL, VELOCITY\nPLOT ELEMENT, STRESS\n\
+         PLOT STATE, EQPS\nMATERIAL, 1, ELASTIC PLASTIC, 7800.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\n\
+         YIELD STRESS = 100.E6\nHARDENING MODULUS = 1.E9\nBETA = 1.\nEND\nMATERIAL, 2, ELASTIC, 2700.\n\
+         YOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.33\nEND\nNO DISPLACEMENT, Z, 3\n\
+         INITIAL VELOCITY MATERIAL, 1, 1., -2., -100.\nINITIAL VELOCITY MATERIAL, 2, 3., 0.5, -100.\nEXIT\n",
+    );
+    desk.urto(&["two.i", "-q", "--ranks", "2"]).with(0);
+    desk
+}
+
+/// What a library sees, or why no interpreter could tell.
+fn read_with(library: &str, results: &Path) -> Result<Seen, String> {
+    let mut missing = Vec::new();
+    for interpreter in INTERPRETERS {
+        let script = project("tests/python/read_results.py");
+        let left = match Command::new(interpreter).arg(script).arg(library).arg(results).output() {
+            Err(why) => {
+                missing.push(format!("{interpreter}: {why}"));
+                continue;
+            }
+            Ok(left) => left,
+        };
+        let (out, err) = (String::from_utf8_lossy(&left.stdout), String::from_utf8_lossy(&left.stderr));
+        match left.status.code() {
+            Some(0) => return Ok(out.lines().filter_map(line).collect()),
+            Some(3) => missing.push(format!("{interpreter}: {}", err.trim())),
+            _ => panic!("{interpreter} cannot read {} with {library}:\n{out}{err}", results.display()),
+        }
+    }
+    Err(missing.join("; "))
+}
+
+fn line(text: &str) -> Option<(String, Vec<String>)> {
+    let (key, values) = text.split_once(':')?;
+    Some((key.to_string(), values.split_whitespace().map(str::to_string).collect()))
+}
+
+/// Tells past the test harness, which hides what passing tests print.
+fn skipped(library: &str, why: &str) {
+    let _ = writeln!(std::io::stderr(), "SKIPPED: results are not read with {library}: {why}");
+}
+
+#[track_caller]
+fn same(seen: &Seen, key: &str, expected: &[f64]) {
+    let values: Vec<f64> = seen.get(key).into_iter().flatten().map(|v| v.parse().expect("a number")).collect();
+    assert_eq!(values, expected, "{key}");
+}
+
+/// Holds what was seen against the mesh that the test made and the values that our own reader finds: the same bits.
+fn compare(desk: &Desk, seen: &Seen) {
+    let mesh = box_mesh([2, 3, 4], [0.02, 0.03, 0.05], true);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let expected: Vec<f64> = mesh.coordinates.iter().map(|x| x[axis]).collect();
+        same(seen, &format!("coordinates {name}"), &expected);
+    }
+    let results = desk.results("two.e");
+    let times = results.times();
+    // States stand at the step nearest to the wanted time.
+    assert_eq!(times.len(), 6);
+    assert!(times.iter().enumerate().all(|(i, t)| (t - 2e-6 * i as f64).abs() < 1e-6), "{times:?}");
+    same(seen, "times", times);
+    for state in 0..times.len() {
+        for name in NODAL {
+            same(seen, &format!("{name} {state}"), &results.nodal(name, state).expect("a nodal variable"));
+        }
+        for name in ["SIGZZ", "TAUXY", "EQPS"] {
+            same(seen, &format!("{name} {state}"), &results.element(name, state).expect("an element variable"));
+        }
+    }
+    // And against the deck, which knows nothing of readers: the first velocities are the initial ones.
+    let upper_corner: f64 = seen["VELX 0"].last().expect("nodes").parse().expect("a number");
+    assert_eq!(upper_corner, 3.0);
+    let flows = seen["EQPS 5"].iter().filter(|v| **v != "0.0").count();
+    assert!(flows > 0 && flows <= 12, "the lower block of 12 elements flows, the other cannot: {flows}");
+}
+
+#[test]
+fn netcdf4_reads_our_results() {
+    let desk = ran();
+    match read_with("netcdf", &desk.path("two.e")) {
+        Ok(seen) => {
+            assert_eq!(seen["nodal names"], NODAL);
+            assert_eq!(seen["element names"], ELEMENT);
+            compare(&desk, &seen);
+        }
+        Err(why) => skipped("netCDF4", &why),
+    }
+}
+
+#[test]
+fn vtk_reads_our_results() {
+    let desk = ran();
+    match read_with("vtk", &desk.path("two.e")) {
+        Ok(seen) => compare(&desk, &seen),
+        Err(why) => skipped("VTK", &why),
+    }
+}
