@@ -148,7 +148,7 @@ fn laws() {
         ("elastic plastic, F.-B.", plastic(), 1, FB),
         ("elastic plastic, assumed strain", plastic(), 1, ASSUMED),
     ] {
-        let time = |set: InstructionSet| grind(n, law, hourglass, set, 1);
+        let time = |set: InstructionSet| grind(n, law.clone(), hourglass, set, 1);
         let wide = if widest == InstructionSet::Avx512 { time(InstructionSet::Avx512) } else { f64::NAN };
         let half = if widest != InstructionSet::Portable { time(InstructionSet::Avx2) } else { f64::NAN };
         let portable = time(InstructionSet::Portable);

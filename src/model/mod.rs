@@ -12,6 +12,7 @@ mod initial;
 mod material;
 mod output;
 mod problem;
+mod properties;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
