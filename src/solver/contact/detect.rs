@@ -53,7 +53,7 @@ pub struct Touch {
     pub time: f64,
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
-    /// Where the point would be at the end of the step.
+    /// Where the point would be at the end of the step; the weights are those of the forces, see `face::shares_along`.
     pub stand: Stand,
     /// Overlap that stays.
     pub allowed: f64,
@@ -89,6 +89,12 @@ impl Check<'_> {
         }
         if touches.len() > 1 {
             self.choose(point, touches);
+        }
+        for touch in touches.iter_mut() {
+            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
+            if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
+                touch.stand.weights = shares;
+            }
         }
     }
 
