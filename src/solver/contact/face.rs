@@ -69,8 +69,29 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
     let mut weights = [rest; 4];
     weights[sector] += b1;
     weights[next] += b2;
-    let gap = dot(r, normal) / length;
-    gap.is_finite().then(|| Stand { gap, normal: scaled(normal, 1.0 / length), weights, outside, sector })
+    let mut gap = dot(r, normal) / length;
+    let mut normal = scaled(normal, 1.0 / length);
+    if let Some(blended) = between_triangles(&arms, sector, [b1, b2], normal) {
+        normal = blended;
+        gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
+    }
+    gap.is_finite().then(|| Stand { gap, normal, weights, outside, sector })
+}
+
+/// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
+/// choose one, or what is symmetric would not stay so. `None` elsewhere.
+fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], normal: [f64; 3]) -> Option<[f64; 3]> {
+    let other = match (b1 < BORDER, b2 < BORDER) {
+        (false, false) => return None,
+        (true, true) => (sector + 2) % 4,
+        (true, false) => (sector + 1) % 4,
+        (false, true) => (sector + 3) % 4,
+    };
+    let second = cross(arms[other], arms[(other + 1) % 4]);
+    let sum = add(normal, scaled(second, 1.0 / dot(second, second).sqrt()));
+    let length = dot(sum, sum).sqrt();
+    // Triangles that have collapsed or turned over have no say.
+    (length > 1.0).then(|| scaled(sum, 1.0 / length))
 }
 
 /// Shares of the corners in the point of a face that is met along a direction: Σ N x_I = point − α direction, in the plane
