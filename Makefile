@@ -29,8 +29,8 @@ mpi: needed            # the program with MPI, or the reason why not
 bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench
 
-verify: needed         # the problems with known answers only, with what they found
-	cargo test --release --test 'verif*' -- --nocapture
+verify: needed         # the problems with known answers only, at full size, with what they found
+	cargo test --release --test 'verif*' -- --nocapture --include-ignored
 
 man: build             # man pages from the option table and the grammar
 	$(URTO) generate man > man/urto.1

@@ -8,7 +8,7 @@
 use super::face::{self, Stand};
 use super::faces::Faces;
 use super::points::Points;
-use crate::solver::nodes::{dot, subtract};
+use crate::solver::nodes::{add, dot, scaled, subtract};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;
@@ -25,6 +25,9 @@ const HOLD: f64 = 0.01;
 
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
+
+/// A foot whose shares of the corners that another face has as well add up to one but for this is on both.
+const TIE: f64 = 1e-6;
 
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
@@ -53,7 +56,7 @@ pub struct Touch {
     pub time: f64,
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
-    /// Where the point would be at the end of the step.
+    /// Where the point would be at the end of the step; the weights are those of the forces, see `face::shares_along`.
     pub stand: Stand,
     /// Overlap that stays.
     pub allowed: f64,
@@ -89,6 +92,42 @@ impl Check<'_> {
         }
         if touches.len() > 1 {
             self.choose(point, touches);
+        }
+        for touch in touches.iter_mut() {
+            self.blend(point, near, touch);
+            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
+            if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
+                touch.stand.weights = shares;
+            }
+        }
+    }
+
+    /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
+    /// theirs, so that what is symmetric stays so.
+    fn blend(&self, point: u32, near: &[u32], touch: &mut Touch) {
+        let corners = self.faces.corners[touch.face as usize];
+        let unit = |face: u32| {
+            let normal = face::area_normal(&self.faces.end(face, self.points));
+            scaled(normal, 1.0 / dot(normal, normal).sqrt())
+        };
+        let shared = |face: u32| -> f64 {
+            let other = self.faces.corners[face as usize];
+            corners.iter().zip(touch.stand.weights).filter(|(corner, _)| other.contains(corner)).map(|(_, w)| w).sum()
+        };
+        let mut sum = [0.0; 3];
+        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - TIE) {
+            let normal = unit(face);
+            if dot(normal, touch.stand.normal) > SAME_WAY {
+                sum = add(sum, normal);
+            }
+        }
+        let length = dot(sum, sum).sqrt();
+        // The face itself is one of them.
+        if length > 1.5 {
+            let end = self.faces.end(touch.face, self.points);
+            let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(end[i], touch.stand.weights[i])));
+            touch.stand.normal = scaled(sum, 1.0 / length);
+            touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
         }
     }
 
