@@ -113,7 +113,12 @@ fn a_bar_that_tears_keeps_its_books() {
         let torn = run(&deck, &mesh);
         let gone = torn.end().element("STATUS").iter().filter(|&&status| status == 0.0).count();
         let totals = torn.last().totals;
-        println!("{keeps}: {gone} gone, eroded {} of {}, balance {}", totals.eroded, totals.external, torn.worst_balance());
+        println!(
+            "{keeps}: {gone} gone, eroded {} of {}, balance {}",
+            totals.eroded,
+            totals.external,
+            torn.worst_balance()
+        );
         assert!(gone >= 9, "{gone}");
         assert!(totals.eroded > 0.0);
         // Of the forces of what dies, the hourglass part of the last half step is not booked.

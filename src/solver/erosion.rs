@@ -3,13 +3,13 @@
 //! An element that goes leaves its lane of the chunk to a cube at rest far larger than any element, made of eight nodes
 //! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
 
+use super::Body;
 use super::domain::ABSENT;
 use super::elements::geometry::{corners, gradient, modes};
 use super::elements::hex8::rows;
 use super::elements::kinematics::rotation_matrix;
 use super::elements::{ElementBlock, Group};
 use super::nodes::{Nodes, dot};
-use super::Body;
 use crate::comm::Communicator;
 use crate::lanes::{CHUNK, Row, Sym3};
 use crate::mesh::Mesh;
@@ -199,17 +199,13 @@ fn watched<'a>(
     nodes: &'a Nodes,
 ) -> Box<dyn Fn(usize) -> f64 + 'a> {
     match &rule.variable {
-        DeathVariable::Volume => {
-            Box::new(|i| volume(group, i, nodes) * block.density / group.element_mass(i))
-        }
+        DeathVariable::Volume => Box::new(|i| volume(group, i, nodes) * block.density / group.element_mass(i)),
         DeathVariable::TimeStep => Box::new(|i| stable_step(block, group, i, nodes)),
         DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
             Some(row) => Box::new(move |i| group.value(i, rows::LAW + row)),
             None => Box::new(|i| state(block, group, i, name)),
         },
-        DeathVariable::Field(field, component) => {
-            Box::new(|i| field_value(*field, *component, block, group, i, nodes))
-        }
+        DeathVariable::Field(field, component) => Box::new(|i| field_value(*field, *component, block, group, i, nodes)),
     }
 }
 
@@ -285,9 +281,10 @@ fn last_half_step(group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64
     let v = group.nodes(i).map(|node| nodes.velocity(node));
     let before = positions(group, i, nodes);
     let operator = gradient(&[0, 1, 2].map(|axis| {
-        modes(&[0, 1, 2, 3, 4, 5, 6, 7].map(|n: usize| {
-            (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])
-        }))
+        modes(
+            &[0, 1, 2, 3, 4, 5, 6, 7]
+                .map(|n: usize| (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])),
+        )
     }));
     let mut work = 0.0;
     for j in 0..3 {

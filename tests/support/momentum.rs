@@ -10,7 +10,8 @@ pub fn nodal_masses(mesh: &Mesh, model: &Model) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.coordinates.len()];
     for (block, nodes) in mesh.elements() {
         let id = mesh.blocks[block].id;
-        let material = model.materials.iter().find(|material| material.block == id).expect("every block has a material");
+        let material =
+            model.materials.iter().find(|material| material.block == id).expect("every block has a material");
         let mass = material.density * hexahedron_volume(&nodes.map(|n| mesh.coordinates[n as usize]));
         nodes.iter().for_each(|&n| masses[n as usize] += mass / 8.0);
     }

@@ -21,8 +21,8 @@ mod setup;
 pub mod surface;
 
 use super::body::Body;
-use super::erosion::Erosion;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
+use super::erosion::Erosion;
 use super::nodes::{Nodes, add, dot};
 use crate::comm::Communicator;
 use crate::mesh::Mesh;
@@ -170,7 +170,8 @@ impl Contact {
         let new = &self.layout;
         let count = new.nodes.len();
         let before: Vec<u32> = new.nodes.iter().map(|&node| old.point(node)).collect();
-        let carry = |values: &[f64]| before.iter().map(|&p| if p == ABSENT { 0.0 } else { values[p as usize] }).collect();
+        let carry =
+            |values: &[f64]| before.iter().map(|&p| if p == ABSENT { 0.0 } else { values[p as usize] }).collect();
         let here = |node: u32| erosion.local()[node as usize];
         for (p, &node) in old.nodes.iter().enumerate() {
             let local = self.here[p];
@@ -189,7 +190,8 @@ impl Contact {
             .collect();
         self.plane_points.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
         self.here = new.nodes.iter().map(|&node| here(node)).collect();
-        self.holder = self.here.iter().map(|&n| if n == ABSENT { [ABSENT; 3] } else { self.held[n as usize] }).collect();
+        self.holder =
+            self.here.iter().map(|&n| if n == ABSENT { [ABSENT; 3] } else { self.held[n as usize] }).collect();
         self.points = Points::new(count);
         self.enforcer = Enforcer::new(count);
         self.forget();
@@ -376,7 +378,12 @@ impl Contact {
                 of_point[5] = self.skin.file_number(self.layout.faces.number[past.face as usize]);
             }
         }
-        self.here.iter().zip(values).filter(|(node, _)| **node != ABSENT).map(|(&node, values)| (node, values)).collect()
+        self.here
+            .iter()
+            .zip(values)
+            .filter(|(node, _)| **node != ABSENT)
+            .map(|(&node, values)| (node, values))
+            .collect()
     }
 
     /// Forgets the forces of this step.
