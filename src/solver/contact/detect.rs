@@ -234,7 +234,21 @@ impl Check<'_> {
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
-        (shallow && self.opposition(point, &end) < 0.0).then(|| touch(0.0, start.gap))
+        let inside = shallow && self.opposition(point, &end) < 0.0 && !self.in_front_of_another(point, face);
+        inside.then(|| touch(0.0, start.gap))
+    }
+
+    /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
+    /// however far behind the face's plane.
+    fn in_front_of_another(&self, point: u32, face: u32) -> bool {
+        let element = |face: u32| self.faces.number[face as usize] / 6;
+        let same = |other: &u32| element(*other) == element(face);
+        let below = (0..face).rev().take_while(same);
+        let above = (face + 1..self.faces.len() as u32).take_while(same);
+        below.chain(above).any(|other| {
+            let start = face::stand(&self.faces.start(other, self.points), self.points.start[point as usize]);
+            start.is_some_and(|start| start.gap >= 0.0)
+        })
     }
 
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
