@@ -12,6 +12,7 @@ mod initial;
 mod material;
 mod output;
 mod problem;
+mod properties;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
@@ -389,7 +390,7 @@ impl Default for ContactControl {
             passes: 20,
             tolerance: 1e-6,
             search: ContactSearch::Grid,
-            reach: 10.0,
+            reach: 30.0,
             margin: 0.05,
             edges: true,
         }

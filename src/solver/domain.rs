@@ -225,13 +225,13 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
         let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
         let group = |places: Vec<u32>| {
             let new: Vec<NewElement> = places.into_iter().map(|place| new_element(place, body, share, local)).collect();
-            Group::new(&new, state_names.len())
+            Group::new(&new, &material.law)
         };
         ElementBlock {
             index,
             id: mesh.blocks[index].id,
             density: material.density,
-            law: material.law,
+            law: material.law.clone(),
             hourglass: model.hourglass,
             state_names,
             border: group(border),

@@ -55,6 +55,7 @@ pub struct Solver {
     first_stable_step: Option<f64>,
     supplied_peak: f64,
     energy_floor: f64,
+    stored_energy: f64,
     local: PassOutcome,
     control: TimeStepControl,
     pass: PassSettings,
@@ -92,6 +93,7 @@ impl Solver {
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
             energy_floor: health::energy_floor(body, model),
+            stored_energy: health::stored_energy(body, model),
             domain,
             clock: Clock::default(),
             step: 0,
@@ -106,6 +108,7 @@ impl Solver {
             local: PassOutcome::NOTHING,
             control: model.time_step,
             pass: PassSettings {
+                time: 0.0,
                 time_step: 0.0,
                 bulk_viscosity: model.bulk_viscosity,
                 moduli: model.time_step.moduli,
@@ -194,7 +197,7 @@ impl Solver {
     /// Stress, viscosity and hourglass forces of all elements and the pressures on their faces, summed at the nodes
     /// in canonical order. What other ranks wait for is computed and sent first.
     fn internal_forces(&mut self, comm: &mut dyn Communicator) {
-        self.pass.time_step = self.time_step;
+        (self.pass.time, self.pass.time_step) = (self.time, self.time_step);
         let mut found = PassOutcome::NOTHING;
         self.clock.start();
         found = found.and(self.border_elements());

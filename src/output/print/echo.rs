@@ -138,6 +138,12 @@ fn materials(model: &Model, mesh: &Mesh) -> String {
         for (property, value) in entry.properties.iter().zip(material.law.values()) {
             let _ = writeln!(out, "                     {:<21} = {:>12}", property.keyword, number(value));
         }
+        if let Some(equation) = material.law.equation_of_state() {
+            out += &leader("EQUATION OF STATE", equation.entry().name);
+            for (property, value) in equation.entry().properties.iter().zip(equation.values()) {
+                let _ = writeln!(out, "                     {:<21} = {:>12}", property.keyword, number(value));
+            }
+        }
         let modulus = material.law.moduli().dilatational();
         out += "              CALCULATED INITIAL VALUES FOR:\n";
         out += &leader("  INITIAL DILATATIONAL MODULUS", &number(modulus));

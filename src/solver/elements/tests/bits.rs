@@ -43,7 +43,7 @@ fn instruction_sets_agree_to_the_bit() {
     let viscous = Hourglass::FlanaganBelytschko { stiffness: 0.05, viscosity: 0.02 };
     for law in [elastic(0.3), plastic(1.0), plastic(0.3)] {
         for control in [ASSUMED, flanagan_belytschko(0.05), viscous, flanagan_belytschko(0.4)] {
-            let histories: Vec<_> = instruction_sets().iter().map(|&set| history(law, control, set)).collect();
+            let histories: Vec<_> = instruction_sets().iter().map(|&set| history(law.clone(), control, set)).collect();
             for (other, set) in histories.iter().zip(instruction_sets()) {
                 let first = other.iter().zip(&histories[0]).position(|(a, b)| a != b);
                 assert_eq!(first, None, "{law:?}, {control:?}, {}", set.name());
