@@ -170,6 +170,7 @@ fn not_built(grammar: &Grammar) -> String {
         let why = match &entry.status {
             Status::Planned { physics: false } => " Changes only what is written.",
             Status::Refused(_) => " Will not be built.",
+            Status::Idle(_) => " Read, but changes nothing.",
             _ => "",
         };
         let _ = write!(text, ".TP\n.B {}{what}\n{}{why}\n", escape(&entry.name), escape(&entry.does));

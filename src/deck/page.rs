@@ -72,6 +72,7 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
             format!("{} Known, but not built yet: a deck with it runs without it.", entry.does)
         }
         Status::Refused(why) => format!("{} Refused: {why}.", entry.does),
+        Status::Idle(why) => format!("{} Changes nothing: {why}.", entry.does),
     };
     Page::new(
         &entry.name,

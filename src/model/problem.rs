@@ -69,7 +69,7 @@ fn accept(problem: Problem) -> Result<Problem, Diagnostics> {
 
 /// The model as far as it can be made.
 fn assemble(deck: Deck, found: Diagnostics) -> Problem {
-    let mut draft = Draft { model: blank(), deck: &deck, found, functions_of_materials: Vec::new() };
+    let mut draft = Draft { model: Model::default(), deck: &deck, found, functions_of_materials: Vec::new() };
     for family in FAMILIES {
         defaults(family, &mut draft);
         for card in deck.cards.iter().filter(|card| card.complete) {
@@ -96,32 +96,36 @@ fn defaults(family: &[Setter], draft: &mut Draft) {
 }
 
 /// A model that says nothing yet. What is NaN here is required, follows from others, or has a command that always holds.
-fn blank() -> Model {
-    Model {
-        title: String::new(),
-        termination_time: f64::NAN,
-        output_interval: f64::NAN,
-        plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
-        time_step: TimeStepControl {
-            scale: f64::NAN,
-            softening: f64::NAN,
-            growth: f64::NAN,
-            moduli: StepModuli::default(),
-        },
-        bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
-        hourglass: DEFAULT_HOURGLASS,
-        functions: Vec::new(),
-        materials: Vec::new(),
-        no_displacements: Vec::new(),
-        prescribed_motions: Vec::new(),
-        prescribed_forces: Vec::new(),
-        pressures: Vec::new(),
-        gravities: Vec::new(),
-        initial_velocities: Vec::new(),
-        rigid_surfaces: Vec::new(),
-        contact: Contact::default(),
-        deaths: Vec::new(),
-        plot_requests: PlotRequests::default(),
+impl Default for Model {
+    fn default() -> Model {
+        Model {
+            title: String::new(),
+            termination_time: f64::NAN,
+            output_interval: f64::NAN,
+            plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
+            time_step: TimeStepControl {
+                scale: f64::NAN,
+                softening: f64::NAN,
+                growth: f64::NAN,
+                moduli: StepModuli::default(),
+            },
+            bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
+            hourglass: DEFAULT_HOURGLASS,
+            functions: Vec::new(),
+            materials: Vec::new(),
+            no_displacements: Vec::new(),
+            prescribed_motions: Vec::new(),
+            prescribed_forces: Vec::new(),
+            pressures: Vec::new(),
+            gravities: Vec::new(),
+            silent_boundaries: Vec::new(),
+            initial_velocities: Vec::new(),
+            rigid_surfaces: Vec::new(),
+            contact: Contact::default(),
+            deaths: Vec::new(),
+            plot_requests: PlotRequests::default(),
+            material_points: Vec::new(),
+        }
     }
 }
 

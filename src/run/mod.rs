@@ -12,7 +12,7 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
-use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, Schedule, global_values};
+use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
 use crate::partition::Decomposition;
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
@@ -168,6 +168,8 @@ struct Writer<'a> {
     collector: Collector,
     results: Option<ResultsWriter>,
     log: Option<PrintLog>,
+    watched: HistoryPlan,
+    histories: Option<ResultsWriter>,
     files: &'a Files,
     elements: usize,
     termination_time: f64,
@@ -189,6 +191,8 @@ impl<'a> Writer<'a> {
             collector: Collector::new(solver, nodes, elements, comm),
             results: None,
             log: None,
+            watched: HistoryPlan::new(job.mesh, job.model),
+            histories: None,
             files: job.files,
             elements,
             termination_time: job.model.termination_time,
@@ -215,6 +219,7 @@ impl<'a> Writer<'a> {
             info: job.deck.lines().map(String::from).collect(),
         };
         self.results = Some(ResultsWriter::create(&self.files.plot, &header)?);
+        self.histories = self.open_histories(&header)?;
         let mut log = PrintLog::create(&self.files.print).map_err(|e| self.print_error(e))?;
         let echo = Echo {
             banner: job.banner,
@@ -233,6 +238,35 @@ impl<'a> Writer<'a> {
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
+    }
+
+    /// Opens the file of histories, when points are watched.
+    fn open_histories(&self, of_plot: &ResultsHeader) -> Result<Option<ResultsWriter>, RunError> {
+        if self.watched.is_empty() {
+            return Ok(None);
+        }
+        let header = ResultsHeader {
+            mesh: &self.watched.mesh(of_plot.mesh),
+            global: self.watched.names(),
+            nodal: Vec::new(),
+            element: Vec::new(),
+            info: [self.watched.records(), of_plot.info.clone()].concat(),
+            title: of_plot.title.clone(),
+            qa: of_plot.qa.clone(),
+        };
+        Ok(Some(ResultsWriter::create(&self.files.history, &header)?))
+    }
+
+    /// Appends a state to the histories of material points.
+    fn history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        if self.watched.is_empty() {
+            return Ok(());
+        }
+        let values = self.watched.values(solver, comm);
+        match (&mut self.histories, values) {
+            (Some(file), Some(values)) => Ok(file.write_state(solver.time, &values, &[], &[])?),
+            _ => Ok(()),
+        }
     }
 
     fn print_error(&self, source: std::io::Error) -> RunError {
@@ -293,8 +327,9 @@ impl<'a> Writer<'a> {
             dilatation,
             to_go: dilatation * (self.termination_time - solver.time).max(0.0),
         };
-        let outcome = self.print(&print::step_line(&line));
+        let printed = self.print(&print::step_line(&line));
         display.line(&line);
+        let outcome = self.history(solver, comm).and(printed);
         let outcome = together(outcome, comm);
         solver.clock.stop(Section::Output);
         outcome

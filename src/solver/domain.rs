@@ -8,6 +8,7 @@ use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
 use super::nodes::{Nodes, add, cross, scaled, subtract};
+use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
@@ -33,6 +34,8 @@ pub struct Domain {
     pub node_forces: Vec<NodeForce>,
     /// Gravity.
     pub gravity: loads::BodyForce,
+    /// Dashpots at the nodes of silent boundaries.
+    pub silent: Vec<Dashpot>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// Contact and rigid surfaces, when there are any.
@@ -71,6 +74,7 @@ impl Domain {
             pressure_faces: pressure_faces(model, body, share, &local),
             node_forces: Vec::new(),
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
+            silent: silent::dashpots(mesh, model, body, &local),
             constraints: Vec::new(),
             contact: None,
             erosion: None,

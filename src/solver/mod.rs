@@ -15,6 +15,7 @@ mod function;
 mod health;
 mod loads;
 pub mod nodes;
+mod silent;
 mod stop;
 mod totals;
 
@@ -299,11 +300,12 @@ impl Solver {
     fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, node_forces, gravity, contact, constraints, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, silent, contact, constraints, .. } = &mut self.domain;
         gravity.apply(nodes, &self.functions, self.time);
         for load in node_forces {
             load.apply(nodes, &self.functions, self.time);
         }
+        silent.iter_mut().for_each(|dashpot| dashpot.apply(nodes, step.kick));
         self.clock.stop(Section::Assembly);
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
@@ -319,10 +321,11 @@ impl Solver {
     fn book_work(&mut self) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, node_forces, gravity, contact, constraints, pressure_faces, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, silent, contact, constraints, pressure_faces, .. } = &mut self.domain;
         gravity.book(nodes, half_step);
         pressure_faces.iter_mut().for_each(|face| face.book(nodes, half_step));
         node_forces.iter_mut().for_each(|load| load.book(nodes, half_step));
+        silent.iter_mut().for_each(|dashpot| dashpot.book(nodes, half_step));
         contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
         self.clock.stop(Section::Integration);

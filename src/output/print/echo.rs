@@ -94,7 +94,7 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("NUMBER OF FUNCTIONS", &count(model.functions.len()));
     out += &leader("NUMBER OF CONTACT SURFACES", &count(model.contact.surfaces.len()));
     out += &leader("NUMBER OF RIGID SURFACES", &count(model.rigid_surfaces.len()));
-    out += &leader("NUMBER OF MATERIAL POINTS MONITORED", "0");
+    out += &leader("NUMBER OF MATERIAL POINTS MONITORED", &model.material_points.len().to_string());
     out += &leader("ANALYSIS TYPE", "3D SOLID");
     out += &leader("TERMINATION TIME", &number(model.termination_time));
     out += &leader("PRINT OUTPUT AT INTERVALS OF", &number(model.output_interval));
@@ -194,6 +194,8 @@ fn conditions(model: &Model) -> String {
         .pressures
         .iter()
         .map(|p| format!("{:>13}{:>10}{:>13}", p.side_set, function(p.function), number(p.scale)));
+    let silent = model.silent_boundaries.iter().map(|side_set| format!("{side_set:>13}"));
+    let points = model.material_points.iter().enumerate().map(|(i, &x)| format!("{:>13}{}", i + 1, vector(x)));
     let velocities = model.initial_velocities.iter().map(|v| match *v {
         InitialVelocity::Material { block, velocity } => format!("MATERIAL {block:>8}{}", vector(velocity)),
         InitialVelocity::NodeSet { node_set, velocity } => format!("NODE SET {node_set:>8}{}", vector(velocity)),
@@ -215,12 +217,14 @@ fn conditions(model: &Model) -> String {
         table("PRESCRIBED FORCES", "     NODE SET  DIRECTION  FUNCTION        SCALE", forces.collect()),
         table("PRESSURES", "     SIDE SET  FUNCTION        SCALE", pressures.collect()),
         table("GRAVITY", "            X            Y            Z  FUNCTION", gravity.collect()),
+        table("SILENT BOUNDARIES", "     SIDE SET", silent.collect()),
         table("INITIAL VELOCITIES", "                            X            Y            Z", velocities.collect()),
         table(
             "RIGID SURFACES",
             "SIDE SET      POINT X      POINT Y      POINT Z     NORMAL X     NORMAL Y     NORMAL Z    FRICTION",
             planes.collect(),
         ),
+        table("MATERIAL POINTS MONITORED", "        POINT            X            Y            Z", points.collect()),
     ]
     .concat()
 }
