@@ -95,6 +95,10 @@ laws! {
     mooney_rivlin::MooneyRivlin,
 }
 
+// Here, because the list of laws that it makes needs the macro above.
+#[cfg(test)]
+mod adding;
+
 impl Law {
     /// The equation of state of a law that has one.
     pub fn equation_of_state(&self) -> Option<&EquationOfState> {

@@ -24,6 +24,15 @@ pub(super) fn flat(m: Matrix<f64>) -> Tensor {
 
 pub(super) const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
+impl Step<f64> {
+    /// A small increment from a point at rest, for laws that look at nothing else.
+    pub(super) fn of(strain: Tensor) -> Step<f64> {
+        let unit = sym([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+        let [volume, middle_volume, energy, viscous, time, time_step] = [1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        Step { strain: sym(strain), stretch: unit, volume, middle_volume, energy, viscous, time, time_step }
+    }
+}
+
 /// Asserts that two numbers differ by no more than a part of the second.
 #[track_caller]
 pub(super) fn close(what: &str, a: f64, b: f64, relative: f64) {
