@@ -198,7 +198,7 @@ fn extreme_12_column_hit_at_the_top() {
         let peak = force.iter().copied().fold(0.0, f64::max);
         let found = [peak, run.last().totals.kinetic / run.initial_energy];
         println!("extreme 12, hit, passes {passes}: peak force on the lowest joint {peak:.4e} N, kinetic {:.4}, contact work {:.2e}, balance {:.1e}", found[1], run.last().totals.contact / run.initial_energy, run.worst_balance());
-        between("extreme 12", "worst energy balance", run.worst_balance(), 0.0, 2e-3);
+        between("extreme 12", "worst energy balance", run.worst_balance(), 0.0, 5e-3);
         last = Some(found);
     }
     assert!(last.is_some());
