@@ -55,8 +55,12 @@ fn balls(cells: [usize; 2], grading: f64) -> Mesh {
 
 /// One ball on a rigid plane.
 fn ball(cells: usize, grading: f64) -> Mesh {
-    let kept: Vec<&str> = HERTZ_MESH.lines().filter(|line| !line.starts_with("SPHERE, 2") && !line.contains(", 2,  ")).collect();
-    let text = kept.join("\n").replace("TRANSLATE, 2, 0., 0., -10.E-3\n", "").replace("10.E-3, 16", &format!("10.E-3, {cells}"));
+    let kept: Vec<&str> =
+        HERTZ_MESH.lines().filter(|line| !line.starts_with("SPHERE, 2") && !line.contains(", 2,  ")).collect();
+    let text = kept
+        .join("\n")
+        .replace("TRANSLATE, 2, 0., 0., -10.E-3\n", "")
+        .replace("10.E-3, 16", &format!("10.E-3, {cells}"));
     let mut mesh = recipe(&format!("{text}\nSIDE SET FACE, 100, 1, OUTER\n"));
     draw_to_pole(&mut mesh, 1, RADIUS, grading);
     mesh
@@ -151,7 +155,9 @@ fn v24_hertz_of_steel() {
     let one = run_on(2, &on_plane(&deck), &mesh).whole();
     let expected = Hertz { force: 2265.0, approach: 18.15e-6, radius: 0.4260e-3, duration: 53.41e-6 };
     compare("V-24 steel on a plane", &one, &mesh, "RZ", 1.0, &expected);
-    let deck = steel(&hertz_deck("0.25E-6", "75.E-6")).replace("0., 0., -1.", "0., 0., -0.5").replace("0., 0., 1.\n", "0., 0., 0.5\n");
+    let deck = steel(&hertz_deck("0.25E-6", "75.E-6"))
+        .replace("0., 0., -1.", "0., 0., -0.5")
+        .replace("0., 0., 1.\n", "0., 0., 0.5\n");
     let mesh = balls([12, 11], 6.0);
     let both = run_on(2, &deck, &mesh).whole();
     // Each ball's centre moves half of the approach of both.
@@ -162,8 +168,14 @@ fn v24_hertz_of_steel() {
 /// The deck's cubes with so many elements along an edge, the lower and the upper.
 fn patch_mesh(below: usize, above: usize, more: &str) -> Mesh {
     let text = PATCH_MESH
-        .replace("BOX, 1,  0., 0., 0.,   0.1, 0.1, 0.1,  3, 3, 3\n", &format!("BOX, 1,  0., 0., 0.,   0.1, 0.1, 0.1,  {below}, {below}, {below}\n"))
-        .replace("BOX, 2,  0., 0., 0.1,  0.1, 0.1, 0.1,  4, 4, 4\n", &format!("BOX, 2,  0., 0., 0.1,  0.1, 0.1, 0.1,  {above}, {above}, {above}\n{more}\n"));
+        .replace(
+            "BOX, 1,  0., 0., 0.,   0.1, 0.1, 0.1,  3, 3, 3\n",
+            &format!("BOX, 1,  0., 0., 0.,   0.1, 0.1, 0.1,  {below}, {below}, {below}\n"),
+        )
+        .replace(
+            "BOX, 2,  0., 0., 0.1,  0.1, 0.1, 0.1,  4, 4, 4\n",
+            &format!("BOX, 2,  0., 0., 0.1,  0.1, 0.1, 0.1,  {above}, {above}, {above}\n{more}\n"),
+        );
     recipe(&text)
 }
 
@@ -212,7 +224,9 @@ fn v27_patch_test() {
     for partition in ["0.", "1."] {
         let run = patch(&mesh, &format!("CONTACT DATA, 1, 2, 0., {partition}"));
         let [beside, away] = patch_error(&run, &mesh);
-        println!("V-27 one way, partition {partition}: stress error {beside:.3} beside the contact, {away:.3} elsewhere");
+        println!(
+            "V-27 one way, partition {partition}: stress error {beside:.3} beside the contact, {away:.3} elsewhere"
+        );
         assert!(beside < 0.3 && beside > 0.1, "one-way contact does not pass: {beside}");
     }
 }
@@ -239,7 +253,13 @@ fn v27_matching_meshes() {
                 }
             }
         }
-        between("V-27", &format!("matching meshes, {lines}: stress off that of one block, over the pressure"), worst, 0.0, 1e-8);
+        between(
+            "V-27",
+            &format!("matching meshes, {lines}: stress off that of one block, over the pressure"),
+            worst,
+            0.0,
+            1e-8,
+        );
     }
 }
 
@@ -275,7 +295,8 @@ fn drift(case: &str, run: &Run, mesh: &Mesh) -> [f64; 2] {
     let (first, last) = (&run.states[0], run.end());
     let all: Vec<usize> = (0..mesh.coordinates.len()).collect();
     let linear = length(minus(momentum(last), momentum(first))) / length(momentum(first));
-    let turning = length(minus(angular_momentum(last, mesh), angular_momentum(first, mesh))) / length(angular_momentum(first, mesh));
+    let turning = length(minus(angular_momentum(last, mesh), angular_momentum(first, mesh)))
+        / length(angular_momentum(first, mesh));
     println!(
         "{case}: drift of momentum {linear:.1e}, of angular momentum {turning:.1e}; friction {:.2e}, contact loss {:.2e}, kinetic {:.3} of the energy, balance {:.1e}",
         run.last().totals.friction / run.initial_energy,
@@ -292,11 +313,11 @@ fn drift(case: &str, run: &Run, mesh: &Mesh) -> [f64; 2] {
 fn momentum_of_an_oblique_impact() {
     let mesh = oblique_mesh();
     let smooth = OBLIQUE.replace("CONTACT DATA, 1, 2, 0.2\n", "");
-    for (case, deck) in [("with friction", OBLIQUE), ("without", &smooth)] {
+    for (case, deck, most) in [("with friction", OBLIQUE, 1e-5), ("without", &smooth, 1e-12)] {
         for scale in ["1.", "0.5", "0.25"] {
             let run = run(&format!("TIME STEP SCALE, {scale}\n{deck}"), &mesh);
             let [linear, turning] = drift(&format!("oblique impact {case}, step scale {scale}"), &run, &mesh);
-            assert!(linear < 1e-12 && turning < 1e-2, "{linear} {turning}");
+            assert!(linear < 1e-12 && turning < most, "{linear} {turning}");
         }
     }
 }
@@ -352,7 +373,11 @@ fn extreme_18_more_ranks_than_contact_entities() {
         "BOX, 1, 0., 0., 0., 0.12, 0.01, 0.01, 12, 1, 1\nBOX, 2, 0.12, 0., 0., 0.12, 0.01, 0.01, 12, 1, 1\n\
          SIDE SET FACE, 100, 1, RIGHT\nSIDE SET FACE, 200, 2, LEFT\n",
     );
-    let deck = OBLIQUE.replace("CONTACT MATERIAL\nCONTACT DATA, 1, 2, 0.2\n", "CONTACT SURFACE, 100, 200, 0.2\n").replace("12., -5.", "0., 0.").replace("-25., 0., 8.", "0., 0., 0.").replace("1.E-3", "1.E-4");
+    let deck = OBLIQUE
+        .replace("CONTACT MATERIAL\nCONTACT DATA, 1, 2, 0.2\n", "CONTACT SURFACE, 100, 200, 0.2\n")
+        .replace("12., -5.", "0., 0.")
+        .replace("-25., 0., 8.", "0., 0., 0.")
+        .replace("1.E-3", "1.E-4");
     let expected = bits(&run(&deck, &mesh));
     for ranks in [7, 13, 24, 31] {
         assert!(bits(&run_on(ranks, &deck, &mesh).whole()) == expected, "{ranks} ranks");

@@ -42,11 +42,21 @@ fn v25_block_slides_to_rest_on_an_elastic_plate() {
     let deceleration = (speed(first, &block) - speed(last, &block)) / (last.time - first.time);
     close("V-25 on a plate", "deceleration mu g [m/s2]", deceleration, mu * g, 0.01);
     let nearly = run.states.iter().find(|s| speed(s, &block) < 0.02 * v0).expect("it comes to rest");
-    close("V-25 on a plate", "time of rest [s]", nearly.time + speed(nearly, &block) / (mu * g), v0 / (mu * g) + 0.5 * ramp, 0.01);
+    close(
+        "V-25 on a plate",
+        "time of rest [s]",
+        nearly.time + speed(nearly, &block) / (mu * g),
+        v0 / (mu * g) + 0.5 * ramp,
+        0.01,
+    );
     // Gravity does no work on a block that does not sink; what friction took is the energy at the start.
     let end = run.last();
     close("V-25 on a plate", "friction work [J]", end.totals.friction, 0.5 * mass * v0 * v0, 0.01);
-    println!("V-25 on a plate: least friction work in 10 microseconds {:.1e} J, contact work {:.2e} J", smallest_gain(&run), end.totals.contact);
+    println!(
+        "V-25 on a plate: least friction work in 10 microseconds {:.1e} J, contact work {:.2e} J",
+        smallest_gain(&run),
+        end.totals.contact
+    );
     assert!(smallest_gain(&run) >= -1e-9 * end.totals.friction, "friction gives energy back");
     between("V-25 on a plate", "creep at rest over v0", speed(run.end(), &block).abs() / v0, 0.0, 1e-3);
     let load: Vec<f64> =
@@ -91,7 +101,10 @@ fn extreme_15_friction_of_ten() {
             smallest_gain(&run) / run.initial_energy,
             -back / run.initial_energy
         );
-        assert!(smallest_gain(&run) >= -most_back * run.initial_energy && -back < 1e-3 * taken, "friction gives energy back");
+        assert!(
+            smallest_gain(&run) >= -most_back * run.initial_energy && -back < 1e-3 * taken,
+            "friction gives energy back"
+        );
         assert!(run.last().totals.kinetic < run.initial_energy);
         between("extreme 15, mu = 10", "worst energy balance", run.worst_balance(), 0.0, 1e-3);
     }
@@ -114,13 +127,29 @@ fn extreme_15_reversal() {
         .replace("12.E-3", "4.E-3");
     let run = run(&deck, &mesh);
     let block = nodes_of(&mesh, 1);
-    let slip: Vec<f64> = run.states.iter().map(|s| 2.0 * (s.time / 2e-3 * std::f64::consts::TAU).sin() - speed(s, &block)).collect();
+    let slip: Vec<f64> =
+        run.states.iter().map(|s| 2.0 * (s.time / 2e-3 * std::f64::consts::TAU).sin() - speed(s, &block)).collect();
     let turns = slip.windows(2).filter(|w| w[0] * w[1] < 0.0).count();
-    println!("extreme 15, reversal: {turns} reversals, friction work {:.3e} J, least in a step {:.1e} J", run.last().totals.friction, smallest_gain(&run));
+    println!(
+        "extreme 15, reversal: {turns} reversals, friction work {:.3e} J, least in a step {:.1e} J",
+        run.last().totals.friction,
+        smallest_gain(&run)
+    );
     assert!(turns >= 2, "sliding reverses");
-    assert!(smallest_gain(&run) >= -1e-9 * run.last().totals.friction, "friction gives energy back: {:e}", smallest_gain(&run));
+    assert!(
+        smallest_gain(&run) >= -1e-9 * run.last().totals.friction,
+        "friction gives energy back: {:e}",
+        smallest_gain(&run)
+    );
     // μ m g moves the block at most.
-    let accelerations = run.states.windows(2).map(|w| (speed(&w[1], &block) - speed(&w[0], &block)) / (w[1].time - w[0].time));
-    between("extreme 15, reversal", "largest acceleration over mu g", accelerations.fold(0.0f64, |m, a| m.max(a.abs())) / 294.3, 0.8, 1.3);
+    let accelerations =
+        run.states.windows(2).map(|w| (speed(&w[1], &block) - speed(&w[0], &block)) / (w[1].time - w[0].time));
+    between(
+        "extreme 15, reversal",
+        "largest acceleration over mu g",
+        accelerations.fold(0.0f64, |m, a| m.max(a.abs())) / 294.3,
+        0.8,
+        1.3,
+    );
     between("extreme 15, reversal", "worst energy balance", run.worst_balance(), 0.0, 1e-3);
 }

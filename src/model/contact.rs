@@ -31,11 +31,7 @@ fn contact_material(card: &Card, draft: &mut Draft) {
 
 /// Friction from the fields `friction`, `high_speed` and `decay`.
 fn friction(card: &Card) -> Friction {
-    Friction {
-        at_rest: card.number("friction"),
-        high_speed: card.number("high_speed"),
-        decay: card.number("decay"),
-    }
+    Friction { at_rest: card.number("friction"), high_speed: card.number("high_speed"), decay: card.number("decay") }
 }
 
 fn contact_surface(card: &Card, draft: &mut Draft) {

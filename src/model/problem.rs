@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl, boundary, check,
-    contact, control, function, initial, material, output,
+    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli,
+    TimeStepControl, boundary, check, contact, control, function, initial, material, output,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, language, spelling},

@@ -158,7 +158,8 @@ impl Check<'_> {
         let mut next: Option<(u32, Stand)> = None;
         for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
-            let Some(stand) = self.stand_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &stand, next))
+            let Some(stand) =
+                self.stand_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &stand, next))
             else {
                 continue;
             };
@@ -185,8 +186,7 @@ impl Check<'_> {
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
     fn goes_on(&self, old: u32, face: u32, stand: &Stand, next: &Stand) -> bool {
         let middle = |face| face::centre(&self.faces.end(face, self.points));
-        dot(stand.normal, next.normal) > SAME_WAY
-            || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
+        dot(stand.normal, next.normal) > SAME_WAY || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.

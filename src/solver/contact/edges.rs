@@ -182,11 +182,8 @@ impl EdgeCheck<'_> {
     fn meets(&self, pair: [u32; 2]) -> bool {
         let path = |edge: u32, end: usize| self.points.path(self.edges[edge as usize].ends[end]);
         let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
-        let volume = cubic::coplanarity(
-            cubic::relative(b[0], a[0]),
-            cubic::relative(a[1], a[0]),
-            cubic::relative(b[1], b[0]),
-        );
+        let volume =
+            cubic::coplanarity(cubic::relative(b[0], a[0]), cubic::relative(a[1], a[0]), cubic::relative(b[1], b[0]));
         cubic::roots(&volume).any(|t| {
             let at = |path: &cubic::Path| add(path.0, scaled(path.1, t));
             Crossing::of([at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]).is_some_and(|c| c.between_ends(0.0))

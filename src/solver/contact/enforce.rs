@@ -11,8 +11,8 @@
 //! face this is the partitioned kinematic method of Attaway et al. (1996), eqs. 15–27, with eq. 25 solved for the
 //! acceleration of the face: λ = m_s δ/Δτ · m_I/(m_I + Σ N m_s), and one pass closes the gap.
 
-use crate::model::Friction;
 use super::points::Points;
+use crate::model::Friction;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{add, dot, scaled, subtract};
 
@@ -119,10 +119,8 @@ impl Enforcer {
         self.clear(constraints);
         self.strength.clear();
         self.strength.extend(constraints.iter().map(|constraint| {
-            let inverse: f64 = constraint
-                .parts()
-                .map(|(point, w)| w * w * along(points.inverse_mass[point], constraint.normal))
-                .sum();
+            let inverse: f64 =
+                constraint.parts().map(|(point, w)| w * w * along(points.inverse_mass[point], constraint.normal)).sum();
             // Where all members are held there is nothing to move.
             if inverse > 0.0 { constraint.share / inverse } else { 0.0 }
         }));
@@ -162,9 +160,11 @@ impl Enforcer {
 
     /// Largest overlap in units of the faces' sizes.
     fn overlap(&self, constraints: &[Constraint], step: &StepTimes) -> f64 {
-        constraints.iter().zip(&self.strength).filter(|(_, strength)| **strength > 0.0).fold(0.0, |worst, (c, _)| {
-            f64::max(worst, -self.gap(c, step) / c.size)
-        })
+        constraints
+            .iter()
+            .zip(&self.strength)
+            .filter(|(_, strength)| **strength > 0.0)
+            .fold(0.0, |worst, (c, _)| f64::max(worst, -self.gap(c, step) / c.size))
     }
 
     /// One pass: shares, forces, sums.

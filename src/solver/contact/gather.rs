@@ -25,7 +25,8 @@ impl Gather {
         let bytes: Vec<u8> = own.iter().flat_map(|point| point.to_le_bytes()).collect();
         let outgoing = (0..comm.size()).filter(|&rank| rank != comm.rank()).map(|rank| (rank, bytes.clone())).collect();
         let incoming = comm.sparse_exchange(outgoing);
-        let numbers = |bytes: &[u8]| bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        let numbers =
+            |bytes: &[u8]| bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
         let theirs: Vec<Vec<u32>> = incoming.iter().map(|(_, bytes)| numbers(bytes)).collect();
         let peers = incoming.iter().map(|&(rank, _)| Peer { rank, ..Default::default() }).collect();
         Some(Gather { own, theirs, peers })

@@ -134,9 +134,8 @@ impl Locator {
         self.found.resize_with(interfaces.len(), Candidates::default);
         let around = |p: usize| Box3::around(&[points.start[p]]).grown(self.allowance[p]);
         for (interface, found) in interfaces.iter().zip(&mut self.found) {
-            let nodes: Vec<Box3> = (0..points.len())
-                .map(|p| if interface.points[p] { around(p) } else { Box3::empty() })
-                .collect();
+            let nodes: Vec<Box3> =
+                (0..points.len()).map(|p| if interface.points[p] { around(p) } else { Box3::empty() }).collect();
             let boxes: Vec<Box3> = (interface.faces.iter())
                 .map(|&face| {
                     let [a, b, c, d] = faces.corners[face as usize].map(|corner| around(corner as usize));

@@ -314,7 +314,12 @@ impl Contact {
                 of_point[5] = self.layout.face_element[past.face as usize] as f64;
             }
         }
-        self.here.iter().zip(values).filter(|(node, _)| **node != ABSENT).map(|(&node, values)| (node, values)).collect()
+        self.here
+            .iter()
+            .zip(values)
+            .filter(|(node, _)| **node != ABSENT)
+            .map(|(&node, values)| (node, values))
+            .collect()
     }
 
     /// Forgets the forces of this step.

@@ -44,8 +44,7 @@ impl Pairings {
         };
         let pairing = |point: usize, face: usize| {
             let ids = [mesh.blocks[point].id, mesh.blocks[face].id];
-            let by_impedance =
-                if point == face { 0.5 } else { impedance(face) / (impedance(point) + impedance(face)) };
+            let by_impedance = if point == face { 0.5 } else { impedance(face) / (impedance(point) + impedance(face)) };
             // The last command about two blocks holds, whichever it names first.
             let data = model.contact.data.iter().rev().find_map(|data| match data.materials {
                 [a, b] if [b, a] == ids => Some((data, data.partition)),

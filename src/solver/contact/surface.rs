@@ -109,9 +109,7 @@ mod tests {
         let m = n + 1;
         let at = |i, j, k| i + m * (j + m * k);
         let corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)];
-        (0..n * n * n)
-            .map(|e| corners.map(|(a, b, c)| at(e % n + a, e / n % n + b, e / (n * n) + c)))
-            .collect()
+        (0..n * n * n).map(|e| corners.map(|(a, b, c)| at(e % n + a, e / n % n + b, e / (n * n) + c))).collect()
     }
 
     /// Numbers of exterior faces and of the nodes on them.

@@ -95,7 +95,8 @@ impl Bvh {
 
     /// Mean extent of groups of faces over that of faces; not a number when nothing has an extent.
     fn measure(&self, faces: &[Box3]) -> f64 {
-        let sum = |boxes: &mut dyn Iterator<Item = Box3>| -> f64 { boxes.filter(Box3::is_sound).map(|b| b.extent()).sum() };
+        let sum =
+            |boxes: &mut dyn Iterator<Item = Box3>| -> f64 { boxes.filter(Box3::is_sound).map(|b| b.extent()).sum() };
         let groups = &self.groups[..self.levels[1]];
         sum(&mut groups.iter().map(Group::bounds)) / sum(&mut faces.iter().copied())
     }

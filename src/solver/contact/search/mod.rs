@@ -65,9 +65,8 @@ impl Box3 {
 
     /// Whether the box holds a point and all its coordinates are finite. Searches leave other boxes out.
     pub fn is_sound(&self) -> bool {
-        (0..3).all(|axis| {
-            self.low[axis] <= self.high[axis] && self.low[axis].is_finite() && self.high[axis].is_finite()
-        })
+        (0..3)
+            .all(|axis| self.low[axis] <= self.high[axis] && self.low[axis].is_finite() && self.high[axis].is_finite())
     }
 
     /// The longest edge.

@@ -141,7 +141,8 @@ fn one_huge_face_beside_small_ones() {
 fn many_sizes_at_once() {
     let mut random = Random(2);
     let sizes = (-12..12).map(|power| (10.0, 4f64.powi(power)));
-    let scene = sizes.fold(Scene::default(), |all, (space, size)| all.and(cloud(15, space, size, 0.1 * size, &mut random)));
+    let scene =
+        sizes.fold(Scene::default(), |all, (space, size)| all.and(cloud(15, space, size, 0.1 * size, &mut random)));
     assert!(check(&[scene])[0] > 1000);
 }
 
@@ -170,7 +171,8 @@ fn degenerate_places() {
     let point = along([0.0; 3], 0.0);
     // 200 nodes meet 190 faces each, but for the four corners of each face.
     assert_eq!(check(&[point])[0], 190 * 196);
-    let lines = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1e-300, 0.0, 0.0], [1e306, 0.0, 1.0]];
+    let lines =
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1e-300, 0.0, 0.0], [1e306, 0.0, 1.0]];
     check(&lines.map(|direction| along(direction, 0.0)));
     check(&lines.map(|direction| along(direction, 0.1)));
 }
@@ -217,8 +219,10 @@ fn motion_from_call_to_call() {
 
 fn coarse_box() -> impl Strategy<Value = Box3> {
     let edge = || prop_oneof![8 => 0i32..3, 1 => 0i32..40];
-    ([0i32..12, 0i32..12, 0i32..4], [edge(), edge(), edge()])
-        .prop_map(|(low, edges)| Box3 { low: low.map(f64::from), high: [0, 1, 2].map(|i| f64::from(low[i] + edges[i])) })
+    ([0i32..12, 0i32..12, 0i32..4], [edge(), edge(), edge()]).prop_map(|(low, edges)| Box3 {
+        low: low.map(f64::from),
+        high: [0, 1, 2].map(|i| f64::from(low[i] + edges[i])),
+    })
 }
 
 proptest! {
