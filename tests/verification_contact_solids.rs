@@ -313,11 +313,11 @@ fn drift(case: &str, run: &Run, mesh: &Mesh) -> [f64; 2] {
 fn momentum_of_an_oblique_impact() {
     let mesh = oblique_mesh();
     let smooth = OBLIQUE.replace("CONTACT DATA, 1, 2, 0.2\n", "");
-    for (case, deck) in [("with friction", OBLIQUE), ("without", &smooth)] {
+    for (case, deck, most) in [("with friction", OBLIQUE, 1e-5), ("without", &smooth, 1e-12)] {
         for scale in ["1.", "0.5", "0.25"] {
             let run = run(&format!("TIME STEP SCALE, {scale}\n{deck}"), &mesh);
             let [linear, turning] = drift(&format!("oblique impact {case}, step scale {scale}"), &run, &mesh);
-            assert!(linear < 1e-12 && turning < 1e-2, "{linear} {turning}");
+            assert!(linear < 1e-12 && turning < most, "{linear} {turning}");
         }
     }
 }

@@ -83,8 +83,11 @@ fn extreme_15_no_friction() {
 fn extreme_15_friction_of_ten() {
     let mesh = recipe(SLIDING_MESH);
     let block = nodes_of(&mesh, 1);
-    for passes in ["20, 1.E-6", "500, 1.E-12"] {
+    for (passes, most_back) in [("20, 1.E-6", 1e-4), ("500, 1.E-12", 1e-8)] {
+        // Without hourglass viscosity, whose energy is booked with the force of one end of the step only: here, where blows
+        // follow each other, that is off by one per cent.
         let deck = SLIDING
+            .replace("HOURGLASS STIFFENING, 0.05, 0.03\n", "")
             .replace("1, 2, 0.3", &format!("1, 2, 10.\nCONTACT PASSES, {passes}"))
             .replace("OUTPUT TIME, 10.E-6", "OUTPUT TIME, 1.E-9")
             .replace("12.E-3", "4.E-3");
@@ -99,7 +102,7 @@ fn extreme_15_friction_of_ten() {
             -back / run.initial_energy
         );
         assert!(
-            smallest_gain(&run) >= -1e-4 * run.initial_energy && -back < 0.01 * taken,
+            smallest_gain(&run) >= -most_back * run.initial_energy && -back < 1e-3 * taken,
             "friction gives energy back"
         );
         assert!(run.last().totals.kinetic < run.initial_energy);

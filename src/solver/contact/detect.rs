@@ -26,9 +26,6 @@ const HOLD: f64 = 0.01;
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
 
-/// A foot whose shares of the corners that another face has as well add up to one but for this is on both.
-const TIE: f64 = 1e-6;
-
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -94,17 +91,20 @@ impl Check<'_> {
             self.choose(point, touches);
         }
         for touch in touches.iter_mut() {
-            self.blend(point, near, touch);
+            self.blend(near, touch);
             let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
             if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
+                let end = self.faces.end(touch.face, self.points);
+                let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(end[i], shares[i])));
                 touch.stand.weights = shares;
+                touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
             }
         }
     }
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
-    fn blend(&self, point: u32, near: &[u32], touch: &mut Touch) {
+    fn blend(&self, near: &[u32], touch: &mut Touch) {
         let corners = self.faces.corners[touch.face as usize];
         let unit = |face: u32| {
             let normal = face::area_normal(&self.faces.end(face, self.points));
@@ -115,7 +115,7 @@ impl Check<'_> {
             corners.iter().zip(touch.stand.weights).filter(|(corner, _)| other.contains(corner)).map(|(_, w)| w).sum()
         };
         let mut sum = [0.0; 3];
-        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - TIE) {
+        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - face::TIE) {
             let normal = unit(face);
             if dot(normal, touch.stand.normal) > SAME_WAY {
                 sum = add(sum, normal);
@@ -124,10 +124,7 @@ impl Check<'_> {
         let length = dot(sum, sum).sqrt();
         // The face itself is one of them.
         if length > 1.5 {
-            let end = self.faces.end(touch.face, self.points);
-            let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(end[i], touch.stand.weights[i])));
             touch.stand.normal = scaled(sum, 1.0 / length);
-            touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
         }
     }
 

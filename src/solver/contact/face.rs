@@ -11,6 +11,10 @@ use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 /// through each other.
 const BORDER: f64 = 1e-6;
 
+/// A foot nearer to the line between triangles or faces than this part of them is on both, for the normal. Below a node of a
+/// tilted surface the feet of the perpendiculars are not quite at the node.
+pub const TIE: f64 = 1e-3;
+
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stand {
@@ -81,7 +85,7 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
 /// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
 /// choose one, or what is symmetric would not stay so. `None` elsewhere.
 fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], normal: [f64; 3]) -> Option<[f64; 3]> {
-    let other = match (b1 < BORDER, b2 < BORDER) {
+    let other = match (b1 < TIE, b2 < TIE) {
         (false, false) => return None,
         (true, true) => (sector + 2) % 4,
         (true, false) => (sector + 1) % 4,
