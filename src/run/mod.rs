@@ -377,7 +377,7 @@ impl<'a> Writer<'a> {
             states,
             totals: &totals,
             initial_energy,
-            contact: solver.domain.contact.as_ref().map(Contact::report),
+            contact: solver.domain.contact.as_ref().and_then(Contact::report),
             gone: solver.domain.erosion.as_ref().map(|erosion| erosion.gone),
         };
         let printed = self.print(&print::closing(&table, &ending));

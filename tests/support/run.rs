@@ -177,7 +177,7 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
             record.states.push(state(solver, &fields, &collector, comm));
         }
         if last {
-            if let Some(report) = solver.domain.contact.as_ref().map(|contact| contact.report()) {
+            if let Some(report) = solver.domain.contact.as_ref().and_then(|contact| contact.report()) {
                 (record.searches, record.pairs) = (report.searches, report.pairs);
             }
             return record;

@@ -414,10 +414,10 @@ impl Contact {
         self.constraints.clear();
     }
 
-    /// What the log tells at the end.
-    pub fn report(&self) -> Report {
+    /// What the log tells at the end; nothing of planes alone, of which each rank knows its own only.
+    pub fn report(&self) -> Option<Report> {
         let [watched, pairs] = self.locator.counts();
-        Report {
+        (!self.layout.interfaces.is_empty()).then_some(Report {
             points: self.points.len(),
             faces: self.layout.faces.len(),
             edges: self.edges.len(),
@@ -425,7 +425,7 @@ impl Contact {
             pairs,
             searches: self.locator.searches,
             tally: self.tally,
-        }
+        })
     }
 }
 
