@@ -83,7 +83,7 @@ fn extreme_15_no_friction() {
 fn extreme_15_friction_of_ten() {
     let mesh = recipe(SLIDING_MESH);
     let block = nodes_of(&mesh, 1);
-    for (passes, most_back) in [("20, 1.E-6", 1e-4), ("500, 1.E-12", 1e-8)] {
+    for (passes, most_back) in [("20, 1.E-6", 1e-4), ("500, 1.E-12", 1e-7)] {
         // Without hourglass viscosity, whose energy is booked with the force of one end of the step only: here, where blows
         // follow each other, that is off by one per cent.
         let deck = SLIDING

@@ -174,10 +174,10 @@ impl Check<'_> {
         match next {
             Some((face, stand)) => touches.push(self.held(face, stand, allowed * FADE)),
             // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
-            None if slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs() => {
-                if self.in_reach(old, &stand, allowed) {
-                    touches.push(self.held(old, stand, allowed * FADE));
-                }
+            None if (slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs())
+                && self.in_reach(old, &stand, allowed) =>
+            {
+                touches.push(self.held(old, stand, allowed * FADE));
             }
             None => (),
         }

@@ -79,7 +79,7 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
         normal = blended;
         gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
     }
-    gap.is_finite().then(|| Stand { gap, normal, weights, outside, sector })
+    gap.is_finite().then_some(Stand { gap, normal, weights, outside, sector })
 }
 
 /// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
