@@ -30,7 +30,7 @@ mpi: needed            # the program with MPI, or the reason why not
 bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench
 
-verify: needed         # the problems with known answers only, with what they found
+verify: needed         # the problems with known answers only, at full size, with what they found
 	cargo test --release --test 'verif*' -- --nocapture --include-ignored
 
 man: build             # man pages from the option table and the grammar

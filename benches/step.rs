@@ -47,25 +47,16 @@ const ASSUMED: Hourglass = Hourglass::AssumedStrain { factor: 1.0 };
 
 fn model(law: Law, hourglass: Hourglass) -> Model {
     Model {
-        title: String::new(),
         termination_time: 1e9,
         output_interval: 1e9,
         plot: PlotSchedule { interval: None, start: 0.0, stop: 0.0 },
         time_step: TimeStepControl { scale: 0.9, softening: 1.0, growth: 1.1, moduli: StepModuli::Elastic },
         bulk_viscosity: BulkViscosity { linear: 0.06, quadratic: 1.2 },
         hourglass,
-        functions: vec![],
         materials: vec![BlockMaterial { block: 1, density: 1.0, law }],
         no_displacements: vec![NoDisplacement { direction: Direction::X, node_set: 1 }],
-        prescribed_motions: vec![],
-        prescribed_forces: vec![],
-        pressures: vec![],
-        gravities: vec![],
         initial_velocities: vec![InitialVelocity::Material { block: 1, velocity: [1e-2, 3e-3, 0.0] }],
-        rigid_surfaces: vec![],
-        contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
-        deaths: vec![],
-        plot_requests: PlotRequests::default(),
+        ..Model::default()
     }
 }
 
@@ -148,7 +139,7 @@ fn laws() {
         ("elastic plastic, F.-B.", plastic(), 1, FB),
         ("elastic plastic, assumed strain", plastic(), 1, ASSUMED),
     ] {
-        let time = |set: InstructionSet| grind(n, law, hourglass, set, 1);
+        let time = |set: InstructionSet| grind(n, law.clone(), hourglass, set, 1);
         let wide = if widest == InstructionSet::Avx512 { time(InstructionSet::Avx512) } else { f64::NAN };
         let half = if widest != InstructionSet::Portable { time(InstructionSet::Avx2) } else { f64::NAN };
         let portable = time(InstructionSet::Portable);

@@ -22,6 +22,8 @@ PLOT NODAL, DISPLACEMENT, VELOCITY, ACCELERATION, REACTION
 PLOT ELEMENT, STRESS, STRAIN, PRESSURE, VONMISES, *
               ENERGY, DENSITY
 PLOT STATE, EQPS
+MATERIAL POINT, 2.E-3, 2.E-3, 1.E-3                 $ near the floor
+MATERIAL POINT, 2.E-3, 2.E-3, 39.E-3                $ near the top
 
 FUNCTION, 1              $ a ramp, then constant
 0.,      0.
@@ -65,5 +67,6 @@ PRESCRIBED ACCELERATION, X, 1, 1, 1.E5
 PRESCRIBED VELOCITY, Y, 5, 1, 2.
 PRESCRIBED FORCE, X, 5, 1, 10.
 PRESSURE, 300, 1, 1.E6
+SILENT BC, 200                                      $ waves may leave through the top
 GRAVITY, 0., 0., -9.81, 2
 EXIT

@@ -267,7 +267,8 @@ fn completions_are_made() {
 #[test]
 fn an_inverted_element_ends_the_run_with_its_name_and_advice() {
     let desk = Desk::new();
-    let crush = "NO DISPLACEMENT, Z, 3\nFUNCTION, 1\n0., 0.\n1.E-6, 1.\nEND\nPRESCRIBED DISPLACEMENT, Z, 4, 1, -0.03\n";
+    let crush = "NO DISPLACEMENT, Z, 3\nFUNCTION, 1\n0., 0.\n1.E-6, 1.\nEND\nPRESCRIBED DISPLACEMENT, Z, 4, 1, -0.03\n\
+                 MATERIAL POINT, 0., 0., 0.04\n";
     put_bar(&desk, 1e-4, crush);
     let left = desk.urto(&["bar.i", "--quiet", "--ranks", "3"]).with(1);
     left.says(&["stopped at step", "time", "element ", "of block 1", "at (", "help: "]);
@@ -278,6 +279,7 @@ fn an_inverted_element_ends_the_run_with_its_name_and_advice() {
         assert!(log.contains(words), "{words} is not in\n{log}");
     }
     last_state_is_that_of_the_log(&desk);
+    assert_eq!(desk.results("bar.h").times().last(), desk.results("bar.e").times().last(), "histories end there too");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 #[path = "formats/compare.rs"]
 mod compare;
+#[path = "formats/genesis.rs"]
+mod genesis;
 #[path = "formats/kill.rs"]
 mod kill;
 #[path = "formats/support.rs"]

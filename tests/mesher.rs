@@ -319,7 +319,9 @@ fn the_meshes_that_are_provided() {
         ("bending_beam_4", 41 * 2 * 5, 160, &[(1, 10), (2, 2), (3, 410)], &[(100, 40)]),
         ("bending_beam_scaled", 61 * 19 * 7, 6480, &[(1, 133), (2, 19), (3, 2 * 61 * 7)], &[(100, 1080)]),
         ("block", 125, 64, &[(1, 125)], &[(100, 96)]),
-        ("can", 10088, 7152, &[(1, 444), (100, 164)], &[(4, 120), (10, 3680), (20, 1904)]),
+        ("brick_wall", 11765, 8400, &[], &[]),
+        ("can_crush", 10088, 7152, &[(1, 444), (100, 164)], &[(4, 120), (10, 3680), (20, 1904)]),
+        ("can_crush_paper", 10088, 7152, &[(1, 444), (100, 164)], &[(4, 120), (10, 3680), (20, 1904)]),
         ("cantilever", 44, 10, &[(1, 4), (2, 4), (3, 44)], &[(100, 1), (200, 10)]),
         ("commands", 81, 32, &[(1, 27), (2, 27), (3, 9), (4, 9), (5, 9)], &[(100, 4), (200, 4), (300, 16)]),
         ("patch_test", 16, 7, &[(1, 8), (2, 8)], &[(100, 6)]),
@@ -347,7 +349,7 @@ fn the_meshes_that_are_provided() {
 
 #[test]
 fn the_can_and_its_plate_have_the_bounds_of_the_sample() {
-    let mesh = provided("can", 1);
+    let mesh = provided("can_crush", 1);
     let bounds = [0, 1, 2].map(|i| {
         let values = mesh.coordinates.iter().map(|x| x[i]);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))

@@ -147,6 +147,11 @@ fn every_command() {
 }
 
 #[test]
+fn every_material() {
+    on_any_number_of_ranks(&desk(&text("decks/materials.i"), "meshes/materials.mesh"));
+}
+
+#[test]
 fn swinging_cantilever() {
     on_any_number_of_ranks(&cantilever());
 }

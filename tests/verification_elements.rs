@@ -5,8 +5,7 @@ use urto::comm::Serial;
 use urto::material::{Elastic, Law};
 use urto::mesh::{Block, Mesh};
 use urto::model::{
-    BlockMaterial, BulkViscosity, Hourglass, InitialVelocity, Model, PlotRequests, PlotSchedule, StepModuli,
-    TimeStepControl,
+    BlockMaterial, BulkViscosity, Hourglass, InitialVelocity, Model, PlotSchedule, StepModuli, TimeStepControl,
 };
 use urto::partition::Decomposition;
 use urto::solver::elements::hex8::rows;
@@ -42,32 +41,22 @@ fn cube(n: usize) -> Mesh {
 /// Steel that flies and spins.
 fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Model {
     Model {
-        title: String::new(),
         termination_time: 1.0,
         output_interval: 1.0,
         plot: PlotSchedule { interval: None, start: 0.0, stop: 1.0 },
         time_step: TimeStepControl { scale, softening: 1.0, growth: 1.05, moduli: StepModuli::Elastic },
         bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
         hourglass,
-        functions: Vec::new(),
         materials: vec![BlockMaterial {
             block: 1,
             density: DENSITY,
             law: Law::Elastic(Elastic { young: 200e9, poisson: 0.3 }),
         }],
-        no_displacements: Vec::new(),
-        prescribed_motions: Vec::new(),
-        prescribed_forces: Vec::new(),
-        pressures: Vec::new(),
-        gravities: Vec::new(),
         initial_velocities: vec![
             InitialVelocity::Material { block: 1, velocity },
             InitialVelocity::Angular { block: 1, omega, point: [0.0; 3], axis: [0.0, 0.0, 1.0] },
         ],
-        rigid_surfaces: Vec::new(),
-        contact: Contact { materials: None, surfaces: vec![], data: vec![], control: ContactControl::default() },
-        deaths: vec![],
-        plot_requests: PlotRequests::default(),
+        ..Model::default()
     }
 }
 

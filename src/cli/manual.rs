@@ -101,7 +101,7 @@ The deck, see
 .BR urto\-deck (5).
 .TP
 .B BASE.g
-The mesh: EXODUS II (GENESIS) with eight\-node hexahedra, in any netCDF format.
+The mesh: GENESIS with eight\-node hexahedra, EXODUS II in any netCDF format, or EXODUS I.
 .TP
 .B BASE.mesh
 A recipe, from which
@@ -117,6 +117,10 @@ Older ones are kept as BASE.o.1, BASE.o.2 and so on.
 The plot states, EXODUS II: for ParaView, VTK, netCDF and
 .BR "urto view" .
 It can be read at any instant, also while the run goes on and after it was killed.
+.TP
+.B BASE.h
+Histories of the points of MATERIAL POINT, if the deck has any: an EXODUS file of the watched elements, with one state per
+OUTPUT TIME and global variables such as SIGZZ_1.
 .TP
 .B BASE.shutdown
 When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one

@@ -92,7 +92,7 @@ fn base(asked: Option<&Path>, deck: &Path) -> PathBuf {
         None => PathBuf::from(name),
         Some(folder) if folder.is_dir() || folder.as_os_str().to_string_lossy().ends_with('/') => folder.join(name),
         // The name of one of the files names them all.
-        Some(file) if file.extension().is_some_and(|suffix| ["e", "o", "i", "g"].iter().any(|s| suffix == *s)) => {
+        Some(file) if file.extension().is_some_and(|suffix| ["e", "o", "i", "g", "h"].iter().any(|s| suffix == *s)) => {
             file.with_extension("")
         }
         Some(base) => base.to_path_buf(),

@@ -10,7 +10,7 @@ use super::{
     source::Source,
     spelling::{self, Spelled},
 };
-use crate::material::MATERIALS;
+use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
 
 /// Nothing is known by these words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +31,7 @@ fn hint(near: &Option<String>) -> String {
 enum Topic {
     Entry(usize),
     Material(usize),
+    Equation(usize),
 }
 
 /// The text about a command or a material model, which may be abbreviated. A property, a state variable or a plot
@@ -83,6 +84,7 @@ fn page_of(topic: Topic) -> Page {
     match topic {
         Topic::Entry(index) => page::of_entry(&language().entries[index]),
         Topic::Material(index) => page::of_material(MATERIALS[index]),
+        Topic::Equation(index) => page::of_equation(EQUATIONS_OF_STATE[index]),
     }
 }
 
@@ -93,6 +95,9 @@ fn parts() -> Vec<(&'static str, Topic)> {
     for (i, material) in MATERIALS.iter().enumerate() {
         parts.extend(material.properties.iter().map(|p| (p.keyword, Topic::Material(i))));
         parts.extend(material.state.iter().map(|v| (v.name, Topic::Material(i))));
+    }
+    for (i, equation) in EQUATIONS_OF_STATE.iter().enumerate() {
+        parts.extend(equation.properties.iter().map(|p| (p.keyword, Topic::Equation(i))));
     }
     for (i, entry) in language().entries.iter().enumerate().filter(|(_, e)| e.name.starts_with("PLOT ")) {
         for rule in &entry.fields {
@@ -131,7 +136,11 @@ fn topics() -> impl Iterator<Item = (&'static str, Topic)> {
     let materials = materials.flat_map(|(i, m)| {
         std::iter::once(m.name).chain(m.aliases.iter().copied()).map(move |name| (name, Topic::Material(i)))
     });
-    entries.chain(materials)
+    let equations = EQUATIONS_OF_STATE.iter().enumerate();
+    let equations = equations.flat_map(|(i, e)| {
+        std::iter::once(e.name).chain(e.aliases.iter().copied()).map(move |name| (name, Topic::Equation(i)))
+    });
+    entries.chain(materials).chain(equations)
 }
 
 /// The entries whose names begin with these words.
@@ -157,6 +166,10 @@ fn overview() -> String {
     }
     for entry in language().entries.iter().filter(|e| e.form == Form::Material) {
         text += &line(entry);
+    }
+    text += "\nequations of state\n";
+    for equation in EQUATIONS_OF_STATE {
+        let _ = writeln!(text, "   {:<28}{}", equation.name, equation.summary);
     }
     text += "\n * known, but not built yet. `urto explain 'PLOT TIME'` tells more of a command.\n";
     text
@@ -225,12 +238,13 @@ mod tests {
     fn a_material_is_explained_with_properties_and_state() {
         let text = explain("ELASTIC PLASTIC").expect("a material");
         assert!(text.contains("YIELD STRESS") && text.contains("EQPS"), "{text}");
-        assert!(explain("LOW DENSITY FOAM").expect("planned").contains("not built yet"));
+        assert!(explain("CRUSHED SALT").expect("planned").contains("not built yet"));
     }
 
     #[test]
     fn what_stands_on_a_page_leads_there() {
-        assert!(explain("EQPS").is_ok_and(|page| page.starts_with("ELASTIC PLASTIC\n")));
+        assert!(explain("ALPHA11").is_ok_and(|page| page.starts_with("ELASTIC PLASTIC\n")));
+        assert!(explain("EQPS").is_ok_and(|list| list.contains("   ELASTIC PLASTIC ")));
         assert!(explain("sigxx").is_ok_and(|page| page.starts_with("PLOT ELEMENT\n")));
         let pages = explain("POISSONS RATIO").expect("a property");
         assert!(pages.contains("   ELASTIC ") && pages.contains("   ELASTIC PLASTIC "), "{pages}");
@@ -239,7 +253,7 @@ mod tests {
     #[test]
     fn beginnings_list_and_unknown_words_hint() {
         assert_eq!(explain("TIME STEP").map(|text| text.lines().count()), Ok(3));
-        assert!(explain("").expect("the list").contains(" * DEATH"));
+        assert!(explain("").expect("the list").contains(" * THICKNESS SCALE"));
         assert_eq!(explain("PLOT TIEM").map_err(|e| e.near), Err(Some("PLOT TIME".into())));
         assert_eq!(explain("VELOCTY").map_err(|e| e.near), Err(Some("VELOCITY".into())));
         let message = explain("FROBNICATE").map_err(|e| e.to_string());

@@ -179,6 +179,7 @@ pub(crate) fn range_in_words(range: Range) -> Option<String> {
         Range::Any => None,
         Range::Positive => Some("greater than 0".into()),
         Range::NotNegative => Some("0 or more".into()),
+        Range::Function => Some("the number of a function".into()),
         Range::Between { low: (low, true), high: (high, true) } => Some(format!("from {low} to {high}")),
         Range::Between { low, high } => {
             let low = format!("{} {}", if low.1 { "at least" } else { "greater than" }, low.0);

@@ -20,7 +20,7 @@
 //! example   PRESSURE, 100, 1                one line of an example
 //! see       GRAVITY, RIGID SURFACE
 //! from      verified | recalled | ours
-//! status    planned physics | planned output | refused <why>
+//! status    planned physics | planned output | refused <why> | idle <why>
 //! ```
 //!
 //! A field's name may end in `...`: it takes all fields that are left. Its default is `required`, `optional`, a value,
@@ -101,6 +101,8 @@ pub enum Status {
     },
     /// It never will, and why.
     Refused(String),
+    /// It is read and checked, but changes nothing, and why.
+    Idle(String),
 }
 
 /// What a field may hold.
@@ -402,6 +404,7 @@ fn status(text: &str) -> Result<Status, String> {
         Some(("planned", "physics")) => Ok(Status::Planned { physics: true }),
         Some(("planned", "output")) => Ok(Status::Planned { physics: false }),
         Some(("refused", why)) => Ok(Status::Refused(why.to_string())),
+        Some(("idle", why)) => Ok(Status::Idle(why.to_string())),
         _ => Err(format!("unknown status `{text}`")),
     }
 }

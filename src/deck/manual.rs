@@ -8,7 +8,7 @@ use super::{
     language,
     page::{self, Body, Page},
 };
-use crate::material::MATERIALS;
+use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
 
 /// What stands before the commands: the rules of writing.
 const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"
@@ -125,6 +125,7 @@ pub fn manual() -> String {
         let mut pages = pages_of(grammar, family);
         if *family == "material" {
             pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
+            pages.extend(EQUATIONS_OF_STATE.iter().map(|e| page::of_equation(e)));
         }
         text += &chapter(heading, &pages);
     }
@@ -169,6 +170,7 @@ fn not_built(grammar: &Grammar) -> String {
         let why = match &entry.status {
             Status::Planned { physics: false } => " Changes only what is written.",
             Status::Refused(_) => " Will not be built.",
+            Status::Idle(_) => " Read, but changes nothing.",
             _ => "",
         };
         let _ = write!(text, ".TP\n.B {}{what}\n{}{why}\n", escape(&entry.name), escape(&entry.does));

@@ -4,7 +4,7 @@ use super::{
     fields::range_in_words,
     grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
 };
-use crate::material::{self, MATERIALS, Origin, Property};
+use crate::material::{self, EQUATIONS_OF_STATE, EquationOfState, MATERIALS, Origin, Property};
 
 /// A page about one entry.
 pub(super) struct Page {
@@ -58,10 +58,10 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
         }
         _ => (),
     }
-    let models: Vec<(String, String)> = if entry.name == "MATERIAL" {
-        MATERIALS.iter().map(|m| (m.name.to_string(), m.summary.to_string())).collect()
-    } else {
-        Vec::new()
+    let models: Vec<(String, String)> = match entry.name.as_str() {
+        "MATERIAL" => MATERIALS.iter().map(|m| (m.name.to_string(), m.summary.to_string())).collect(),
+        "EQUATION OF STATE" => EQUATIONS_OF_STATE.iter().map(|e| (e.name.to_string(), e.summary.to_string())).collect(),
+        _ => Vec::new(),
     };
     let summary = match &entry.status {
         Status::Built => entry.does.clone(),
@@ -72,6 +72,7 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
             format!("{} Known, but not built yet: a deck with it runs without it.", entry.does)
         }
         Status::Refused(why) => format!("{} Refused: {why}.", entry.does),
+        Status::Idle(why) => format!("{} Changes nothing: {why}.", entry.does),
     };
     Page::new(
         &entry.name,
@@ -92,7 +93,17 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
 
 /// The page of a material model.
 pub(super) fn of_material(entry: &material::Entry) -> Page {
-    let mut form = vec![format!("MATERIAL, block, {}, density", entry.name)];
+    of_properties(entry, format!("MATERIAL, block, {}, density", entry.name), "MATERIAL, PLOT STATE")
+}
+
+/// The page of an equation of state.
+pub(super) fn of_equation(entry: &material::Entry<EquationOfState>) -> Page {
+    of_properties(entry, format!("EQUATION OF STATE, block, {}", entry.name), "EQUATION OF STATE")
+}
+
+/// The page of a thing with properties: the first line of its group, and what else to read.
+fn of_properties<T>(entry: &material::Entry<T>, first: String, see: &str) -> Page {
+    let mut form = vec![first];
     form.extend(entry.properties.iter().map(|p| match p.default {
         None => format!("{} = {}", p.keyword, p.symbol),
         Some(default) => format!("{} = <{} [{default:?}]>", p.keyword, p.symbol),
@@ -107,7 +118,7 @@ pub(super) fn of_material(entry: &material::Entry) -> Page {
             ("Properties", Body::Terms(entry.properties.iter().map(property).collect())),
             ("State variables, for PLOT STATE", Body::Terms(state)),
             ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
-            ("See also", Body::Text(vec!["MATERIAL, PLOT STATE".into()])),
+            ("See also", Body::Text(vec![see.into()])),
             (SPELLING, Body::Text(vec![origin(entry.origin).to_string()])),
         ],
     )

@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         let span = record.fields[..words].iter().map(|f| f.span).reduce(Span::join).unwrap_or_default();
         let mut card =
             Card { name: entry.name.clone(), span, record: record.span(), complete: sure, ..Card::default() };
-        if entry.status == Status::Built {
+        if matches!(entry.status, Status::Built | Status::Idle(_)) {
             let owner = self.owner(entry, &record.fields[words..]);
             let syntax = entry.syntax();
             let end = Span { start: card.record.end, end: card.record.end };
@@ -338,6 +338,7 @@ fn unbuilt(entry: &Entry) -> Diagnostic {
             let advice = entry.notes.iter();
             advice.fold(Diagnostic::error(format!("{name}: {why}")), |d, note| d.help(note.trim_end_matches('.')))
         }
+        Status::Idle(why) => Diagnostic::warning(format!("{name} changes nothing: {why}")),
         Status::Planned { physics: false } => {
             Diagnostic::warning(format!("{name} is known, but not built yet: the run goes on without it"))
                 .help("the results do not change, only what is written")

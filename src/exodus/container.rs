@@ -70,6 +70,15 @@ pub fn inspect(path: &Path) -> io::Result<Container> {
         },
         [0x89, b'H', b'D', b'F'] => Container::Hdf5,
         [0, 0, 0, 80] | [80, 0, 0, 0] => Container::FortranRecords,
+        [0, 0, 0, 0] => {
+            // The upper half of a mark of eight bytes.
+            let mut rest = Vec::new();
+            reader.take(4).read_to_end(&mut rest)?;
+            match rest.as_slice() {
+                [0, 0, 0, 80] => Container::FortranRecords,
+                _ => Container::Unknown("it is not a netCDF file".into()),
+            }
+        }
         [] => Container::Unknown("it is empty".into()),
         _ => Container::Unknown("it is not a netCDF file".into()),
     })

@@ -1,4 +1,4 @@
-//! EXODUS II files: meshes read and written, results appended, read and compared. Bytes become arrays here; nothing
+//! EXODUS II files, and meshes of EXODUS I: meshes read and written, results appended, read and compared. Bytes become arrays here; nothing
 //! here knows mechanics.
 //!
 //! A mesh is read in two steps: the file's arrays as they stand ([`tables`]), then, after every check, a
@@ -9,6 +9,7 @@ mod arrays;
 mod compare;
 pub mod container;
 mod error;
+mod genesis;
 mod names;
 mod read;
 mod results;

@@ -1,13 +1,15 @@
 //! An EXODUS II or GENESIS file becomes a mesh.
 //!
 //! The file is read to the format's conventions, whichever program wrote it: any netCDF container, packed or separate
-//! coordinates, integers and reals of any width, missing maps and names, null blocks and sets.
+//! coordinates, integers and reals of any width, missing maps and names, null blocks and sets. Files of old, in FORTRAN
+//! records, are the business of [`genesis`].
 
 use std::path::Path;
 
 use super::arrays::Arrays;
 use super::container::{Container, inspect};
 use super::error::MeshError;
+use super::genesis;
 use super::names::{self, Family};
 use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
 use crate::mesh::Mesh;
@@ -27,6 +29,9 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
 
 /// Reads a mesh whose geometry nobody needs to compute with, as that of a results file.
 pub(super) fn read_mesh_unchecked(path: &Path) -> Result<Mesh, MeshError> {
+    if matches!(inspect(path), Ok(Container::FortranRecords)) {
+        return genesis::read(path)?.assemble().map_err(|problems| MeshError { path: path.to_owned(), problems });
+    }
     assemble(path, &open(path)?)
 }
 
@@ -46,7 +51,7 @@ pub(super) fn open(path: &Path) -> Result<Arrays, MeshError> {
     match &container {
         Container::FortranRecords => {
             return Err(refuse(
-                "this is an EXODUS I file (Fortran records), which urto does not read yet",
+                "this is an EXODUS I file (Fortran records), of which urto reads the mesh, but no results",
                 "convert it to EXODUS II, for example with ex1ex2v2",
             ));
         }

@@ -3,7 +3,7 @@
 //! SAFETY, for the whole file: as in `avx512.rs`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the four
 //! numbers from `part · 4` lie inside a row of eight; slicing checks it.
 
-use super::{CHUNK, Force, Lanes, Row};
+use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -74,6 +74,27 @@ impl Lanes for F64x4 {
     #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         F64x4(unsafe { _mm256_blendv_pd(no.0, yes.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) })
+    }
+    #[inline(always)]
+    fn any_less(a: Self, b: Self) -> bool {
+        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) != 0 }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm256_castpd_si256(self.0);
+            let mantissa = _mm256_and_si256(bits, _mm256_set1_epi64x(MANTISSA_BITS as i64));
+            let one = _mm256_castpd_si256(_mm256_set1_pd(1.0));
+            let whole = _mm256_castpd_si256(_mm256_set1_pd(WHOLE));
+            let exponent = _mm256_castsi256_pd(_mm256_or_si256(_mm256_srli_epi64::<52>(bits), whole));
+            let exponent = F64x4(exponent) - F64x4::splat(WHOLE + BIAS);
+            (F64x4(_mm256_castsi256_pd(_mm256_or_si256(mantissa, one))), exponent)
+        }
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        let shifted = self + F64x4::splat(WHOLE + BIAS);
+        F64x4(unsafe { _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(shifted.0))) })
     }
     #[inline(always)]
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {

@@ -7,7 +7,7 @@
 //! kernels that `solver::elements` enters after [`super::InstructionSet::detect`] has found these features. Loads
 //! and stores go through references to eight numbers, so they stay inside their object.
 
-use super::{CHUNK, Force, Lanes, Row};
+use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -63,6 +63,27 @@ impl Lanes for F64x8 {
     #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         F64x8(unsafe { _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0), no.0, yes.0) })
+    }
+    #[inline(always)]
+    fn any_less(a: Self, b: Self) -> bool {
+        unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a.0, b.0) != 0 }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm512_castpd_si512(self.0);
+            let mantissa = _mm512_and_si512(bits, _mm512_set1_epi64(MANTISSA_BITS as i64));
+            let one = _mm512_castpd_si512(_mm512_set1_pd(1.0));
+            let whole = _mm512_castpd_si512(_mm512_set1_pd(WHOLE));
+            let exponent = _mm512_castsi512_pd(_mm512_or_si512(_mm512_srli_epi64::<52>(bits), whole));
+            let exponent = F64x8(exponent) - F64x8::splat(WHOLE + BIAS);
+            (F64x8(_mm512_castsi512_pd(_mm512_or_si512(mantissa, one))), exponent)
+        }
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        let shifted = self + F64x8::splat(WHOLE + BIAS);
+        F64x8(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(shifted.0))) })
     }
 
     /// Eight rows, one per lane, transposed in registers: 8 loads and 24 shuffles.

@@ -36,6 +36,7 @@ pub(crate) use array;
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod functions;
 mod portable;
 mod tensor;
 #[cfg(test)]
@@ -45,6 +46,7 @@ mod tests;
 pub(crate) use avx2::F64x4;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::F64x8;
+pub use functions::{exp, ln, power};
 pub use portable::Pair;
 pub use tensor::{Matrix3, Sym3, multiply, multiply_transposed};
 
@@ -97,12 +99,27 @@ pub trait Lanes:
     fn max(self, other: Self) -> Self;
     /// `yes` where `a < b`, else `no` (also where one is NaN).
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
+    /// Whether `a < b` in any lane. Only to leave out work whose result no lane would take.
+    fn any_less(a: Self, b: Self) -> bool;
+    /// A positive normal number x as m · 2ⁿ with 1 ≤ m < 2: m and n.
+    fn split_exponent(self) -> (Self, Self);
+    /// 2ⁿ of a whole number n from −1022 to 1023.
+    fn power_of_two(self) -> Self;
     /// Fetches the rows named by one part of `index` and turns them: component `c` of the result holds number `c`
     /// of every fetched row.
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8];
     /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
     fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize);
 }
+
+/// Bits of the part of a double that is not its exponent.
+const MANTISSA_BITS: u64 = 0x000f_ffff_ffff_ffff;
+
+/// 2⁵²: from here to its double, doubles are the whole numbers, with the number in the last bits.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// Exponent that stands for 2⁰.
+const BIAS: f64 = 1023.0;
 
 /// Instruction sets for which kernels are compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

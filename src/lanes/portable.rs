@@ -1,6 +1,6 @@
 //! Lanes on any machine: two numbers side by side, or a single one (for tests and set-up).
 
-use super::{CHUNK, Force, Lanes, Row};
+use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Two lanes without a promise of vector instructions; compilers find those that every 64-bit processor has. More
@@ -58,6 +58,19 @@ impl Lanes for Pair {
         Pair([f64::select_less(a.0[0], b.0[0], yes.0[0], no.0[0]), f64::select_less(a.0[1], b.0[1], yes.0[1], no.0[1])])
     }
     #[inline(always)]
+    fn any_less(a: Self, b: Self) -> bool {
+        a.0[0] < b.0[0] || a.0[1] < b.0[1]
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        let [(m0, e0), (m1, e1)] = [self.0[0].split_exponent(), self.0[1].split_exponent()];
+        (Pair([m0, m1]), Pair([e0, e1]))
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        Pair([self.0[0].power_of_two(), self.0[1].power_of_two()])
+    }
+    #[inline(always)]
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {
         let (first, second) = (&rows[index[2 * part] as usize].0, &rows[index[2 * part + 1] as usize].0);
         array![c in 8 => Pair([first[c], second[c]])]
@@ -99,6 +112,20 @@ impl Lanes for f64 {
     #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         if a < b { yes } else { no }
+    }
+    #[inline(always)]
+    fn any_less(a: Self, b: Self) -> bool {
+        a < b
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        let mantissa = f64::from_bits((bits & MANTISSA_BITS) | 1f64.to_bits());
+        (mantissa, f64::from_bits((bits >> 52) | WHOLE.to_bits()) - (WHOLE + BIAS))
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        f64::from_bits((self + (WHOLE + BIAS)).to_bits() << 52)
     }
     #[inline(always)]
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {

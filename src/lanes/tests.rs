@@ -40,7 +40,7 @@ fn bits(x: f64) -> u64 {
 /// Result of every operation on all lanes of rows a, b, c: what the vector type stores, part after part.
 #[inline(always)]
 fn operate<V: Lanes>(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
-    let mut out = vec![Row::default(); 11];
+    let mut out = vec![Row::default(); 18];
     for part in 0..CHUNK / V::COUNT {
         let (x, y, z) = (V::load(a, part), V::load(b, part), V::load(c, part));
         let results = [
@@ -56,6 +56,13 @@ fn operate<V: Lanes>(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
             // Fused, this would differ in the last place.
             x * y + z,
             V::splat(0.1) * x - y * z,
+            exp(x),
+            ln(x),
+            power(y, 0.26),
+            x.max(V::splat(f64::MIN_POSITIVE)).split_exponent().0,
+            x.max(V::splat(f64::MIN_POSITIVE)).split_exponent().1,
+            ((z.max(V::splat(-100.0)).min(V::splat(100.0)) + V::splat(1e16)) - V::splat(1e16)).power_of_two(),
+            V::splat(f64::from(u8::from(V::any_less(V::splat(f64::NAN), x) || V::any_less(x, x)))),
         ];
         for (row, result) in out.iter_mut().zip(results) {
             result.store(row, part);
@@ -86,6 +93,12 @@ fn turn<V: Lanes>(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8];
     (components, forces)
 }
 
+/// Whether any lane of any part of a is less than that of b.
+#[inline(always)]
+fn any<V: Lanes>(a: &Row, b: &Row) -> bool {
+    (0..CHUNK / V::COUNT).any(|part| V::any_less(V::load(a, part), V::load(b, part)))
+}
+
 #[cfg(target_arch = "x86_64")]
 mod wide {
     use super::*;
@@ -98,6 +111,14 @@ mod wide {
     #[target_feature(enable = "avx2")]
     pub unsafe fn operate256(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
         operate::<F64x4>(a, b, c)
+    }
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    pub unsafe fn any512(a: &Row, b: &Row) -> bool {
+        any::<F64x8>(a, b)
+    }
+    #[target_feature(enable = "avx2")]
+    pub unsafe fn any256(a: &Row, b: &Row) -> bool {
+        any::<F64x4>(a, b)
     }
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
     pub unsafe fn turn512(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8]; CHUNK]) {
@@ -121,6 +142,22 @@ fn all_operate(a: &Row, b: &Row, c: &Row) -> Vec<Vec<Row>> {
         if InstructionSet::widest() == InstructionSet::Avx512 {
             // SAFETY: detected.
             all.push(unsafe { wide::operate512(a, b, c) });
+        }
+    }
+    all
+}
+
+fn all_any(a: &Row, b: &Row) -> Vec<bool> {
+    let mut all = vec![any::<f64>(a, b), any::<Pair>(a, b)];
+    #[cfg(target_arch = "x86_64")]
+    {
+        if InstructionSet::widest() != InstructionSet::Portable {
+            // SAFETY: detected.
+            all.push(unsafe { wide::any256(a, b) });
+        }
+        if InstructionSet::widest() == InstructionSet::Avx512 {
+            // SAFETY: detected.
+            all.push(unsafe { wide::any512(a, b) });
         }
     }
     all
@@ -175,6 +212,20 @@ fn selection_takes_the_second_when_in_doubt() {
         assert_eq!(f64::select_less(a, b, 5.0, 7.0), 7.0);
     }
     assert_eq!(f64::select_less(f64::NEG_INFINITY, -1e300, 5.0, 7.0), 5.0);
+}
+
+/// One lane of a whole vector is enough, wherever it stands.
+#[test]
+fn any_lane_counts() {
+    for lane in 0..CHUNK {
+        let mut row = Row([2.0; CHUNK]);
+        row.0[lane] = 0.5;
+        let (one, two) = (Row([1.0; CHUNK]), Row([2.0; CHUNK]));
+        for (a, any) in [(&row, true), (&two, false)] {
+            let found: Vec<bool> = all_any(a, &one);
+            assert!(found.iter().all(|&f| f == any), "{found:?} in lane {lane}");
+        }
+    }
 }
 
 #[test]

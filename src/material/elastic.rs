@@ -1,6 +1,7 @@
 //! ELASTIC: isotropic hypoelasticity in the unrotated frame.
 
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response};
+use super::property::STRESS;
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 /// Isotropic linear elasticity, σ̇ = λ tr(d) I + 2μ d in the unrotated frame.
@@ -16,24 +17,12 @@ pub struct Elastic {
 const POISSON_RANGE: Range = Range::Between { low: (-1.0, false), high: (0.5, false) };
 
 /// Young's modulus, for every law with elastic constants.
-pub(super) const YOUNGS_MODULUS: Property = Property {
-    keyword: "YOUNGS MODULUS",
-    symbol: "E",
-    dimension: "force/length^2",
-    range: Range::Positive,
-    default: None,
-    meaning: "Young's modulus.",
-};
+pub(super) const YOUNGS_MODULUS: Property =
+    Property::required("YOUNGS MODULUS", "E", STRESS, Range::Positive, "Young's modulus.");
 
 /// Poisson's ratio, for every law with elastic constants.
-pub(super) const POISSONS_RATIO: Property = Property {
-    keyword: "POISSONS RATIO",
-    symbol: "nu",
-    dimension: "-",
-    range: POISSON_RANGE,
-    default: None,
-    meaning: "Poisson's ratio.",
-};
+pub(super) const POISSONS_RATIO: Property =
+    Property::required("POISSONS RATIO", "nu", "-", POISSON_RANGE, "Poisson's ratio.");
 
 pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC",
@@ -88,10 +77,11 @@ impl Hooke {
 
 impl Kernel for Hooke {
     const STATE: &'static [&'static str] = &[];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
-        *stress = self.trial(strain, stress);
-        Response { returned: V::splat(1.0) }
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+        *stress = self.trial(&step.strain, stress);
+        Response::returned(V::splat(1.0))
     }
 }

@@ -1,7 +1,8 @@
 //! ELASTIC PLASTIC: von Mises plasticity with combined linear hardening.
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable};
+use super::property::STRESS;
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 /// J2 flow theory with linear isotropic and kinematic hardening.
@@ -19,38 +20,35 @@ pub struct ElasticPlastic {
     pub beta: f64,
 }
 
+/// Yield stress, for every law with one.
+pub(super) const YIELD_STRESS: Property =
+    Property::required("YIELD STRESS", "Y0", STRESS, Range::NotNegative, "Initial yield stress in uniaxial tension.");
+
+/// Linear hardening, for every law with it.
+pub(super) const HARDENING_MODULUS: Property = Property::required(
+    "HARDENING MODULUS",
+    "H",
+    STRESS,
+    Range::NotNegative,
+    "Slope of uniaxial stress against plastic strain.",
+)
+.or(0.0);
+
+/// Kind of hardening.
+const BETA: Property = Property::required(
+    "BETA",
+    "beta",
+    "-",
+    Range::Between { low: (0.0, true), high: (1.0, true) },
+    "1 for isotropic hardening, 0 for kinematic, linear between.",
+)
+.or(1.0);
+
 pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC PLASTIC",
     aliases: &["ELASTIC-PLASTIC"],
     summary: "Von Mises plasticity with linear hardening, isotropic, kinematic or combined.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        Property {
-            keyword: "YIELD STRESS",
-            symbol: "Y0",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: None,
-            meaning: "Initial yield stress in uniaxial tension.",
-        },
-        Property {
-            keyword: "HARDENING MODULUS",
-            symbol: "H",
-            dimension: "force/length^2",
-            range: Range::NotNegative,
-            default: Some(0.0),
-            meaning: "Slope of uniaxial stress against plastic strain.",
-        },
-        Property {
-            keyword: "BETA",
-            symbol: "beta",
-            dimension: "-",
-            range: Range::Between { low: (0.0, true), high: (1.0, true) },
-            default: Some(1.0),
-            meaning: "1 for isotropic hardening, 0 for kinematic, linear between.",
-        },
-    ],
+    properties: &[YOUNGS_MODULUS, POISSONS_RATIO, YIELD_STRESS, HARDENING_MODULUS, BETA],
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "RADIUS", meaning: "Radius of the yield surface in deviatoric stress space." },
@@ -152,12 +150,13 @@ struct Isotropic(Constants);
 
 impl Kernel for Isotropic {
     const STATE: &'static [&'static str] = &["EQPS"];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
         let common = &self.0;
         // (i) elastic predictor
-        let trial = common.elastic.trial(strain, stress);
+        let trial = common.elastic.trial(&step.strain, stress);
         let deviator = trial.deviator();
         // (ii) radius √⅔ (Y₀ + H ε̄ᵖ)
         let eqps = V::load(&state[0], part);
@@ -167,7 +166,7 @@ impl Kernel for Isotropic {
         let back = common.radial_return(&deviator, radius);
         *stress = trial.zip(deviator, |t, d| t - back.share * d);
         (eqps + V::splat(ROOT_TWO_THIRDS) * back.multiplier).store(&mut state[0], part);
-        Response { returned: V::splat(1.0) - back.share }
+        Response::returned(V::splat(1.0) - back.share)
     }
 }
 
@@ -180,12 +179,13 @@ struct Combined {
 
 impl Kernel for Combined {
     const STATE: &'static [&'static str] = &["EQPS", "ALPHA11", "ALPHA22", "ALPHA33", "ALPHA12", "ALPHA23", "ALPHA31"];
+    const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
         let common = &self.common;
         // (i) elastic predictor, seen from the back stress
-        let trial = common.elastic.trial(strain, stress);
+        let trial = common.elastic.trial(&step.strain, stress);
         let alpha = Sym3::load(&state[1..], part);
         let xi = trial.deviator().zip(alpha, |s, a| s - a);
         // (ii) radius √⅔ (Y₀ + β H ε̄ᵖ)
@@ -201,6 +201,6 @@ impl Kernel for Combined {
         for (row, value) in state[1..].iter_mut().zip(alpha.to_array()) {
             value.store(row, part);
         }
-        Response { returned: V::splat(1.0) - back.share }
+        Response::returned(V::splat(1.0) - back.share)
     }
 }

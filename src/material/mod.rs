@@ -5,16 +5,39 @@ use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 mod elastic;
 mod elastic_plastic;
+mod ep_hydrodynamic;
+mod equation_of_state;
+mod hydrodynamic;
+mod johnson_cook;
+mod low_density_foam;
+mod mooney_rivlin;
+mod orthotropic_crush;
+mod plastic;
+#[cfg(test)]
+mod point;
+mod power_hardening;
 mod property;
+mod soil;
 #[cfg(test)]
 mod tests;
+mod viscoplastic;
 
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;
-pub use property::{Origin, Property, Range, Refusal, StateVariable};
+pub use ep_hydrodynamic::ElasticPlasticHydrodynamic;
+pub use equation_of_state::{DetonationPoint, EQUATIONS_OF_STATE, EquationOfState, IdealGas, Jwl, PowerSeries, UsUp};
+pub use hydrodynamic::Hydrodynamic;
+pub use johnson_cook::JohnsonCook;
+pub use low_density_foam::LowDensityFoam;
+pub use mooney_rivlin::MooneyRivlin;
+pub use orthotropic_crush::OrthotropicCrush;
+pub use power_hardening::PowerHardening;
+pub use property::{Curve, Given, Origin, Property, Range, Refusal, StateVariable};
+pub use soil::Soil;
+pub use viscoplastic::Viscoplastic;
 
-/// Everything the deck, the manual and the plot file need to know of a law.
-pub struct Entry {
+/// Everything the deck, the manual and the plot file need to know of a law, or of another thing with properties.
+pub struct Entry<T = Law> {
     /// Name as spelled in the deck, e.g. `ELASTIC PLASTIC`.
     pub name: &'static str,
     /// Other spellings that are understood.
@@ -27,14 +50,14 @@ pub struct Entry {
     pub state: &'static [StateVariable],
     /// Where the deck form comes from.
     pub origin: Origin,
-    /// Makes the law from its parameter values, in the order of `properties`.
-    pub build: fn(&[f64]) -> Result<Law, Refusal>,
+    /// Makes the law from its parameter values, in the order of `properties`, and whatever else the deck gives it.
+    pub build: fn(&Given) -> Result<T, Refusal>,
 }
 
 macro_rules! laws {
     ($($module:ident :: $law:ident),+ $(,)?) => {
         /// Any constitutive law with its parameters.
-        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[derive(Debug, Clone, PartialEq)]
         pub enum Law { $(#[doc = stringify!($law)] $law($law),)+ }
 
         /// Every law there is.
@@ -50,13 +73,42 @@ macro_rules! laws {
             pub fn state(&self, stored: &[f64], frame: &Matrix3<f64>) -> Vec<f64> { match self { $(Law::$law(law) => law.state(stored, frame),)+ } }
             /// Hands the law's kernel to a visitor; a law with several kernels picks the cheapest that serves.
             pub fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output { match self { $(Law::$law(law) => law.accept(visitor),)+ } }
+            /// Stored state of an element before the first step, one value per name of the kernel's.
+            pub fn start(&self, element: &Start) -> Vec<f64> { self.accept(Starting(element)) }
             /// Parameter values in the order of the entry's properties.
             pub fn values(&self) -> Vec<f64> { match self { $(Law::$law(law) => law.values(),)+ } }
         }
     };
 }
 
-laws! { elastic::Elastic, elastic_plastic::ElasticPlastic }
+laws! {
+    elastic::Elastic,
+    elastic_plastic::ElasticPlastic,
+    power_hardening::PowerHardening,
+    viscoplastic::Viscoplastic,
+    johnson_cook::JohnsonCook,
+    hydrodynamic::Hydrodynamic,
+    ep_hydrodynamic::ElasticPlasticHydrodynamic,
+    soil::Soil,
+    low_density_foam::LowDensityFoam,
+    orthotropic_crush::OrthotropicCrush,
+    mooney_rivlin::MooneyRivlin,
+}
+
+// Here, because the list of laws that it makes needs the macro above.
+#[cfg(test)]
+mod adding;
+
+impl Law {
+    /// The equation of state of a law that has one.
+    pub fn equation_of_state(&self) -> Option<&EquationOfState> {
+        match self {
+            Law::Hydrodynamic(law) => Some(&law.equation),
+            Law::ElasticPlasticHydrodynamic(law) => Some(&law.equation),
+            _ => None,
+        }
+    }
+}
 
 /// Isotropic elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,22 +137,101 @@ impl Moduli {
     }
 }
 
+/// An element as a law may look at it before the first step.
+#[derive(Debug, Clone, Copy)]
+pub struct Start {
+    /// Mean of its corners.
+    pub centre: [f64; 3],
+    /// Its volume V₀.
+    pub volume: f64,
+    /// Its frame; columns are its axes.
+    pub frame: Matrix3<f64>,
+}
+
+/// What happened to a material point in a step. A law that does not look at a quantity does not pay for it.
+#[derive(Debug, Clone, Copy)]
+pub struct Step<V> {
+    /// Strain increment Δt d, seen in the frame.
+    pub strain: Sym3<V>,
+    /// Right stretch U at the end of the step, seen in the frame.
+    pub stretch: Sym3<V>,
+    /// V/V₀ at the end of the step; 1 for laws without [`Kernel::VOLUME`].
+    pub volume: V,
+    /// V/V₀ in the middle of the step.
+    pub middle_volume: V,
+    /// Internal energy and that taken up by bulk viscosity before the step, per initial volume, from zero at the start.
+    pub energy: V,
+    /// Bulk viscosity of the step before, as a mean stress.
+    pub viscous: V,
+    /// Time at the end of the step.
+    pub time: f64,
+    /// Δt; zero in the evaluation of the initial state.
+    pub time_step: f64,
+}
+
 /// A law as the element kernel sees it: one material point per lane, in a frame that turns with the material.
 ///
 /// An implementation is compiled into the element loop of its own, so nothing here costs a call.
 pub trait Kernel: Copy + Send + Sync {
-    /// Names of the stored state variables, one row of eight numbers each per chunk of elements. All start at zero.
+    /// Names of the stored state variables, one row of eight numbers each per chunk of elements. They start at zero
+    /// unless [`Kernel::start`] says otherwise.
     const STATE: &'static [&'static str];
 
-    /// Advances `stress` (force/length²) by the strain increment `strain` = Δt d, both in the unrotated frame, and
-    /// the state rows of this part of the chunk with it.
-    fn update<V: Lanes>(&self, strain: &Sym3<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V>;
+    /// Whether [`Step::volume`] is wanted.
+    const VOLUME: bool = false;
+
+    /// Whether [`Response::stiffness`] counts; without, the law's [`Law::moduli`] bound the time step.
+    const STIFFNESS: bool = false;
+
+    /// Whether the law is used so much that it is compiled for each hourglass control of its own.
+    const FREQUENT: bool = false;
+
+    /// Sets the stored state of an element before the first step.
+    fn start(&self, _element: &Start, _state: &mut [f64]) {}
+
+    /// Advances `stress` (force/length²) by a step, in the unrotated frame, and the state rows of this part of the
+    /// chunk with it.
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V>;
 }
 
 /// What a law tells the element about its step.
+#[derive(Debug, Clone, Copy)]
 pub struct Response<V> {
     /// Factor by which plastic return scaled the trial deviatoric stress, 1 where the step was elastic.
     pub returned: V,
+    /// Present stiffness, of laws with [`Kernel::STIFFNESS`].
+    pub stiffness: Stiffness<V>,
+}
+
+/// The stiffness of a law that is not constant.
+#[derive(Debug, Clone, Copy)]
+pub struct Stiffness<V> {
+    /// Dilatational modulus λ + 2μ = ρ c², which bounds the time step; positive.
+    pub dilatational: V,
+    /// Shear modulus by which hourglass modes are resisted.
+    pub shear: V,
+    /// Part of the hourglass resistance that is kept from step to step: 1 in solids; less makes it viscous.
+    pub kept: V,
+}
+
+impl<V: Lanes> Response<V> {
+    /// Of a law with constant stiffness, by the factor of its plastic return.
+    #[inline(always)]
+    pub fn returned(returned: V) -> Response<V> {
+        let none = V::splat(0.0);
+        Response { returned, stiffness: Stiffness { dilatational: none, shear: none, kept: V::splat(1.0) } }
+    }
+}
+
+struct Starting<'a>(&'a Start);
+
+impl KernelVisitor for Starting<'_> {
+    type Output = Vec<f64>;
+    fn visit<K: Kernel>(self, kernel: K) -> Vec<f64> {
+        let mut state = vec![0.0; K::STATE.len()];
+        kernel.start(self.0, &mut state);
+        state
+    }
 }
 
 /// Something to be done with the kernel of a law; [`Law::accept`] calls it with the concrete type.

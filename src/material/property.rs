@@ -1,5 +1,13 @@
 //! The vocabulary in which a law describes itself.
 
+use super::equation_of_state::{DetonationPoint, EquationOfState};
+use std::cell::Cell;
+use std::ops::Index;
+use std::sync::Arc;
+
+/// Dimension of stresses and moduli.
+pub(super) const STRESS: &str = "force/length^2";
+
 /// One parameter of a law.
 pub struct Property {
     /// Keyword in the deck, e.g. `YOUNGS MODULUS`.
@@ -16,6 +24,24 @@ pub struct Property {
     pub meaning: &'static str,
 }
 
+impl Property {
+    /// One that the deck must give.
+    pub const fn required(
+        keyword: &'static str,
+        symbol: &'static str,
+        dimension: &'static str,
+        range: Range,
+        meaning: &'static str,
+    ) -> Property {
+        Property { keyword, symbol, dimension, range, default: None, meaning }
+    }
+
+    /// The same with a default.
+    pub const fn or(self, default: f64) -> Property {
+        Property { default: Some(default), ..self }
+    }
+}
+
 /// The values a number may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {
@@ -25,6 +51,8 @@ pub enum Range {
     Positive,
     /// ≥ 0
     NotNegative,
+    /// The number of a function of the deck.
+    Function,
     /// Between two bounds; each says whether it is included.
     Between {
         /// Lower bound and whether it belongs to the range.
@@ -42,6 +70,7 @@ impl Range {
                 Range::Any => true,
                 Range::Positive => value > 0.0,
                 Range::NotNegative => value >= 0.0,
+                Range::Function => value >= 1.0 && value.trunc() == value,
                 Range::Between { low, high } => {
                     (value > low.0 || (low.1 && value == low.0)) && (value < high.0 || (high.1 && value == high.0))
                 }
@@ -55,6 +84,7 @@ impl std::fmt::Display for Range {
             Range::Any => write!(f, "any number"),
             Range::Positive => write!(f, "greater than 0"),
             Range::NotNegative => write!(f, "0 or more"),
+            Range::Function => write!(f, "the number of a function"),
             Range::Between { low, high } => write!(
                 f,
                 "from {}{} to {}{}",
@@ -84,6 +114,65 @@ pub enum Origin {
     Recalled,
     /// Our own addition.
     Ours,
+}
+
+/// A function of the deck as a law uses it: piecewise linear, through points with increasing arguments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The function's number.
+    pub id: i64,
+    /// Points, at least one.
+    pub points: Arc<[(f64, f64)]>,
+}
+
+/// What a deck gives a law, or another thing with properties: values by position, and more.
+pub struct Given<'a> {
+    /// Parameter values in the order of the entry's properties.
+    pub values: &'a [f64],
+    /// Initial mass density.
+    pub density: f64,
+    /// Finds the points of a function by its number.
+    pub function: &'a dyn Fn(i64) -> Option<Vec<(f64, f64)>>,
+    /// Equation of state, if there is one.
+    pub equation: Option<EquationOfState>,
+    /// Whether the law asked for it.
+    pub equation_wanted: Cell<bool>,
+    /// Where explosives are lit.
+    pub detonation: &'a [DetonationPoint],
+}
+
+impl Index<usize> for Given<'_> {
+    type Output = f64;
+    fn index(&self, property: usize) -> &f64 {
+        &self.values[property]
+    }
+}
+
+impl Given<'_> {
+    /// Values and density alone, for what is made without a deck or needs no more.
+    pub fn new(values: &[f64], density: f64) -> Given<'_> {
+        let equation_wanted = Cell::new(false);
+        Given { values, density, function: &|_| None, equation: None, equation_wanted, detonation: &[] }
+    }
+
+    /// The equation of state, for a law that cannot do without.
+    pub fn equation_of_state(&self) -> Result<EquationOfState, Refusal> {
+        self.equation_wanted.set(true);
+        let reason = "is missing; it is a group of its own with the number of the block".to_string();
+        self.equation.ok_or(Refusal { keyword: "EQUATION OF STATE", reason })
+    }
+
+    /// The function that the property at a position names.
+    pub fn curve(&self, property: usize, keyword: &'static str) -> Result<Curve, Refusal> {
+        let id = self.values[property];
+        let refusal = |reason: String| Refusal { keyword, reason };
+        if id != id.trunc() || id < 1.0 {
+            return Err(refusal(format!("is {id}, but must be the number of a function")));
+        }
+        let points =
+            (self.function)(id as i64).ok_or_else(|| refusal(format!("is {id}, but there is no FUNCTION {id}")))?;
+        Ok(Curve { id: id as i64, points: points.into() })
+    }
 }
 
 /// Why parameter values that are each in range do not make a law together.

@@ -3,88 +3,12 @@
 // Formulas run over indices of several arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+use super::point::{IDENTITY, Point, close, sym};
 use super::*;
 use nalgebra::{Matrix3 as Matrix, Rotation3};
 
-type Tensor = [f64; 6];
-
-fn sym([xx, yy, zz, xy, yz, zx]: Tensor) -> Sym3<f64> {
-    Sym3 { xx, yy, zz, xy, yz, zx }
-}
-
-/// One material point: stress and stored state, driven by strain increments.
-#[derive(Clone)]
-struct Point {
-    law: Law,
-    stress: Tensor,
-    stored: Vec<Row>,
-    returned: f64,
-}
-
-/// One increment, carried to the law's kernel.
-struct Increment<'a>(&'a mut Point, Tensor);
-
-impl KernelVisitor for Increment<'_> {
-    type Output = ();
-    fn visit<K: Kernel>(self, kernel: K) {
-        let Increment(point, strain) = self;
-        point.stored.resize(K::STATE.len(), Row::default());
-        let mut stress = sym(point.stress);
-        point.returned = kernel.update::<f64>(&sym(strain), &mut stress, &mut point.stored, 0).returned;
-        point.stress = stress.to_array();
-    }
-}
-
-impl Point {
-    fn new(law: Law) -> Point {
-        Point { law, stress: [0.0; 6], stored: Vec::new(), returned: 1.0 }
-    }
-
-    fn strain(&mut self, increment: Tensor) {
-        let law = self.law;
-        law.accept(Increment(self, increment));
-    }
-
-    /// One axial increment with the lateral strain that leaves no lateral stress, found by secants.
-    fn stretch_freely(&mut self, axial: f64) {
-        let lateral_stress = |lateral: f64| {
-            let mut trial = self.clone();
-            trial.strain([axial, lateral, lateral, 0.0, 0.0, 0.0]);
-            trial.stress[1]
-        };
-        let (mut a, mut b) = (-0.3 * axial, -0.5 * axial);
-        let (mut fa, mut fb) = (lateral_stress(a), lateral_stress(b));
-        for _ in 0..30 {
-            if fb == fa || fb.abs() < 1e-3 {
-                break;
-            }
-            let c = b - fb * (b - a) / (fb - fa);
-            (a, fa) = (b, fb);
-            (b, fb) = (c, lateral_stress(c));
-        }
-        self.strain([axial, b, b, 0.0, 0.0, 0.0]);
-    }
-
-    fn eqps(&self) -> f64 {
-        self.stored[0].0[0]
-    }
-
-    /// Equivalent plastic strain, radius, back stress as plotted, in a frame.
-    fn plotted(&self, frame: &Matrix3<f64>) -> Vec<f64> {
-        let stored: Vec<f64> = self.stored.iter().map(|row| row.0[0]).collect();
-        self.law.state(&stored, frame)
-    }
-}
-
-const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
 fn steel(beta: f64) -> Law {
     Law::ElasticPlastic(ElasticPlastic { young: 200e9, poisson: 0.3, yield_stress: 400e6, hardening: 2e9, beta })
-}
-
-#[track_caller]
-fn close(what: &str, a: f64, b: f64, relative: f64) {
-    assert!((a - b).abs() <= relative * b.abs(), "{what}: {a:e} instead of {b:e}");
 }
 
 /// Hardening rules with stress in MPa and equivalent plastic strain at +0.02, −0.02, +0.02.
@@ -153,7 +77,7 @@ fn elastic_law_is_that_of_hooke() {
 fn combined_hardening_is_objective() {
     let r = Rotation3::from_euler_angles(0.4, -0.9, 1.7).into_inner();
     let frame: Matrix3<f64> = std::array::from_fn(|i| std::array::from_fn(|j| r[(i, j)]));
-    let full = |t: Tensor| Matrix::from_fn(|i, j| sym(t).matrix()[i][j]);
+    let full = |t: [f64; 6]| Matrix::from_fn(|i, j| sym(t).matrix()[i][j]);
     let flat = |m: Matrix<f64>| [m[(0, 0)], m[(1, 1)], m[(2, 2)], m[(0, 1)], m[(1, 2)], m[(2, 0)]];
     for beta in [0.0, 0.4, 1.0] {
         let (mut here, mut turned) = (Point::new(steel(beta)), Point::new(steel(beta)));
@@ -217,7 +141,7 @@ fn return_is_safe_at_the_limits() {
         for beta in [0.0, 0.5, 1.0] {
             let law = Law::ElasticPlastic(ElasticPlastic { young: 200e9, poisson: 0.3, yield_stress, hardening, beta });
             for size in [0.0, 1e-320, 1e-160, 1e-12, 1.0, 1e6, 1e60] {
-                let mut point = Point::new(law);
+                let mut point = Point::new(law.clone());
                 for _ in 0..3 {
                     point.strain([size, -0.3 * size, 0.1 * size, 0.5 * size, 0.0, -size]);
                     assert!(point.stress.iter().all(|s| s.is_finite()), "{law:?}, {size}: {:?}", point.stress);

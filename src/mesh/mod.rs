@@ -5,6 +5,7 @@
 //! in `node_ids` and `element_ids`.
 
 pub mod check;
+pub mod locate;
 
 /// A mesh of eight-node hexahedra as the analyst's file describes it.
 #[derive(Debug, Clone, Default, PartialEq)]

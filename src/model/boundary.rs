@@ -14,6 +14,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("PRESCRIBED FORCE", prescribed_force),
     ("PRESSURE", pressure),
     ("GRAVITY", gravity),
+    ("SILENT BC", |card, draft| draft.model.silent_boundaries.push(card.integer("side_set"))),
 ];
 
 fn no_displacement(card: &Card, draft: &mut Draft) {

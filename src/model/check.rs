@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Direction, Problem, RigidSurface, boundary::direction, problem::those_there_are};
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::Mesh,
+    mesh::{Mesh, locate::locate},
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -22,7 +22,21 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for (plane, card) in problem.model.rigid_surfaces.iter().zip(problem.deck.cards_of("RIGID SURFACE")) {
         behind_the_plane(plane, card, mesh, &mut found);
     }
+    for (&point, card) in problem.model.material_points.iter().zip(problem.deck.cards_of("MATERIAL POINT")) {
+        outside_the_mesh(point, card, mesh, &mut found);
+    }
     found
+}
+
+/// Warns of a point to watch where there is no material.
+fn outside_the_mesh(point: [f64; 3], card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let Some(nearest) = locate(mesh, point).filter(|located| located.outside > 0.0) else { return };
+    let number = mesh.element_ids[nearest.element as usize];
+    found.push(
+        Diagnostic::warning("MATERIAL POINT: the point lies in no element of the mesh")
+            .at(card.place("x").join(card.place("z")), format!("element {number}, the nearest, is watched instead"))
+            .help("points are those of the undeformed mesh, in its unit of length"),
+    );
 }
 
 /// Warns of a rigid surface that does not have its body in front of it.

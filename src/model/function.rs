@@ -48,7 +48,8 @@ pub(super) fn report_unused(draft: &mut Draft) {
     let deck = draft.deck;
     for card in deck.cards_of("FUNCTION") {
         let id = card.maybe_integer("id");
-        if !deck.cards.iter().any(|c| c.maybe_integer("function") == id || !c.complete) {
+        let in_material = id.is_some_and(|id| draft.functions_of_materials.contains(&id));
+        if !in_material && !deck.cards.iter().any(|c| c.maybe_integer("function") == id || !c.complete) {
             let message = format!("FUNCTION {} is used by no command", card.integer("id"));
             draft.report(Diagnostic::warning(message).at(card.record, "nothing refers to this number"));
         }

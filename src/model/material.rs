@@ -3,16 +3,17 @@
 use super::{
     BlockMaterial,
     problem::{Draft, Setter},
+    properties::Properties,
 };
 use crate::{
-    deck::{
-        Absent, Agreement, Card, Diagnostic, Field, FieldReader, FieldRule, Form, Kind, Row, Span, Spelled, language,
-        spelling,
-    },
-    material::{Entry, MATERIALS, Property},
+    deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, language, spelling},
+    material::{DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
 };
 
-pub(super) const COMMANDS: &[Setter] = &[("MATERIAL", material)];
+pub(super) const COMMANDS: &[Setter] = &[("MATERIAL", material), ("EQUATION OF STATE", lonely_equation)];
+
+/// What comes when all materials are there.
+pub(super) const LATER_COMMANDS: &[Setter] = &[("DETONATION POINT", detonation_point)];
 
 fn material(card: &Card, draft: &mut Draft) {
     let block = card.integer("block");
@@ -23,15 +24,124 @@ fn material(card: &Card, draft: &mut Draft) {
         return draft.report(diagnostic);
     }
     let Some(entry) = model(card, draft) else { return };
-    let Some(values) = values(card, entry, draft) else { return };
-    match (entry.build)(&values) {
-        Ok(law) => draft.model.materials.push(BlockMaterial { block, density: card.number("density"), law }),
+    let Some(values) = Properties::new(card, entry, MATERIALS).values(card, draft) else { return };
+    let density = card.number("density");
+    let equation_card = equation_cards(draft.deck, block).next();
+    let equation = equation_card.and_then(|card| equation_of_state(card, density, draft));
+    if equation_card.is_some() && equation.is_none() {
+        return; // Its mistake has been reported.
+    }
+    let functions = &draft.model.functions;
+    let function = |id| functions.iter().find(|f| f.id == id).map(|f| f.points.clone());
+    let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(point).collect();
+    let given = Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
+    let law = (entry.build)(&given);
+    if let (Some(equation_card), false, Ok(_)) = (equation_card, given.equation_wanted.get(), &law) {
+        let message = format!("EQUATION OF STATE {block}: {} does not use one", entry.name);
+        let wanted = "HYDRODYNAMIC and EP HYDRODYNAMIC do";
+        let diagnostic = Diagnostic::error(message).at(equation_card.record, "").at(card.record, "the material");
+        draft.report(diagnostic.help(wanted));
+    }
+    match law {
+        Ok(law) => draft.model.materials.push(BlockMaterial { block, density, law }),
+        Err(refusal) => refused(card, &refusal, draft),
+    }
+}
+
+/// The equations of state that a deck gives a block.
+fn equation_cards(deck: &Deck, block: i64) -> impl Iterator<Item = &Card> {
+    deck.cards_of("EQUATION OF STATE").filter(move |card| card.complete && card.maybe_integer("block") == Some(block))
+}
+
+fn equation_of_state(card: &Card, density: f64, draft: &mut Draft) -> Option<EquationOfState> {
+    let entry = equation_entry(card, draft)?;
+    let values = Properties::new(card, entry, EQUATIONS_OF_STATE).values(card, draft)?;
+    match (entry.build)(&Given::new(&values, density)) {
+        Ok(equation) => Some(equation),
         Err(refusal) => {
-            let message = format!("MATERIAL {block}: {} {}", refusal.keyword, refusal.reason);
-            let row = card.rows.iter().find(|row| spelling::agreement(&row.fields, refusal.keyword).is_some());
-            draft.report(Diagnostic::error(message).at(row.map_or(card.record, Row::span), ""));
+            refused(card, &refusal, draft);
+            None
         }
     }
+}
+
+/// The equation that a card names, or a message why there is none.
+fn equation_entry(card: &Card, draft: &mut Draft) -> Option<&'static Entry<EquationOfState>> {
+    let (name, place) = (card.text("equation"), card.place("equation"));
+    let words: Vec<Field> = name.split(' ').map(|word| Field::word(word, place)).collect();
+    let all = EQUATIONS_OF_STATE.iter().flat_map(|&entry| spellings(entry).map(move |s| (s, entry.name)));
+    let names: Vec<&str> = EQUATIONS_OF_STATE.iter().map(|entry| entry.name).collect();
+    if let Spelled::As { what, agreement, .. } = spelling::recognise_all(&words, all) {
+        if agreement == Agreement::Abbreviated || what != name {
+            draft.report(Diagnostic::note(format!("assumed equation of state {what} for `{name}`")).at(place, ""));
+        }
+        return EQUATIONS_OF_STATE.iter().find(|entry| entry.name == what).copied();
+    }
+    let owner = format!("EQUATION OF STATE {}", card.integer("block"));
+    let near = spelling::nearest(name, names.iter().copied());
+    draft.report(
+        Diagnostic::error(format!("{owner}: there is no equation of state {}", spelling::cut(name)))
+            .at(place, "expected the name of an equation of state")
+            .help(near.map_or(String::new(), |near| format!("did you mean {near}?")))
+            .help(format!("the equations of state are {}", spelling::all(&names))),
+    );
+    None
+}
+
+/// An equation of state acts with the material of its block; here it is seen that there is one, and one equation only.
+fn lonely_equation(card: &Card, draft: &mut Draft) {
+    let block = card.integer("block");
+    if let Some(first) = equation_cards(draft.deck, block).next().filter(|first| *first != card) {
+        let message = format!("element block {block} is given two equations of state");
+        let diagnostic = Diagnostic::error(message).at(card.record, "the second one");
+        return draft.report(diagnostic.at(first.record, "the first one"));
+    }
+    if !draft.deck.cards_of("MATERIAL").any(|material| material.maybe_integer("block") == Some(block)) {
+        let message = format!("EQUATION OF STATE {block}: there is no MATERIAL {block}");
+        draft.report(Diagnostic::error(message).at(card.place("block"), "the block that it is for"));
+    }
+}
+
+fn point(card: &Card) -> DetonationPoint {
+    DetonationPoint { position: ["x", "y", "z"].map(|axis| card.number(axis)), time: card.number("time") }
+}
+
+/// Detonation points act in the making of explosives; here it is seen that there is one.
+fn detonation_point(card: &Card, draft: &mut Draft) {
+    if !draft.model.materials.iter().any(|material| explosive(&material.law)) {
+        draft.report(
+            Diagnostic::warning("DETONATION POINT: no material is an explosive")
+                .at(card.record, "there is nothing to light")
+                .help("an explosive is a HYDRODYNAMIC material with the EQUATION OF STATE JWL"),
+        );
+    }
+}
+
+fn explosive(law: &Law) -> bool {
+    matches!(law.equation_of_state(), Some(EquationOfState::Jwl(_)))
+}
+
+/// Warns of explosives that nothing lights.
+pub(super) fn report_unlit(draft: &mut Draft) {
+    if draft.deck.cards_of("DETONATION POINT").next().is_some() {
+        return;
+    }
+    let unlit = |material: &&BlockMaterial| explosive(&material.law);
+    let blocks: Vec<i64> = draft.model.materials.iter().filter(unlit).map(|material| material.block).collect();
+    for block in blocks {
+        let Some(card) = equation_cards(draft.deck, block).next() else { continue };
+        draft.report(
+            Diagnostic::warning(format!("EQUATION OF STATE {block}: there is no DETONATION POINT"))
+                .at(card.record, "all of the explosive has burnt when the run begins"),
+        );
+    }
+}
+
+/// Reports values that do not make a law together.
+fn refused(card: &Card, refusal: &Refusal, draft: &mut Draft) {
+    let message = format!("{} {}: {} {}", card.name, card.integer("block"), refusal.keyword, refusal.reason);
+    let row = card.rows.iter().find(|row| spelling::agreement(&row.fields, refusal.keyword).is_some());
+    draft.report(Diagnostic::error(message).at(row.map_or(card.record, Row::span), ""));
 }
 
 /// Looks at the properties of a material whose first line has a mistake, if its model is clear all the same, so that
@@ -43,8 +153,9 @@ pub(super) fn check_unfinished(draft: &mut Draft) {
         let words: Vec<Field> = card.text("model").split(' ').map(|word| Field::word(word, card.span)).collect();
         let Spelled::As { what, .. } = spelling::recognise_all(&words, built) else { continue };
         let Some(entry) = MATERIALS.iter().find(|entry| entry.name == what) else { continue };
+        let properties = Properties::new(card, entry, MATERIALS);
         for row in &card.rows {
-            property(card, entry, row, draft);
+            properties.value(row, draft);
         }
     }
 }
@@ -86,7 +197,7 @@ fn model(card: &Card, draft: &mut Draft) -> Option<&'static Entry> {
     }
 }
 
-fn spellings(entry: &'static Entry) -> impl Iterator<Item = &'static str> + Clone {
+fn spellings<T>(entry: &'static Entry<T>) -> impl Iterator<Item = &'static str> + Clone {
     std::iter::once(entry.name).chain(entry.aliases.iter().copied())
 }
 
@@ -96,164 +207,4 @@ fn not_built(card: &Card, name: &str, place: Span) -> Diagnostic {
     Diagnostic::error(format!("MATERIAL {}: the model {name} is known, but not built yet", card.integer("block")))
         .at(place, does.trim_end_matches('.'))
         .help(format!("the models that are built are {}", spelling::all(&names)))
-}
-
-/// The values of a law's properties in its own order; `None` if a line is wrong or a property is missing.
-fn values(card: &Card, entry: &'static Entry, draft: &mut Draft) -> Option<Vec<f64>> {
-    let mut given: Vec<Option<(f64, Span)>> = vec![None; entry.properties.len()];
-    let mut sound = true;
-    for row in &card.rows {
-        match property(card, entry, row, draft) {
-            Some((index, value)) if given[index].is_none() => given[index] = Some((value, row.span())),
-            Some((index, _)) => {
-                sound = false;
-                report_twice(card, entry, &entry.properties[index], row, given[index], draft);
-            }
-            None => sound = false,
-        }
-    }
-    let missing: Vec<&Property> = entry
-        .properties
-        .iter()
-        .zip(&given)
-        .filter(|(property, value)| property.default.is_none() && value.is_none())
-        .map(|(property, _)| property)
-        .filter(|property| !mentioned(card, property))
-        .collect();
-    if !missing.is_empty() {
-        draft.report(report_missing(card, &missing));
-        return None;
-    }
-    let values = entry.properties.iter().zip(&given).map(|(p, v)| v.map(|v| v.0).or(p.default));
-    if sound { values.collect() } else { None }
-}
-
-/// Whether a line names this property, rightly or wrongly; then its mistake has been reported.
-fn mentioned(card: &Card, property: &Property) -> bool {
-    card.rows.iter().any(|row| {
-        spelling::agreement(&row.fields, property.keyword).is_some()
-            || resembling(row, std::iter::once(property.keyword)).is_some()
-    })
-}
-
-/// The keyword that a line may mean: a near one, or the one whose first word it starts with.
-fn resembling(row: &Row, mut keywords: impl Iterator<Item = &'static str> + Clone) -> Option<&'static str> {
-    let near = spelling::nearest_start(&row.fields, keywords.clone()).map(|(keyword, _)| keyword);
-    near.or_else(|| {
-        let first = row.fields.first().filter(|f| f.is_word())?;
-        let first_words = || keywords.clone().filter_map(|keyword| keyword.split(' ').next());
-        let near = spelling::nearest(&first.text, first_words())?;
-        keywords.find(|keyword| keyword.split(' ').next() == Some(near))
-    })
-}
-
-/// Reads a line `KEYWORD value`: which property it is, and the value.
-fn property(card: &Card, entry: &'static Entry, row: &Row, draft: &mut Draft) -> Option<(usize, f64)> {
-    let keywords = entry.properties.iter().enumerate().map(|(i, p)| (p.keyword, i));
-    let owner = card.maybe_integer("block").map_or("MATERIAL".to_string(), |block| format!("MATERIAL {block}"));
-    match spelling::recognise(&row.fields, keywords) {
-        Spelled::As { what, words, agreement, .. } => {
-            let property = &entry.properties[what];
-            if agreement == Agreement::Abbreviated {
-                let written = draft.deck.source.slice(row.fields[0].span.join(row.fields[words - 1].span)).to_string();
-                draft.report(
-                    Diagnostic::note(format!("assumed {} for `{written}`", property.keyword)).at(row.span(), ""),
-                );
-            }
-            let rule = rule(property);
-            let form = format!("{} = value", property.keyword);
-            let end = Span { start: row.span().end, end: row.span().end };
-            let mut reader = FieldReader { owner: &owner, form: &form, end, diagnostics: &mut draft.found };
-            let (values, complete) = reader.read(&[rule], &row.fields[words..]);
-            let value = values.first()?.1.first()?.value.number()?;
-            complete.then_some((what, value))
-        }
-        Spelled::Several(names) => {
-            draft.report(
-                Diagnostic::error(format!(
-                    "{owner}: {} may stand for {}",
-                    row.fields[0].text,
-                    spelling::either(&names)
-                ))
-                .at(row.fields[0].span, "this abbreviation is not clear; write more of it"),
-            );
-            None
-        }
-        Spelled::Nothing => {
-            draft.report(unknown_property(&owner, entry, row));
-            None
-        }
-    }
-}
-
-/// A property as the rule of a field.
-fn rule(property: &Property) -> FieldRule {
-    FieldRule {
-        name: property.keyword.to_string(),
-        repeats: false,
-        kind: Kind::Number,
-        default: property.default.map_or(Absent::Required, |value| Absent::Value(value.to_string())),
-        range: property.range,
-        unit: property.dimension.to_string(),
-        meaning: property.meaning.to_string(),
-    }
-}
-
-fn unknown_property(owner: &str, entry: &'static Entry, row: &Row) -> Diagnostic {
-    let words = row.fields.iter().take_while(|f| f.is_word()).count();
-    let Some(last) = row.fields[..words].last() else {
-        return Diagnostic::error(format!("{owner}: a line starts with the keyword of a property"))
-            .at(row.fields[0].span, "expected a keyword")
-            .help(properties_of(entry));
-    };
-    let shown = spelling::shown(&row.fields[..words]);
-    let place = row.fields[0].span.join(last.span);
-    let near = resembling(row, entry.properties.iter().map(|p| p.keyword));
-    let others: Vec<&str> = MATERIALS
-        .iter()
-        .filter(|m| m.properties.iter().any(|p| spelling::agreement(&row.fields, p.keyword).is_some()))
-        .map(|m| m.name)
-        .collect();
-    let elsewhere = format!("{} is a property of {}", shown, spelling::all(&others));
-    Diagnostic::error(format!("{owner}: {} has no property {shown}", entry.name))
-        .at(place, "unknown keyword")
-        .help(near.map_or(String::new(), |keyword| format!("did you mean {keyword}?")))
-        .help(if others.is_empty() { String::new() } else { elsewhere })
-        .help(properties_of(entry))
-}
-
-fn properties_of(entry: &Entry) -> String {
-    let keywords: Vec<&str> = entry.properties.iter().map(|p| p.keyword).collect();
-    format!("the properties of {} are {}", entry.name, spelling::all(&keywords))
-}
-
-fn report_twice(
-    card: &Card,
-    entry: &Entry,
-    property: &Property,
-    row: &Row,
-    first: Option<(f64, Span)>,
-    draft: &mut Draft,
-) {
-    let message = format!("MATERIAL {}: {} is given twice", card.integer("block"), property.keyword);
-    let mut diagnostic = Diagnostic::error(message).at(row.span(), "the second one");
-    if let Some((_, span)) = first {
-        diagnostic = diagnostic.at(span, "the first one");
-    }
-    draft.report(diagnostic.help(properties_of(entry)));
-}
-
-fn report_missing(card: &Card, missing: &[&Property]) -> Diagnostic {
-    let keywords: Vec<&str> = missing.iter().map(|p| p.keyword).collect();
-    let verb = if missing.len() == 1 { "is" } else { "are" };
-    let block = card.integer("block");
-    let mut diagnostic = Diagnostic::error(format!("MATERIAL {block}: {} {verb} missing", spelling::all(&keywords)))
-        .at(card.record, format!("expected between this line and END: {}", spelling::all(&keywords)));
-    for property in missing {
-        let (meaning, unit) = (property.meaning.trim_end_matches('.'), property.dimension);
-        let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
-        let expected = rule(property).expected();
-        diagnostic = diagnostic.help(format!("{}: {meaning}{unit}, {expected}", property.keyword));
-    }
-    diagnostic
 }

@@ -12,6 +12,7 @@ mod initial;
 mod material;
 mod output;
 mod problem;
+mod properties;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
@@ -50,6 +51,8 @@ pub struct Model {
     pub pressures: Vec<Pressure>,
     /// Body accelerations of the whole model.
     pub gravities: Vec<Gravity>,
+    /// Numbers of the side sets that waves leave through.
+    pub silent_boundaries: Vec<i64>,
     /// Velocities at time zero, applied in this order; a later one replaces an earlier one at the same node.
     pub initial_velocities: Vec<InitialVelocity>,
     /// Fixed rigid planes.
@@ -60,6 +63,8 @@ pub struct Model {
     pub deaths: Vec<Death>,
     /// What the plot file holds.
     pub plot_requests: PlotRequests,
+    /// Points of the undeformed mesh whose elements have their histories written.
+    pub material_points: Vec<[f64; 3]>,
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.
@@ -272,7 +277,7 @@ pub struct RigidSurface {
 }
 
 /// Contact between surfaces of the body: what may touch, and how it is enforced.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {
     /// CONTACT MATERIAL: numbers of the blocks whose outside may touch any other and itself.
     pub materials: Option<ContactMaterials>,
@@ -385,7 +390,7 @@ impl Default for ContactControl {
             passes: 20,
             tolerance: 1e-6,
             search: ContactSearch::Grid,
-            reach: 10.0,
+            reach: 30.0,
             margin: 0.05,
             edges: true,
         }

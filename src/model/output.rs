@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("PLOT NODAL", plot_nodal),
     ("PLOT ELEMENT", plot_element),
     ("PLOT STATE", plot_state),
+    ("MATERIAL POINT", |card, draft| draft.model.material_points.push(card.vector(["x", "y", "z"]))),
 ];
 
 /// Lines of the print log when OUTPUT TIME does not say.

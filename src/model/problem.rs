@@ -1,11 +1,11 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, ContactControl, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli,
-    TimeStepControl, boundary, check, contact, control, function, initial, material, output,
+    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl,
+    boundary, check, contact, control, function, initial, material, output,
 };
 use crate::{
-    deck::{Card, Deck, Diagnostic, Diagnostics, Source, language, spelling},
+    deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
     mesh::Mesh,
 };
 
@@ -29,6 +29,7 @@ const FAMILIES: &[&[Setter]] = &[
     control::COMMANDS,
     function::COMMANDS,
     material::COMMANDS,
+    material::LATER_COMMANDS,
     boundary::COMMANDS,
     initial::COMMANDS,
     contact::COMMANDS,
@@ -40,6 +41,8 @@ pub(super) struct Draft<'d> {
     pub model: Model,
     pub deck: &'d Deck,
     pub found: Diagnostics,
+    /// Numbers of the functions that materials refer to.
+    pub functions_of_materials: Vec<i64>,
 }
 
 /// Makes the model of a deck that has been read. `found` are the messages from reading it; if these or the meaning of
@@ -66,7 +69,7 @@ fn accept(problem: Problem) -> Result<Problem, Diagnostics> {
 
 /// The model as far as it can be made.
 fn assemble(deck: Deck, found: Diagnostics) -> Problem {
-    let mut draft = Draft { model: blank(), deck: &deck, found };
+    let mut draft = Draft { model: Model::default(), deck: &deck, found, functions_of_materials: Vec::new() };
     for family in FAMILIES {
         defaults(family, &mut draft);
         for card in deck.cards.iter().filter(|card| card.complete) {
@@ -76,6 +79,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
         }
     }
     material::check_unfinished(&mut draft);
+    material::report_unlit(&mut draft);
     output::finish(&mut draft);
     function::report_unused(&mut draft);
     let Draft { model, found, .. } = draft;
@@ -92,37 +96,36 @@ fn defaults(family: &[Setter], draft: &mut Draft) {
 }
 
 /// A model that says nothing yet. What is NaN here is required, follows from others, or has a command that always holds.
-fn blank() -> Model {
-    Model {
-        title: String::new(),
-        termination_time: f64::NAN,
-        output_interval: f64::NAN,
-        plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
-        time_step: TimeStepControl {
-            scale: f64::NAN,
-            softening: f64::NAN,
-            growth: f64::NAN,
-            moduli: StepModuli::default(),
-        },
-        bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
-        hourglass: DEFAULT_HOURGLASS,
-        functions: Vec::new(),
-        materials: Vec::new(),
-        no_displacements: Vec::new(),
-        prescribed_motions: Vec::new(),
-        prescribed_forces: Vec::new(),
-        pressures: Vec::new(),
-        gravities: Vec::new(),
-        initial_velocities: Vec::new(),
-        rigid_surfaces: Vec::new(),
-        contact: Contact {
-            materials: None,
-            surfaces: Vec::new(),
-            data: Vec::new(),
-            control: ContactControl::default(),
-        },
-        deaths: Vec::new(),
-        plot_requests: PlotRequests::default(),
+impl Default for Model {
+    fn default() -> Model {
+        Model {
+            title: String::new(),
+            termination_time: f64::NAN,
+            output_interval: f64::NAN,
+            plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
+            time_step: TimeStepControl {
+                scale: f64::NAN,
+                softening: f64::NAN,
+                growth: f64::NAN,
+                moduli: StepModuli::default(),
+            },
+            bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
+            hourglass: DEFAULT_HOURGLASS,
+            functions: Vec::new(),
+            materials: Vec::new(),
+            no_displacements: Vec::new(),
+            prescribed_motions: Vec::new(),
+            prescribed_forces: Vec::new(),
+            pressures: Vec::new(),
+            gravities: Vec::new(),
+            silent_boundaries: Vec::new(),
+            initial_velocities: Vec::new(),
+            rigid_surfaces: Vec::new(),
+            contact: Contact::default(),
+            deaths: Vec::new(),
+            plot_requests: PlotRequests::default(),
+            material_points: Vec::new(),
+        }
     }
 }
 
@@ -135,17 +138,27 @@ impl Draft<'_> {
     /// Position of the function that a card names in its field `function`; reports one that does not exist.
     pub fn function(&mut self, card: &Card) -> Option<usize> {
         let id = card.maybe_integer("function")?;
-        let position = self.model.functions.iter().position(|f| f.id == id);
-        let written = self.deck.cards.iter().any(|c| c.name == "FUNCTION" && c.maybe_integer("id") == Some(id));
-        if position.is_none() && !written {
+        self.function_exists(id, card.place("function"), &card.name);
+        self.model.functions.iter().position(|f| f.id == id)
+    }
+
+    /// Notes that a material refers to a function, and whether that exists; reports one that does not.
+    pub fn names_function(&mut self, id: i64, place: Span, owner: &str) -> bool {
+        self.functions_of_materials.push(id);
+        self.function_exists(id, place, owner)
+    }
+
+    fn function_exists(&mut self, id: i64, place: Span, owner: &str) -> bool {
+        let exists = self.deck.cards.iter().any(|c| c.name == "FUNCTION" && c.maybe_integer("id") == Some(id));
+        if !exists {
             let ids: Vec<i64> = self.model.functions.iter().map(|f| f.id).collect();
             self.report(
-                Diagnostic::error(format!("{}: there is no FUNCTION {id}", card.name))
-                    .at(card.place("function"), "the deck defines no function with this number")
+                Diagnostic::error(format!("{owner}: there is no FUNCTION {id}"))
+                    .at(place, "the deck defines no function with this number")
                     .help(those_there_are("function", &ids)),
             );
         }
-        position
+        exists
     }
 }
 

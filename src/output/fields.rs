@@ -60,6 +60,11 @@ impl FieldList {
         FieldList { nodal: requests.nodal.clone(), element: requests.element.clone(), state: requests.state.clone() }
     }
 
+    /// Element variables and state variables.
+    pub(super) fn of_elements(element: Vec<ElementField>, state: Vec<String>) -> FieldList {
+        FieldList { nodal: Vec::new(), element, state }
+    }
+
     /// Names of the nodal variables.
     pub fn nodal_names(&self) -> Vec<String> {
         self.nodal.iter().flat_map(|f| f.components()).map(|c| c.to_string()).collect()
@@ -123,7 +128,7 @@ impl FieldList {
     }
 
     /// All element variables of one element.
-    fn element_point(
+    pub(super) fn element_point(
         &self,
         solver: &Solver,
         block: &ElementBlock,

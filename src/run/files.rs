@@ -10,6 +10,8 @@ pub struct Files {
     pub print: PathBuf,
     /// Plot states, `.e`.
     pub plot: PathBuf,
+    /// Histories of material points, `.h`.
+    pub history: PathBuf,
     /// Its appearance asks the run to stop, `.shutdown`.
     pub shutdown: PathBuf,
 }
@@ -27,6 +29,7 @@ impl Files {
         Files {
             print: with_suffix(base, ".o"),
             plot: with_suffix(base, ".e"),
+            history: with_suffix(base, ".h"),
             shutdown: with_suffix(base, ".shutdown"),
         }
     }

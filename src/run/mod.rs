@@ -12,8 +12,9 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
-use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, Schedule, global_values};
+use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
 use crate::partition::Decomposition;
+use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -156,7 +157,8 @@ fn give_up(
     writer: &mut Writer,
     comm: &mut dyn Communicator,
 ) -> Result<Request, RunError> {
-    let unwritten = writer.state(solver, comm).err().map(Box::new);
+    let written = writer.state(solver, comm).and_then(|()| writer.last_history(solver, comm));
+    let unwritten = written.err().map(Box::new);
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
 
@@ -167,6 +169,8 @@ struct Writer<'a> {
     collector: Collector,
     results: Option<ResultsWriter>,
     log: Option<PrintLog>,
+    watched: HistoryPlan,
+    histories: Option<ResultsWriter>,
     files: &'a Files,
     elements: usize,
     termination_time: f64,
@@ -188,6 +192,8 @@ impl<'a> Writer<'a> {
             collector: Collector::new(solver, nodes, elements, comm),
             results: None,
             log: None,
+            watched: HistoryPlan::new(job.mesh, job.model),
+            histories: None,
             files: job.files,
             elements,
             termination_time: job.model.termination_time,
@@ -214,6 +220,7 @@ impl<'a> Writer<'a> {
             info: job.deck.lines().map(String::from).collect(),
         };
         self.results = Some(ResultsWriter::create(&self.files.plot, &header)?);
+        self.histories = self.open_histories(&header)?;
         let mut log = PrintLog::create(&self.files.print).map_err(|e| self.print_error(e))?;
         let echo = Echo {
             banner: job.banner,
@@ -222,6 +229,7 @@ impl<'a> Writer<'a> {
             warnings: job.warnings,
             model: job.model,
             mesh: job.mesh,
+            overlap: job.body.overlap,
             masses: &job.body.block_masses(job.mesh.blocks.len()),
             variables: [nodal, element, global],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
@@ -231,6 +239,41 @@ impl<'a> Writer<'a> {
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
+    }
+
+    /// Opens the file of histories, when points are watched.
+    fn open_histories(&self, of_plot: &ResultsHeader) -> Result<Option<ResultsWriter>, RunError> {
+        if self.watched.is_empty() {
+            return Ok(None);
+        }
+        let header = ResultsHeader {
+            mesh: &self.watched.mesh(of_plot.mesh),
+            global: self.watched.names(),
+            nodal: Vec::new(),
+            element: Vec::new(),
+            info: [self.watched.records(), of_plot.info.clone()].concat(),
+            title: of_plot.title.clone(),
+            qa: of_plot.qa.clone(),
+        };
+        Ok(Some(ResultsWriter::create(&self.files.history, &header)?))
+    }
+
+    /// Appends a state to the histories of material points.
+    fn history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        if self.watched.is_empty() {
+            return Ok(());
+        }
+        let values = self.watched.values(solver, comm);
+        match (&mut self.histories, values) {
+            (Some(file), Some(values)) => Ok(file.write_state(solver.time, &values, &[], &[])?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Appends the state in which a run cannot go on; all ranks learn whether that worked.
+    fn last_history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        let outcome = self.history(solver, comm);
+        together(outcome, comm)
     }
 
     fn print_error(&self, source: std::io::Error) -> RunError {
@@ -291,8 +334,9 @@ impl<'a> Writer<'a> {
             dilatation,
             to_go: dilatation * (self.termination_time - solver.time).max(0.0),
         };
-        let outcome = self.print(&print::step_line(&line));
+        let printed = self.print(&print::step_line(&line));
         display.line(&line);
+        let outcome = self.history(solver, comm).and(printed);
         let outcome = together(outcome, comm);
         solver.clock.stop(Section::Output);
         outcome
@@ -327,7 +371,15 @@ impl<'a> Writer<'a> {
         };
         let states = self.results.as_ref().map_or(0, ResultsWriter::states);
         let initial_energy = solver.initial_energy;
-        let ending = Ending { outcome: &words, steps: solver.step, states, totals: &totals, initial_energy };
+        let ending = Ending {
+            outcome: &words,
+            steps: solver.step,
+            states,
+            totals: &totals,
+            initial_energy,
+            contact: solver.domain.contact.as_ref().map(Contact::report),
+            gone: solver.domain.erosion.as_ref().map(|erosion| erosion.gone),
+        };
         let printed = self.print(&print::closing(&table, &ending));
         let by = outcome?;
         together(printed, comm)?;

@@ -8,6 +8,7 @@ use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
 use super::nodes::{Nodes, add, cross, scaled, subtract};
+use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
@@ -33,6 +34,8 @@ pub struct Domain {
     pub node_forces: Vec<NodeForce>,
     /// Gravity.
     pub gravity: loads::BodyForce,
+    /// Dashpots at the nodes of silent boundaries.
+    pub silent: Vec<Dashpot>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// Contact and rigid surfaces, when there are any.
@@ -71,6 +74,7 @@ impl Domain {
             pressure_faces: pressure_faces(model, body, share, &local),
             node_forces: Vec::new(),
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
+            silent: silent::dashpots(mesh, model, body, &local),
             constraints: Vec::new(),
             contact: None,
             erosion: None,
@@ -221,13 +225,13 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
         let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
         let group = |places: Vec<u32>| {
             let new: Vec<NewElement> = places.into_iter().map(|place| new_element(place, body, share, local)).collect();
-            Group::new(&new, state_names.len())
+            Group::new(&new, &material.law)
         };
         ElementBlock {
             index,
             id: mesh.blocks[index].id,
             density: material.density,
-            law: material.law,
+            law: material.law.clone(),
             hourglass: model.hourglass,
             state_names,
             border: group(border),

@@ -40,6 +40,18 @@ pub(super) fn energy_floor(body: &Body, model: &Model) -> f64 {
     1e-15 * stiffness
 }
 
+/// Internal energy that gases and explosives hold at the start, and may turn into motion.
+pub(super) fn stored_energy(body: &Body, model: &Model) -> f64 {
+    let elements = body.element_mass.iter().zip(body.element_block.iter());
+    elements
+        .filter_map(|(mass, &block)| {
+            let material = &model.materials[body.block_material[block as usize]];
+            let equation = material.law.equation_of_state()?;
+            Some(mass / material.density * equation.initial_energy().max(0.0))
+        })
+        .sum()
+}
+
 impl Solver {
     /// Canonical number of a local place, as a number that ranks can compare.
     pub(super) fn canonical(&self, place: u32) -> f64 {
@@ -60,7 +72,7 @@ impl Solver {
     /// No energy may outgrow what was put in, and the balance must close. All ranks call it, and all get the same.
     pub fn check_energy(&mut self, comm: &mut dyn Communicator) -> Result<(), Stop> {
         let totals = self.totals(comm);
-        let supplied = self.initial_energy + totals.external.max(0.0);
+        let supplied = self.initial_energy + self.stored_energy + totals.external.max(0.0);
         self.supplied_peak = self.supplied_peak.max(supplied);
         let (kinetic, internal) = (totals.kinetic, totals.internal + totals.hourglass);
         if kinetic.abs().max(internal.abs()) > ENERGY_FACTOR * self.supplied_peak + self.energy_floor {

@@ -15,6 +15,7 @@ mod function;
 mod health;
 mod loads;
 pub mod nodes;
+mod silent;
 mod stop;
 mod totals;
 
@@ -54,6 +55,7 @@ pub struct Solver {
     first_stable_step: Option<f64>,
     supplied_peak: f64,
     energy_floor: f64,
+    stored_energy: f64,
     local: PassOutcome,
     control: TimeStepControl,
     pass: PassSettings,
@@ -91,6 +93,7 @@ impl Solver {
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
             energy_floor: health::energy_floor(body, model),
+            stored_energy: health::stored_energy(body, model),
             domain,
             clock: Clock::default(),
             step: 0,
@@ -105,6 +108,7 @@ impl Solver {
             local: PassOutcome::NOTHING,
             control: model.time_step,
             pass: PassSettings {
+                time: 0.0,
                 time_step: 0.0,
                 bulk_viscosity: model.bulk_viscosity,
                 moduli: model.time_step.moduli,
@@ -193,7 +197,7 @@ impl Solver {
     /// Stress, viscosity and hourglass forces of all elements and the pressures on their faces, summed at the nodes
     /// in canonical order. What other ranks wait for is computed and sent first.
     fn internal_forces(&mut self, comm: &mut dyn Communicator) {
-        self.pass.time_step = self.time_step;
+        (self.pass.time, self.pass.time_step) = (self.time, self.time_step);
         let mut found = PassOutcome::NOTHING;
         self.clock.start();
         found = found.and(self.border_elements());
@@ -296,11 +300,12 @@ impl Solver {
     fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, node_forces, gravity, contact, constraints, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, silent, contact, constraints, .. } = &mut self.domain;
         gravity.apply(nodes, &self.functions, self.time);
         for load in node_forces {
             load.apply(nodes, &self.functions, self.time);
         }
+        silent.iter_mut().for_each(|dashpot| dashpot.apply(nodes, step.kick));
         self.clock.stop(Section::Assembly);
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
@@ -316,10 +321,11 @@ impl Solver {
     fn book_work(&mut self) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, node_forces, gravity, contact, constraints, pressure_faces, .. } = &mut self.domain;
+        let Domain { nodes, node_forces, gravity, silent, contact, constraints, pressure_faces, .. } = &mut self.domain;
         gravity.book(nodes, half_step);
         pressure_faces.iter_mut().for_each(|face| face.book(nodes, half_step));
         node_forces.iter_mut().for_each(|load| load.book(nodes, half_step));
+        silent.iter_mut().for_each(|dashpot| dashpot.book(nodes, half_step));
         contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
         self.clock.stop(Section::Integration);

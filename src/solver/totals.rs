@@ -116,6 +116,9 @@ fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
     for constraint in domain.constraints.iter().filter(|constraint| owned(constraint.node)) {
         sums[5].add(constraint.work);
     }
+    for dashpot in domain.silent.iter().filter(|dashpot| owned(dashpot.node)) {
+        sums[5].add(dashpot.work);
+    }
     for (work, owned) in domain.gravity.work.iter().zip(&domain.nodes.owned) {
         if *owned {
             sums[5].add(*work);

@@ -158,11 +158,12 @@ fn process_that_reads_mutated_files() {
     let path = folder.join("can.g");
     Raw::cubes().write(&path);
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures");
-    let seeds = [path.clone(), fixtures.join("cdf5_int64.g"), fixtures.join("classic_packed.exo")]
-        .map(|p| fs::read(p).unwrap());
-    let change = (0..3usize, any::<prop::sample::Index>(), any::<u8>(), 0..4u8);
+    let others = ["cdf5_int64.g", "classic_packed.exo", "genesis_little_4.g", "genesis_big_8.g"];
+    let mut seeds = vec![fs::read(&path).unwrap()];
+    seeds.extend(others.map(|name| fs::read(fixtures.join(name)).unwrap()));
+    let change = (0..5usize, any::<prop::sample::Index>(), any::<u8>(), 0..4u8);
     let strategy = proptest::collection::vec(change, 1..5);
-    let run = runner(5_000).run(&(strategy,), |(changes,)| {
+    let run = runner(8_000).run(&(strategy,), |(changes,)| {
         let mut bytes = seeds[changes[0].0].clone();
         for (_, index, value, kind) in changes {
             let place = index.index(bytes.len());

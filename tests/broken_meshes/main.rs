@@ -169,11 +169,26 @@ fn files_that_are_no_meshes_are_refused_with_their_message() {
     wrong_tag[11] = 0x0D;
     let mut large_name = good.clone();
     large_name[16..20].fill(0x7F);
-    let files: [(&str, &[u8]); 10] = [
+    let old = fs::read(fixtures.join("genesis_big_4.g")).unwrap();
+    // The nodes of the first face of side set 200 stand before the factors and the closing records.
+    let face = old.windows(16).position(|w| w == [0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 3]).unwrap();
+    let mut no_face = old.clone();
+    no_face[face + 3] = 9;
+    let mut mark_behind = old.clone();
+    mark_behind[4 + 80 + 4 + 4 + 36 + 3] = 35;
+    let mut negative = old.clone();
+    negative[4 + 80 + 4 + 4..][..4].fill(0xFF);
+    let files: [(&str, &[u8]); 16] = [
         ("empty_file", b""),
         ("a_deck", b"TITLE\n  can crush\n"),
         ("exodus_one_big_endian", &[0, 0, 0, 80, b' ', b' ']),
         ("exodus_one_little_endian", &[80, 0, 0, 0, b' ', b' ']),
+        ("exodus_one_cut_in_coordinates", &old[..200]),
+        ("exodus_one_cut_between_records", &old[..4 + 80 + 4]),
+        ("exodus_one_cut_in_closing_records", &old[..old.len() - 3]),
+        ("exodus_one_no_face", &no_face),
+        ("exodus_one_mark_behind", &mark_behind),
+        ("exodus_one_negative_count", &negative),
         ("cut_in_data", &good[..good.len() - 40]),
         ("cut_in_header", &good[..300]),
         ("header_wrong_tag", &wrong_tag),

@@ -20,6 +20,10 @@ pub struct Run {
     pub initial_energy: f64,
     /// Why it ended early, if it did.
     pub stop: Option<Stop>,
+    /// Searches of contact.
+    pub searches: u64,
+    /// Pairs of points and faces that the last search found.
+    pub pairs: usize,
 }
 
 /// A plot state.
@@ -131,8 +135,8 @@ pub fn run_on(ranks: usize, deck: &str, mesh: &Mesh) -> Run {
         Ok::<_, ()>(steps(&mut solver, &model, mesh, comm))
     });
     let Ok(mut results) = results else { panic!("a rank failed") };
-    let Record { states, lines, initial_energy, stop } = results.swap_remove(0);
-    Run { model, states, lines, initial_energy, stop }
+    let Record { states, lines, initial_energy, stop, searches, pairs } = results.swap_remove(0);
+    Run { model, states, lines, initial_energy, stop, searches, pairs }
 }
 
 struct Record {
@@ -140,6 +144,8 @@ struct Record {
     lines: Vec<Line>,
     initial_energy: f64,
     stop: Option<Stop>,
+    searches: u64,
+    pairs: usize,
 }
 
 /// The program's own step loop (`urto::run`) without its files.
@@ -148,8 +154,14 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
     let collector = Collector::new(solver, mesh.coordinates.len(), mesh.element_count(), comm);
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut log = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
-    let mut record =
-        Record { states: Vec::new(), lines: Vec::new(), initial_energy: solver.initial_energy, stop: None };
+    let mut record = Record {
+        states: Vec::new(),
+        lines: Vec::new(),
+        initial_energy: solver.initial_energy,
+        stop: None,
+        searches: 0,
+        pairs: 0,
+    };
     loop {
         if let Err(stop) = solver.prepare(Request::Continue, comm) {
             record.lines.push(line(solver, comm));
@@ -165,6 +177,9 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
             record.states.push(state(solver, &fields, &collector, comm));
         }
         if last {
+            if let Some(report) = solver.domain.contact.as_ref().map(|contact| contact.report()) {
+                (record.searches, record.pairs) = (report.searches, report.pairs);
+            }
             return record;
         }
         solver.advance();

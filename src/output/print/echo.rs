@@ -3,6 +3,7 @@
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
+use crate::solver::contact::Overlap;
 use std::fmt::Write;
 
 /// What the front part needs to know.
@@ -19,6 +20,8 @@ pub struct Echo<'a> {
     pub model: &'a Model,
     /// The mesh.
     pub mesh: &'a Mesh,
+    /// Overlaps that were taken out of the mesh.
+    pub overlap: Overlap,
     /// Mass of each block, in mesh order.
     pub masses: &'a [f64],
     /// Names of the nodal, element and global variables of the plot file.
@@ -52,6 +55,7 @@ pub fn problem(echo: &Echo) -> String {
     out += &materials(echo.model, echo.mesh);
     out += &functions(echo.model);
     out += &conditions(echo.model);
+    out += &super::contact::tables(echo.model, echo.overlap);
     out += &end_of_phase("END OF DATA INPUT PHASE", echo.seconds[0], None);
     out += &masses(echo);
     out += &end_of_phase("END OF DATA INITIALIZATION PHASE", echo.seconds[1], echo.memory);
@@ -88,9 +92,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("NUMBER OF NODES", &count(mesh.coordinates.len()));
     out += &leader("NUMBER OF MATERIALS", &count(model.materials.len()));
     out += &leader("NUMBER OF FUNCTIONS", &count(model.functions.len()));
-    out += &leader("NUMBER OF CONTACT SURFACES", "0");
+    out += &leader("NUMBER OF CONTACT SURFACES", &count(model.contact.surfaces.len()));
     out += &leader("NUMBER OF RIGID SURFACES", &count(model.rigid_surfaces.len()));
-    out += &leader("NUMBER OF MATERIAL POINTS MONITORED", "0");
+    out += &leader("NUMBER OF MATERIAL POINTS MONITORED", &model.material_points.len().to_string());
     out += &leader("ANALYSIS TYPE", "3D SOLID");
     out += &leader("TERMINATION TIME", &number(model.termination_time));
     out += &leader("PRINT OUTPUT AT INTERVALS OF", &number(model.output_interval));
@@ -134,6 +138,12 @@ fn materials(model: &Model, mesh: &Mesh) -> String {
         for (property, value) in entry.properties.iter().zip(material.law.values()) {
             let _ = writeln!(out, "                     {:<21} = {:>12}", property.keyword, number(value));
         }
+        if let Some(equation) = material.law.equation_of_state() {
+            out += &leader("EQUATION OF STATE", equation.entry().name);
+            for (property, value) in equation.entry().properties.iter().zip(equation.values()) {
+                let _ = writeln!(out, "                     {:<21} = {:>12}", property.keyword, number(value));
+            }
+        }
         let modulus = material.law.moduli().dilatational();
         out += "              CALCULATED INITIAL VALUES FOR:\n";
         out += &leader("  INITIAL DILATATIONAL MODULUS", &number(modulus));
@@ -152,7 +162,7 @@ fn vector(v: [f64; 3]) -> String {
 }
 
 /// A table with a heading and one line per entry; nothing when there are none.
-fn table(title: &str, columns: &str, lines: Vec<String>) -> String {
+pub(super) fn table(title: &str, columns: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();
     }
@@ -184,6 +194,8 @@ fn conditions(model: &Model) -> String {
         .pressures
         .iter()
         .map(|p| format!("{:>13}{:>10}{:>13}", p.side_set, function(p.function), number(p.scale)));
+    let silent = model.silent_boundaries.iter().map(|side_set| format!("{side_set:>13}"));
+    let points = model.material_points.iter().enumerate().map(|(i, &x)| format!("{:>13}{}", i + 1, vector(x)));
     let velocities = model.initial_velocities.iter().map(|v| match *v {
         InitialVelocity::Material { block, velocity } => format!("MATERIAL {block:>8}{}", vector(velocity)),
         InitialVelocity::NodeSet { node_set, velocity } => format!("NODE SET {node_set:>8}{}", vector(velocity)),
@@ -205,12 +217,14 @@ fn conditions(model: &Model) -> String {
         table("PRESCRIBED FORCES", "     NODE SET  DIRECTION  FUNCTION        SCALE", forces.collect()),
         table("PRESSURES", "     SIDE SET  FUNCTION        SCALE", pressures.collect()),
         table("GRAVITY", "            X            Y            Z  FUNCTION", gravity.collect()),
+        table("SILENT BOUNDARIES", "     SIDE SET", silent.collect()),
         table("INITIAL VELOCITIES", "                            X            Y            Z", velocities.collect()),
         table(
             "RIGID SURFACES",
             "SIDE SET      POINT X      POINT Y      POINT Z     NORMAL X     NORMAL Y     NORMAL Z    FRICTION",
             planes.collect(),
         ),
+        table("MATERIAL POINTS MONITORED", "        POINT            X            Y            Z", points.collect()),
     ]
     .concat()
 }

@@ -1,6 +1,7 @@
 //! The print log: what was asked, what is being modelled, one line per OUTPUT TIME, and where the time went; in
 //! PRONTO's order, with PRONTO's columns first.
 
+mod contact;
 mod echo;
 mod modelled;
 mod steps;

@@ -23,8 +23,13 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("forces on nodes", "PRESCRIBED FORCE", model.prescribed_forces.len()),
         ("pressure on deformed faces", "PRESSURE", model.pressures.len()),
         ("body force", "GRAVITY", model.gravities.len()),
+        ("waves leave through side sets", "SILENT BC", model.silent_boundaries.len()),
         ("initial velocities", "INITIAL VELOCITY", model.initial_velocities.len()),
         ("contact with rigid planes", "RIGID SURFACE", model.rigid_surfaces.len()),
+        ("contact of all outer faces", "CONTACT MATERIAL", usize::from(model.contact.materials.is_some())),
+        ("contact of pairs of side sets", "CONTACT SURFACE", model.contact.surfaces.len()),
+        ("elements that are taken away", "DEATH", model.deaths.len()),
+        ("histories of material points", "MATERIAL POINT", model.material_points.len()),
     ];
     for (what, command, count) in counts.into_iter().filter(|(.., count)| *count > 0) {
         let asked_by = if count == 1 { command.to_string() } else { format!("{command}, {count} of them") };

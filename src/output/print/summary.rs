@@ -2,6 +2,7 @@
 
 use super::{heading, leader, number, scientific};
 use crate::solver::Totals;
+use crate::solver::contact::Report;
 use std::fmt::Write;
 
 /// Where the time of a run went, and over how many ranks.
@@ -39,11 +40,17 @@ pub struct Ending<'a> {
     pub totals: &'a Totals,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
+    /// Contact, where there was any.
+    pub contact: Option<Report>,
+    /// Elements that were taken away, where that was asked for.
+    pub gone: Option<u64>,
 }
 
 /// The closing part: the energies, where the time went, and how the run ended.
 pub fn closing(table: &TimeTable, ending: &Ending) -> String {
     let mut out = balance(ending);
+    out += &ending.contact.as_ref().map_or(String::new(), |report| contact(report, ending.steps));
+    out += &ending.gone.map_or(String::new(), |gone| leader("ELEMENTS TAKEN AWAY", &gone.to_string()));
     out += &sections(table);
     out += "\n";
     let [least, most] = table.elements_of_a_rank;
@@ -77,6 +84,27 @@ fn balance(ending: &Ending) -> String {
     out += &leader("DISSIPATED BY FRICTION", &number(t.friction));
     out += &leader("ENERGY OF ERODED ELEMENTS", &number(t.eroded));
     out += &leader("RELATIVE ERROR OF THE BALANCE", &number(t.relative_error(ending.initial_energy)));
+    out
+}
+
+/// What contact had to do.
+fn contact(report: &Report, steps: u64) -> String {
+    let tally = &report.tally;
+    let mut out = heading("CONTACT");
+    out += &leader("CONTACT NODES", &report.points.to_string());
+    out += &leader("CONTACT FACES", &report.faces.to_string());
+    out += &leader("EDGES THAT MAY TOUCH EDGES", &report.edges.to_string());
+    out += &leader("NODES NEAR FACES AT THE LAST SEARCH", &report.watched.to_string());
+    out += &leader("PAIRS OF THEM", &report.pairs.to_string());
+    let per = |count: u64, of: u64| if of > 0 { count as f64 / of as f64 } else { 0.0 };
+    out += &leader("SEARCHES", &report.searches.to_string());
+    if report.searches > 0 {
+        out += &leader("STEPS THAT A SEARCH LASTED", &format!("{:.1}", per(steps, report.searches)));
+    }
+    out += &leader("STEPS WITH CONTACT FORCES", &tally.steps.to_string());
+    out += &leader("PASSES IN SUCH A STEP", &format!("{:.2}", per(tally.passes, tally.steps)));
+    out += &leader("STEPS IN WHICH THE PASSES RAN OUT", &tally.capped.to_string());
+    out += &leader("LARGEST OVERLAP LEFT, IN FACE SIZES", &number(tally.left));
     out
 }
 

@@ -1,9 +1,13 @@
 //! Storage of one element block on one rank: chunks of eight elements, each quantity a row of eight numbers.
 
 use super::hex8::rows;
+use super::kinematics::rotation_matrix;
 use crate::lanes::{CHUNK, Row};
-use crate::material::Law;
+use crate::material::{Law, Start};
+use crate::mesh::check::hexahedron_volume;
 use crate::model::Hourglass;
+use crate::solver::body::centroid;
+use crate::solver::domain::state_names;
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 
 /// The elements of one material on one rank.
@@ -57,9 +61,9 @@ pub struct NewElement {
 }
 
 impl Group {
-    /// Elements at rest, unstressed, with frames along their own axes; `law_rows` rows of law state each.
-    pub fn new(elements: &[NewElement], law_rows: usize) -> Group {
-        let stride = rows::LAW + law_rows;
+    /// Elements at rest, unstressed, with frames along their own axes, and what their law stores.
+    pub fn new(elements: &[NewElement], law: &Law) -> Group {
+        let stride = rows::LAW + state_names(law).len();
         let chunks = elements.len().div_ceil(CHUNK);
         let mut group = Group {
             places: elements.iter().map(|e| e.place).collect(),
@@ -80,7 +84,16 @@ impl Group {
             for component in 0..3 {
                 state[rows::STRETCH + component].0[lane] = 1.0;
             }
-            for (row, value) in state[rows::FRAME..].iter_mut().zip(own_axes(&element.corners)) {
+            let axes = own_axes(&element.corners);
+            for (row, value) in state[rows::FRAME..].iter_mut().zip(axes) {
+                row.0[lane] = value;
+            }
+            let start = Start {
+                centre: centroid(&element.corners),
+                volume: hexahedron_volume(&element.corners),
+                frame: rotation_matrix(&axes),
+            };
+            for (row, value) in state[rows::LAW..].iter_mut().zip(law.start(&start)) {
                 row.0[lane] = value;
             }
         }

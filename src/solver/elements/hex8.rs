@@ -4,7 +4,7 @@ use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
-use crate::material::Kernel;
+use crate::material::{Kernel, Step};
 
 /// Rows of an element's state, in the order in which they are stored; the law's own rows follow.
 pub mod rows {
@@ -33,6 +33,10 @@ pub mod rows {
 pub struct Settings {
     /// Time step Δt that led to the present positions.
     pub time_step: f64,
+    /// Time of the present positions.
+    pub time: f64,
+    /// Initial mass density.
+    pub density: f64,
     /// Elastic dilatational modulus λ + 2μ.
     pub dilatational: f64,
     /// Shear modulus μ.
@@ -116,9 +120,21 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let old = Sym3::load(&state[rows::STRESS..], part);
     let mut stress = old;
     let (own, law_state) = state.split_at_mut(rows::LAW);
-    let response = law.update(&strain, &mut stress, law_state, part);
-    store(stress.to_array(), own, rows::STRESS, part);
     let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
+    let inverse_volume = V::splat(settings.density) / mass;
+    let motion = Step {
+        strain,
+        stretch,
+        volume: if K::VOLUME { volume(&x) * inverse_volume } else { V::splat(1.0) },
+        middle_volume: middle_volume * inverse_volume,
+        energy: (V::load(&own[rows::INTERNAL_ENERGY], part) + V::load(&own[rows::VISCOUS_ENERGY], part))
+            * inverse_volume,
+        viscous: V::load(&own[rows::VISCOUS_STRESS], part),
+        time: settings.time,
+        time_step: settings.time_step,
+    };
+    let response = law.update(&motion, &mut stress, law_state, part);
+    store(stress.to_array(), own, rows::STRESS, part);
     let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
     accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
 
@@ -126,7 +142,9 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let gradient = gradient(&x);
     let inverse = V::splat(1.0) / gradient.volume192;
     let b_squared = gradient.square4608();
-    let modulus = step_modulus(settings, &old, &stress, &strain);
+    let stiffness = response.stiffness;
+    let modulus = if K::STIFFNESS { stiffness.dilatational } else { step_modulus(settings, &old, &stress, &strain) };
+    let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
     let bound = (mass * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
     let damping = viscous_damping(settings, bound, rate);
@@ -142,13 +160,14 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
         stiffness_measure,
         mass,
-        mu: V::splat(settings.mu),
+        mu,
         poisson: V::splat(settings.poisson),
         returned: response.returned,
+        kept: if K::STIFFNESS { stiffness.kept } else { V::splat(1.0) },
         time_step,
     };
     let resistance = resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state);
-    let stable_step = control.stable_step(stable_step, stiffness_measure, mass, V::splat(settings.mu));
+    let stable_step = control.stable_step(stable_step, stiffness_measure, mass, mu);
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
     let zero = V::splat(0.0);
     let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
@@ -156,6 +175,12 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     // (vi) corner forces from the rotated stress
     let total = stress.rotate(&r).add_diagonal(viscous);
     Outcome { force: corner_forces(&total, &resistance, &x, &gradient.g24, inverse), stable_step }
+}
+
+/// Volume of the element.
+#[inline(always)]
+fn volume<V: Lanes>(x: &[geometry::Modes<V>; 3]) -> V {
+    gradient(x).volume192 * V::splat(1.0 / 192.0)
 }
 
 /// Hourglass rates q̇_iα = v_iI γ_αI at mid-step, in space: γ is the mode made orthogonal to linear fields.

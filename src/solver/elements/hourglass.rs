@@ -27,6 +27,8 @@ pub struct State<V> {
     pub poisson: V,
     /// Factor by which the material's return scaled the trial deviator, 1 where elastic.
     pub returned: V,
+    /// Part of the resistance that is kept from step to step, 1 except in fluids.
+    pub kept: V,
     /// Time step.
     pub time_step: V,
 }
@@ -57,7 +59,7 @@ impl Control for FlanaganBelytschko {
     #[inline(always)]
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V> {
         let stiffness = V::splat(0.25 * self.stiffness) * state.mu * state.stiffness_measure * state.time_step;
-        *q = array![i in 3 => array![a in 4 => q[i][a] + stiffness * rate[i][a]]];
+        *q = array![i in 3 => array![a in 4 => (q[i][a] + stiffness * rate[i][a]) * state.kept]];
         if self.viscosity == 0.0 {
             return *q;
         }
@@ -116,13 +118,14 @@ impl Control for AssumedStrain {
         let mu = state.mu * state.time_step * V::splat(self.factor / 64.0);
         let bending = (mu + mu) / (one - nu);
         let torsion = mu * (one + nu) * V::splat(2.0 / 3.0);
+        let kept = state.returned * state.kept;
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let warping = (diagonal[j] + diagonal[k]) * rate[i][i] + mixed[k] * rate[j][j] + mixed[j] * rate[k][k];
-            q[i][i] = (q[i][i] + mu * warping) * state.returned;
-            q[i][j] = (q[i][j] + bending * (diagonal[i] * rate[i][j] + nu * mixed[k] * rate[j][i])) * state.returned;
-            q[i][k] = (q[i][k] + bending * (diagonal[i] * rate[i][k] + nu * mixed[j] * rate[k][i])) * state.returned;
-            q[i][3] = (q[i][3] + torsion * diagonal[i] * rate[i][3]) * state.returned;
+            q[i][i] = (q[i][i] + mu * warping) * kept;
+            q[i][j] = (q[i][j] + bending * (diagonal[i] * rate[i][j] + nu * mixed[k] * rate[j][i])) * kept;
+            q[i][k] = (q[i][k] + bending * (diagonal[i] * rate[i][k] + nu * mixed[j] * rate[k][i])) * kept;
+            q[i][3] = (q[i][3] + torsion * diagonal[i] * rate[i][3]) * kept;
         }
         *q
     }
@@ -135,5 +138,34 @@ impl Control for AssumedStrain {
             return without / V::splat(self.factor).sqrt();
         }
         without
+    }
+}
+
+/// Either control, chosen at run time: for laws that are not worth a kernel of each.
+#[derive(Debug, Clone, Copy)]
+pub enum Either {
+    /// The stiffness and viscosity of Flanagan and Belytschko.
+    FlanaganBelytschko(FlanaganBelytschko),
+    /// Assumed strain.
+    AssumedStrain(AssumedStrain),
+}
+
+impl Control for Either {
+    const LENGTHS: bool = true;
+
+    #[inline(always)]
+    fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V> {
+        match self {
+            Either::FlanaganBelytschko(control) => control.resist(rate, q, state),
+            Either::AssumedStrain(control) => control.resist(rate, q, state),
+        }
+    }
+
+    #[inline(always)]
+    fn stable_step<V: Lanes>(&self, without: V, stiffness_measure: V, mass: V, mu: V) -> V {
+        match self {
+            Either::FlanaganBelytschko(control) => control.stable_step(without, stiffness_measure, mass, mu),
+            Either::AssumedStrain(control) => control.stable_step(without, stiffness_measure, mass, mu),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::block::{ElementBlock, Group};
 use super::hex8::{self, Physics, Settings};
-use super::hourglass::{AssumedStrain, Control, FlanaganBelytschko};
+use super::hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
 use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, Pair, Row, prefetch};
 use crate::material::{Kernel, KernelVisitor};
 use crate::model::{BulkViscosity, Hourglass, StepModuli};
@@ -53,7 +53,9 @@ impl PassOutcome {
 /// What a pass needs beside the block.
 #[derive(Debug, Clone, Copy)]
 pub struct PassSettings {
-    /// Time step that led to the present positions.
+    /// Time of the present positions.
+    pub time: f64,
+    /// Time step that led to them.
     pub time_step: f64,
     /// Bulk viscosity.
     pub bulk_viscosity: BulkViscosity,
@@ -68,6 +70,8 @@ pub fn run(block: &mut ElementBlock, nodes: &[Row], sink: Sink, pass: &PassSetti
     let moduli = block.law.moduli();
     let settings = Settings {
         time_step: pass.time_step,
+        time: pass.time,
+        density: block.density,
         dilatational: moduli.dilatational(),
         mu: 0.5 * moduli.two_mu,
         poisson: moduli.poisson(),
@@ -75,12 +79,15 @@ pub fn run(block: &mut ElementBlock, nodes: &[Row], sink: Sink, pass: &PassSetti
         quadratic_viscosity: pass.bulk_viscosity.quadratic,
         effective_moduli: pass.moduli == StepModuli::Effective,
     };
-    let law = block.law;
-    law.accept(BlockPass { block, nodes, sink, settings, instructions: pass.instructions })
+    let ElementBlock { law, hourglass, border, interior, .. } = block;
+    let (control, instructions) = (*hourglass, pass.instructions);
+    law.accept(BlockPass { border, interior, control, nodes, sink, settings, instructions })
 }
 
 struct BlockPass<'a> {
-    block: &'a mut ElementBlock,
+    border: &'a mut Group,
+    interior: &'a mut Group,
+    control: Hourglass,
     nodes: &'a [Row],
     sink: Sink<'a>,
     settings: Settings,
@@ -91,11 +98,18 @@ impl KernelVisitor for BlockPass<'_> {
     type Output = PassOutcome;
 
     fn visit<K: Kernel>(self, law: K) -> PassOutcome {
-        match self.block.hourglass {
+        let control = match self.control {
             Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
-                self.with_control(&law, &FlanaganBelytschko { stiffness, viscosity })
+                Either::FlanaganBelytschko(FlanaganBelytschko { stiffness, viscosity })
             }
-            Hourglass::AssumedStrain { factor } => self.with_control(&law, &AssumedStrain { factor }),
+            Hourglass::AssumedStrain { factor } => Either::AssumedStrain(AssumedStrain { factor }),
+        };
+        if !K::FREQUENT {
+            return self.with_control(&law, &control);
+        }
+        match control {
+            Either::FlanaganBelytschko(control) => self.with_control(&law, &control),
+            Either::AssumedStrain(control) => self.with_control(&law, &control),
         }
     }
 }
@@ -103,11 +117,11 @@ impl KernelVisitor for BlockPass<'_> {
 impl BlockPass<'_> {
     fn with_control<K: Kernel, H: Control>(self, law: &K, control: &H) -> PassOutcome {
         let physics = Physics { settings: self.settings, law, control };
-        let ElementBlock { border, interior, .. } = self.block;
         let (group, sink) = match self.sink {
-            Sink::Apart(slots) => (border, Target::Apart(slots)),
+            Sink::Apart(slots) => (self.border, Target::Apart(slots)),
             Sink::Nodes { forces, border: slots } => {
-                (interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
+                let border: &Group = self.border;
+                (self.interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
             }
         };
         match self.instructions {

@@ -60,7 +60,8 @@ impl Box3 {
 
     /// Whether the boxes have a point in common; touching counts.
     pub fn overlaps(&self, other: &Box3) -> bool {
-        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+        // Without short cuts, which searches would mispredict half the time.
+        (0..3).fold(true, |all, axis| all & (self.low[axis] <= other.high[axis]) & (other.low[axis] <= self.high[axis]))
     }
 
     /// Whether the box holds a point and all its coordinates are finite. Searches leave other boxes out.

@@ -36,7 +36,7 @@ fn inversion_is_reported() {
 /// and whether it failed, over fifty steps of its own choosing.
 fn struck(speed: f64, quadratic: f64) -> (f64, bool) {
     let law = elastic(0.3);
-    let mut rig = Rig::single(&CUBE, law, ASSUMED);
+    let mut rig = Rig::single(&CUBE, law.clone(), ASSUMED);
     rig.pass.bulk_viscosity = BulkViscosity { linear: 0.06, quadratic };
     let c = (law.moduli().dilatational() / DENSITY).sqrt();
     let mut v = CUBE.map(|[_, _, z]| [0.0, 0.0, -speed * c * z]);
@@ -180,7 +180,7 @@ fn far_from_the_origin() {
     for edge in [1e-6, 1e-4, 1e-2, 1.0] {
         let offset = 1e6;
         let corners = CUBE.map(|c| c.map(|x| offset + edge * x));
-        let mut rig = Rig::single(&corners, law, ASSUMED);
+        let mut rig = Rig::single(&corners, law.clone(), ASSUMED);
         let rate = 1e-3;
         rig.step(1.0, |n| [rate * edge * CUBE[n][0], 0.0, 0.0]);
         let expected = law.moduli().dilatational() * rate / (1.0 + 0.5 * rate);

@@ -14,7 +14,7 @@ fn green_naghdi(gamma: f64) -> (f64, f64) {
 /// Shears a cube that stands turned by `attitude`; the stress is given back in the axes of the shear, over μ.
 fn simple_shear(gamma: f64, steps: usize, attitude: &Matrix3<f64>) -> Matrix3<f64> {
     let law = elastic(0.25);
-    let mut rig = Rig::single(&mapped(&CUBE, attitude), law, ASSUMED);
+    let mut rig = Rig::single(&mapped(&CUBE, attitude), law.clone(), ASSUMED);
     for step in 1..=steps {
         let g = gamma * step as f64 / steps as f64;
         rig.step_to(1.0 / steps as f64, |n| {

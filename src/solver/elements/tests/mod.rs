@@ -135,15 +135,16 @@ impl Rig {
                 index: 0,
                 id: 1,
                 density: DENSITY,
-                law,
                 hourglass,
                 state_names,
-                border: Group::new(&[], state_names.len()),
-                interior: Group::new(&elements, state_names.len()),
+                border: Group::new(&[], &law),
+                interior: Group::new(&elements, &law),
+                law,
             },
             nodes: points.iter().map(|&[x, y, z]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0])).collect(),
             forces: vec![Force::default(); points.len()],
             pass: PassSettings {
+                time: 0.0,
                 time_step: 0.0,
                 bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
                 moduli: StepModuli::Elastic,
@@ -238,7 +239,7 @@ fn stiffness(corners: &Corners, law: Law, hourglass: Hourglass, prepare: impl Fn
     let size = corners.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
     let h = 1e-6 * size.min(volume(corners) / (size * size));
     let force = |dof: usize, h: f64| {
-        let mut rig = Rig::single(corners, law, hourglass);
+        let mut rig = Rig::single(corners, law.clone(), hourglass);
         prepare(&mut rig);
         rig.step(1.0, |node| [0, 1, 2].map(|i| if 3 * node + i == dof { h } else { 0.0 }));
         rig

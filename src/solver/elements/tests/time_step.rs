@@ -18,7 +18,7 @@ fn bound(corners: &Corners, law: Law, hourglass: Hourglass, prepare: impl Fn(&mu
 }
 
 fn ratio(corners: &Corners, law: Law, hourglass: Hourglass, prepare: impl Fn(&mut Rig)) -> f64 {
-    let k = stiffness(corners, law, hourglass, &prepare);
+    let k = stiffness(corners, law.clone(), hourglass, &prepare);
     exact_step(&k, corners) / bound(corners, law, hourglass, &prepare)
 }
 
@@ -55,12 +55,12 @@ const NOISE: f64 = 1e-5;
 fn step_of_a_cube_and_of_plates() {
     let law = elastic(0.3);
     let c = (269.230_769_230_769e9 / DENSITY).sqrt();
-    close("cube", bound(&CUBE, law, ASSUMED, |_| ()) * c, 1.0 / 3.0f64.sqrt(), 1e-12);
+    close("cube", bound(&CUBE, law.clone(), ASSUMED, |_| ()) * c, 1.0 / 3.0f64.sqrt(), 1e-12);
     // B:B V⁻² = ½ (1/h² + 2) for a square plate of edge 1 and thickness h.
     for thickness in [0.1f64, 0.02] {
         let expected = thickness / (1.0 + 2.0 * thickness * thickness).sqrt();
         let plate = mapped(&CUBE, &Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, thickness)));
-        close("plate", bound(&plate, law, ASSUMED, |_| ()) * c, expected, 1e-12);
+        close("plate", bound(&plate, law.clone(), ASSUMED, |_| ()) * c, expected, 1e-12);
     }
     // The exact step of a cube is the smaller of L √(ρ/3K) and L √(ρ/2μ).
     for nu in [0.0, 0.3, 0.45, 0.499] {
@@ -153,8 +153,8 @@ fn assembled_ratio(random: &mut Random, amplitude: f64, thin: f64, control: Hour
             id(cell % 2 + x, cell / 2 % 2 + y, cell / 4 + z)
         });
         let corners = nodes.map(|n| points[n]);
-        smallest = smallest.min(bound(&corners, law, control, |_| ()));
-        let own = stiffness(&corners, law, control, |_| ());
+        smallest = smallest.min(bound(&corners, law.clone(), control, |_| ()));
+        let own = stiffness(&corners, law.clone(), control, |_| ());
         for p in 0..24 {
             for q in 0..24 {
                 k[(3 * nodes[p / 3] + p % 3, 3 * nodes[q / 3] + q % 3)] += 0.5 * (own[(p, q)] + own[(q, p)]);
@@ -232,7 +232,7 @@ fn bulk_viscosity_follows_effective_moduli() {
     });
     let rate = 1.0;
     let squeezed = |linear: f64| {
-        let mut rig = Rig::single(&CUBE, law, ASSUMED);
+        let mut rig = Rig::single(&CUBE, law.clone(), ASSUMED);
         rig.pass.bulk_viscosity = BulkViscosity { linear, quadratic: 0.0 };
         rig.pass.moduli = StepModuli::Effective;
         let found = [2e-3, 1e-6].map(|step| rig.step(step, |n| [-rate * CUBE[n][0], 0.0, 0.0]).stable_step);

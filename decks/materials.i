@@ -1,0 +1,170 @@
+$ Every material model: one cube each, pressed together by a tenth without room at the sides, and drawn out again.
+$ Source      none: this deck shows the properties of all models and equations of state, with plausible values
+$ Run         urto materials            less than a second
+$ Look        colour materials.e by PRESSURE or VONMISES, over the states
+$ Units       kg, m, s  -> N, Pa, J
+$ Mesh        meshes/materials.mesh: 13 cubes of 0.01 m in a row along x, blocks 1 to 13. Node sets: 1 all nodes,
+$             2 the bottoms, 3 the tops
+TITLE
+ EVERY MATERIAL MODEL IN UNIAXIAL STRAIN
+TERMINATION TIME, 40.E-6
+OUTPUT TIME, 1.E-6
+PLOT TIME, 2.E-6
+PLOT ELEMENT, STRESS, PRESSURE, VONMISES, ENERGY, DENSITY
+PLOT STATE, EQPS, TEARING, DECAY, TEMP, DAMAGE, EQPSDOT, BURN, EVMAX, EV, AIRPRES, CRUSH
+
+NO DISPLACEMENT, X, 1
+NO DISPLACEMENT, Y, 1
+NO DISPLACEMENT, Z, 2
+PRESCRIBED DISPLACEMENT, Z, 3, 1, -0.001
+FUNCTION, 1              $ down in 20 microseconds, and back
+0.,      0.
+20.E-6,  1.
+40.E-6,  0.
+END
+FUNCTION, 2              $ soil: pressure over -ln(V/V0)
+0.,      0.
+0.02,    2.E6
+0.20,    8.E6
+0.30,    40.E6
+END
+FUNCTION, 3              $ honeycomb: strength over 1 - V/V0
+0.,      3.E6
+0.60,    4.E6
+0.70,    90.E6
+END
+FUNCTION, 4              $ honeycomb, sideways and in shear
+0.,      0.5E6
+END
+
+MATERIAL, 1, ELASTIC, 7850.                $ steel
+YOUNGS MODULUS = 200.E9
+POISSONS RATIO = 0.3
+END
+MATERIAL, 2, ELASTIC PLASTIC, 8930.        $ copper
+YOUNGS MODULUS = 117.E9
+POISSONS RATIO = 0.35
+YIELD STRESS = 400.E6
+HARDENING MODULUS = 100.E6
+BETA = 0.5
+END
+MATERIAL, 3, EP POWER HARD, 7850.          $ mild steel, which tears
+YOUNGS MODULUS = 200.E9
+POISSONS RATIO = 0.3
+YIELD STRESS = 250.E6
+HARDENING CONSTANT = 600.E6
+HARDENING EXPONENT = 0.4
+LUDERS STRAIN = 0.015
+CRITICAL TEARING PARAMETER = 5.
+CRITICAL CRACK OPENING STRAIN = 0.02
+END
+MATERIAL, 4, VISCOPLASTIC, 7850.           $ hot steel
+YOUNGS MODULUS = 150.E9
+POISSONS RATIO = 0.3
+YIELD STRESS = 100.E6
+HARDENING MODULUS = 500.E6
+GAMMA = 100.
+P = 4.
+END
+MATERIAL, 5, JOHNSON COOK, 8960.           $ OFHC copper; damage as published with it
+YOUNGS MODULUS = 124.E9
+POISSONS RATIO = 0.34
+YIELD STRESS = 90.E6
+HARDENING CONSTANT = 292.E6
+HARDENING EXPONENT = 0.31
+RATE CONSTANT = 0.025
+REFERENCE RATE = 1.
+THERMAL EXPONENT = 1.09
+REFERENCE TEMPERATURE = 298.
+MELT TEMPERATURE = 1356.
+SPECIFIC HEAT = 383.
+D1 = 0.54
+D2 = 4.89
+D3 = -3.03
+D4 = 0.014
+D5 = 1.12
+END
+MATERIAL, 6, HYDRODYNAMIC, 1000.           $ water
+PRESSURE CUTOFF = 0.1E6
+END
+EQUATION OF STATE, 6, MG US-UP
+C0 = 1480.
+S = 1.92
+GAMMA = 0.5
+END
+MATERIAL, 7, HYDRODYNAMIC, 1.2             $ air
+PRESSURE CUTOFF = 0.
+END
+EQUATION OF STATE, 7, IDEAL GAS
+GAMMA = 1.4
+INITIAL ENERGY = 250.E3
+END
+MATERIAL, 8, HYDRODYNAMIC, 1630.           $ TNT
+PRESSURE CUTOFF = 0.
+END
+EQUATION OF STATE, 8, JWL
+A = 371.2E9
+B = 3.231E9
+R1 = 4.15
+R2 = 0.95
+OMEGA = 0.30
+INITIAL ENERGY = 7.0E9
+DETONATION VELOCITY = 6930.
+BURN WIDTH = 2.5
+END
+DETONATION POINT, 0.110, 0.005, 0., 5.E-6
+MATERIAL, 9, EP HYDRODYNAMIC, 2785.        $ aluminium 2024
+YOUNGS MODULUS = 73.E9
+POISSONS RATIO = 0.33
+YIELD STRESS = 300.E6
+HARDENING MODULUS = 400.E6
+PRESSURE CUTOFF = -1.2E9
+END
+EQUATION OF STATE, 9, MG POWER SERIES
+K1 = 79.3E9
+K2 = 212.E9
+K3 = 426.E9
+GAMMA = 2.0
+END
+MATERIAL, 10, SOIL N FOAMS, 1800.          $ dry sand
+TWO MU = 60.E6
+BULK MODULUS = 400.E6
+A0 = 0.
+A1 = 0.9
+A2 = 0.
+PRESSURE CUTOFF = 0.
+FUNCTION ID = 2
+END
+MATERIAL, 11, LOW DEN FOAM, 110.           $ polyurethane, with its air
+YOUNGS MODULUS = 31.7E6
+A = 0.72E6
+B = 0.62E6
+C = -1.652
+NAIR = 1.
+P0 = 0.1E6
+PHI = 0.1242
+END
+MATERIAL, 12, ORTHOTROPIC CRUSH, 83.       $ aluminium honeycomb, strong in z
+YOUNGS MODULUS = 69.E9
+POISSONS RATIO = 0.33
+YIELD STRESS = 160.E6
+EX = 20.E6
+EY = 20.E6
+EZ = 1.E9
+GXY = 10.E6
+GYZ = 400.E6
+GZX = 200.E6
+CRUSH XX = 4
+CRUSH YY = 4
+CRUSH ZZ = 3
+CRUSH XY = 4
+CRUSH YZ = 4
+CRUSH ZX = 4
+VMIN = 0.3
+END
+MATERIAL, 13, MOONEY RIVLIN, 1100.         $ rubber
+C10 = 0.4E6
+C01 = 0.1E6
+BULK MODULUS = 200.E6
+END
+EXIT

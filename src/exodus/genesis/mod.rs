@@ -1,0 +1,255 @@
+//! EXODUS I and GENESIS of old: a mesh as a sequence of FORTRAN records (SAND87-2997).
+//!
+//! Integers and reals of 4 or 8 bytes, either byte order and either size of the marks between records are found out
+//! from the file. Results behind the mesh are not looked at. Sides of elements are given by their nodes; their numbers
+//! are found by comparison.
+
+mod records;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use records::{Broken, Records};
+
+use super::error::MeshError;
+use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
+use crate::mesh::HEX_SIDES;
+use crate::mesh::check::{Problem, Problems, counted};
+
+/// What record 2 counts.
+struct Counts {
+    nodes: usize,
+    dimensions: usize,
+    elements: usize,
+    blocks: usize,
+    node_sets: usize,
+    node_set_nodes: usize,
+    side_sets: usize,
+    side_set_elements: usize,
+    side_set_nodes: usize,
+}
+
+/// Advice that fits every broken file.
+const WRITE_AGAIN: &str = "copy or write it again; a program or a copy left it incomplete";
+
+/// The arrays of a mesh file of FORTRAN records.
+pub(super) fn read(path: &Path) -> Result<Tables, MeshError> {
+    let bytes = std::fs::read(path).map_err(|e| MeshError::single(path, format!("cannot be read: {e}"), ""))?;
+    let mut problems = Problems::default();
+    let broken = |Broken(what): Broken| MeshError::single(path, format!("EXODUS I: {what}"), WRITE_AGAIN);
+    let tables = tables(&bytes, &mut problems).map_err(broken)?;
+    if problems.is_empty() { Ok(tables) } else { Err(MeshError { path: path.to_owned(), problems }) }
+}
+
+fn tables(bytes: &[u8], problems: &mut Problems) -> Result<Tables, Broken> {
+    let mut file = Records::new(bytes)?;
+    let title = file.text(80, "the title")?;
+    let counts = counts(&mut file)?;
+    let mut coordinates = file.reals(counts.dimensions.saturating_mul(counts.nodes), "the coordinates")?;
+    let mut axis = || {
+        let rest = coordinates.split_off(counts.nodes.min(coordinates.len()));
+        std::mem::replace(&mut coordinates, rest)
+    };
+    let coordinates = [axis(), axis(), axis()];
+    if counts.dimensions != 3 {
+        // Refused for that; sides of flat elements would only be misunderstood.
+        return Ok(Tables { title, dimensions: counts.dimensions, ..Tables::default() });
+    }
+    // The order in which a program wishes to work through the elements.
+    file.skip("the element order map")?;
+    let mut blocks = (0..counts.blocks).map(|n| block(&mut file, n)).collect::<Result<Vec<_>, _>>()?;
+    let node_sets = node_sets(&mut file, &counts, problems)?;
+    let side_sets = side_sets(&mut file, &counts, &blocks, problems)?;
+    let qa = closing(&mut file, &mut blocks, counts.dimensions)?;
+    Ok(Tables {
+        title,
+        dimensions: counts.dimensions,
+        coordinates,
+        node_count: Some(counts.nodes),
+        element_count: Some(counts.elements),
+        blocks,
+        node_sets,
+        side_sets,
+        qa,
+        ..Tables::default()
+    })
+}
+
+fn counts(file: &mut Records) -> Result<Counts, Broken> {
+    let values = file.all_integers(&[9, 10], "the sizes of the mesh")?;
+    let mut counts = [0; 9];
+    for (count, &value) in counts.iter_mut().zip(&values) {
+        *count = usize::try_from(value).map_err(|_| Broken(format!("a count of the mesh is {value}, below zero")))?;
+    }
+    let [nodes, dimensions, elements, blocks, node_sets, node_set_nodes, side_sets, side_set_elements, side_set_nodes] =
+        counts;
+    if dimensions > 3 {
+        return Err(Broken(format!("the mesh is said to have {dimensions} dimensions")));
+    }
+    Ok(Counts {
+        nodes,
+        dimensions,
+        elements,
+        blocks,
+        node_sets,
+        node_set_nodes,
+        side_sets,
+        side_set_elements,
+        side_set_nodes,
+    })
+}
+
+fn block(file: &mut Records, n: usize) -> Result<BlockTable, Broken> {
+    let name = |what: &str| format!("{what} of block {}", n + 1);
+    let head = file.integers(4, &name("the head"))?;
+    let (id, nodes_per_element) = (head[0], usize::try_from(head[2]).unwrap_or(0));
+    let size = usize::try_from(head[1]).unwrap_or(usize::MAX).saturating_mul(nodes_per_element);
+    let connectivity = file.integers(size, &name("the connectivity"))?;
+    // Attributes: the thickness of shells and the like.
+    file.skip(&name("the attributes"))?;
+    let attributes = head[3] > 0;
+    let element_type = inferred_type(nodes_per_element, attributes).to_string();
+    Ok(BlockTable { id, element_type, nodes_per_element, connectivity, ..BlockTable::default() })
+}
+
+/// The kind of a three-dimensional element that a file does not name.
+fn inferred_type(nodes: usize, attributes: bool) -> &'static str {
+    match (nodes, attributes) {
+        (8, false) => "HEX",
+        (8, true) => "SHELL8",
+        (4, false) => "TETRA",
+        (4, true) => "SHELL",
+        (6, _) => "WEDGE",
+        (5, _) => "PYRAMID",
+        (2, _) => "BEAM",
+        (1, _) => "SPHERE",
+        _ => "",
+    }
+}
+
+/// The lengths of the parts of an array; what they must add up to is known.
+fn lengths(counts: &[i64], total: usize, what: &str, problems: &mut Problems) -> Vec<usize> {
+    let lengths: Vec<usize> = counts.iter().map(|&count| usize::try_from(count).unwrap_or(usize::MAX)).collect();
+    let sum = lengths.iter().fold(0usize, |sum, &length| sum.saturating_add(length));
+    if sum == total {
+        return lengths;
+    }
+    let said = if sum == usize::MAX { "a count below zero".to_string() } else { format!("{sum} members") };
+    problems.add(|| Problem::new(format!("the {what} have {said} by their counts, but {total} in all"), WRITE_AGAIN));
+    Vec::new()
+}
+
+fn node_sets(file: &mut Records, counts: &Counts, problems: &mut Problems) -> Result<Vec<NodeSetTable>, Broken> {
+    let ids = file.integers(counts.node_sets, "the numbers of node sets")?;
+    let sizes = file.integers(counts.node_sets, "the sizes of node sets")?;
+    file.skip("the places of node sets")?;
+    let nodes = file.integers(counts.node_set_nodes, "the nodes of node sets")?;
+    file.skip("the factors of node sets")?;
+    let lengths = lengths(&sizes, nodes.len(), "node sets", problems);
+    let mut nodes = nodes.into_iter();
+    let table = |(id, length)| NodeSetTable { id, nodes: nodes.by_ref().take(length).collect(), ..Default::default() };
+    Ok(ids.into_iter().zip(lengths).map(table).collect())
+}
+
+fn side_sets(
+    file: &mut Records,
+    counts: &Counts,
+    blocks: &[BlockTable],
+    problems: &mut Problems,
+) -> Result<Vec<SideSetTable>, Broken> {
+    let ids = file.integers(counts.side_sets, "the numbers of side sets")?;
+    let sizes = file.integers(counts.side_sets, "the sizes of side sets")?;
+    // Some programs write wrong numbers of nodes here; how many a side has follows from the list itself.
+    file.skip("the numbers of nodes of side sets")?;
+    file.skip("the places of side sets")?;
+    file.skip("the places of nodes of side sets")?;
+    let elements = file.integers(counts.side_set_elements, "the elements of side sets")?;
+    let nodes = file.integers(counts.side_set_nodes, "the nodes of side sets")?;
+    file.skip("the factors of side sets")?;
+    if nodes.len() != 4 * elements.len() {
+        problems.add(|| {
+            Problem::new(
+                format!(
+                    "the side sets have {} for {}; a face of a hexahedron has four",
+                    counted(nodes.len(), "node"),
+                    counted(elements.len(), "side")
+                ),
+                "make side sets of faces, not of edges",
+            )
+        });
+        return Ok(Vec::new());
+    }
+    let lengths = lengths(&sizes, elements.len(), "side sets", problems);
+    let mut faces = elements.into_iter().zip(nodes.chunks_exact(4));
+    let mut tables = Vec::new();
+    for (id, length) in ids.into_iter().zip(lengths) {
+        let mut table = SideSetTable { id, ..SideSetTable::default() };
+        for (element, nodes) in faces.by_ref().take(length) {
+            table.elements.push(element);
+            table.sides.push(side(blocks, id, element, nodes, problems));
+        }
+        tables.push(table);
+    }
+    Ok(tables)
+}
+
+/// The one-based side of an element that has these nodes, in any order.
+fn side(blocks: &[BlockTable], set: i64, element: i64, nodes: &[i64], problems: &mut Problems) -> i64 {
+    // An element that does not exist is reported where all numbers of elements are looked at.
+    let Some(corners) = corners(blocks, element) else { return 1 };
+    let wanted: BTreeSet<i64> = nodes.iter().copied().collect();
+    let is = |side: &[usize; 4]| side.iter().map(|&corner| corners[corner]).collect::<BTreeSet<i64>>() == wanted;
+    if let Some(side) = HEX_SIDES.iter().position(is) {
+        return side as i64 + 1;
+    }
+    problems.add(|| {
+        let nodes: Vec<String> = nodes.iter().map(i64::to_string).collect();
+        let what = format!("side set {set}: the nodes {} are no face of element {element}", nodes.join(", "));
+        Problem::new(what, "write the mesh again")
+    });
+    1
+}
+
+/// The corners of a hexahedron by its one-based place in the file.
+fn corners(blocks: &[BlockTable], element: i64) -> Option<&[i64]> {
+    let mut place = usize::try_from(element).ok()?.checked_sub(1)?;
+    for block in blocks {
+        let size = block.connectivity.len() / block.nodes_per_element.max(1);
+        if place < size {
+            let corners = block.connectivity.chunks_exact(block.nodes_per_element).nth(place)?;
+            return (corners.len() == 8).then_some(corners);
+        }
+        place -= size;
+    }
+    None
+}
+
+/// What may stand behind the mesh: QA records, information, names of axes and of element types. A file may end before
+/// any of them.
+fn closing(file: &mut Records, blocks: &mut [BlockTable], dimensions: usize) -> Result<Vec<[String; 4]>, Broken> {
+    let mut qa = Vec::new();
+    if file.is_at_end() {
+        return Ok(qa);
+    }
+    for _ in 0..file.count("the number of QA records")? {
+        let texts = file.texts(4, "a QA record")?;
+        qa.push(std::array::from_fn(|i| texts[i].clone()));
+    }
+    if file.is_at_end() {
+        return Ok(qa);
+    }
+    for _ in 0..file.count("the number of information records")? {
+        file.skip("an information record")?;
+    }
+    if file.is_at_end() {
+        return Ok(qa);
+    }
+    file.texts(dimensions, "the names of axes")?;
+    if !file.is_at_end() {
+        let names = file.texts(blocks.len(), "the names of element types")?;
+        for (block, name) in blocks.iter_mut().zip(names).filter(|(_, name)| !name.is_empty()) {
+            block.element_type = name;
+        }
+    }
+    Ok(qa)
+}

@@ -1,0 +1,119 @@
+//! EP HYDRODYNAMIC: pressure from an equation of state, strength of von Mises with linear hardening.
+
+use super::elastic::{POISSONS_RATIO, YOUNGS_MODULUS};
+use super::elastic_plastic::{HARDENING_MODULUS, YIELD_STRESS};
+use super::equation_of_state::EquationOfState;
+use super::hydrodynamic::PRESSURE_CUTOFF;
+use super::plastic::{Flow, compose, radial_return};
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+
+/// A solid under high pressure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticPlasticHydrodynamic {
+    /// Equation of state of the pressure.
+    pub equation: EquationOfState,
+    /// Young's modulus E, force/length²; with Poisson's ratio it makes the shear modulus.
+    pub young: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+    /// Initial yield stress in uniaxial tension Y₀, force/length².
+    pub yield_stress: f64,
+    /// Uniaxial plastic hardening modulus H, force/length².
+    pub hardening: f64,
+    /// Largest tension that it bears, as a positive number, force/length².
+    pub tension: f64,
+}
+
+pub(super) static ENTRY: Entry = Entry {
+    name: "EP HYDRODYNAMIC",
+    aliases: &["EP HYDRO", "ELASTIC PLASTIC HYDRODYNAMIC"],
+    summary: "Solid with the pressure of an EQUATION OF STATE and the strength of von Mises, hardening linearly.",
+    properties: &[YOUNGS_MODULUS, POISSONS_RATIO, YIELD_STRESS, HARDENING_MODULUS, PRESSURE_CUTOFF],
+    state: &[StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." }],
+    origin: Origin::Recalled,
+    build: |v| {
+        let equation = v.equation_of_state()?;
+        if let EquationOfState::Jwl(_) = equation {
+            let reason = "is for an explosive, which has no strength: make the material HYDRODYNAMIC".to_string();
+            return Err(Refusal { keyword: "EQUATION OF STATE", reason });
+        }
+        Ok(Law::ElasticPlasticHydrodynamic(ElasticPlasticHydrodynamic {
+            equation,
+            young: v[0],
+            poisson: v[1],
+            yield_stress: v[2],
+            hardening: v[3],
+            tension: v[4].abs(),
+        }))
+    },
+};
+
+impl ElasticPlasticHydrodynamic {
+    /// The bulk modulus of the equation of state, and the shear modulus of E and ν.
+    pub(super) fn moduli(&self) -> Moduli {
+        let two_mu = Moduli::from_young(self.young, self.poisson).two_mu;
+        Moduli { lambda: self.equation.initial().bulk - two_mu / 3.0, two_mu }
+    }
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        vec![self.young, self.poisson, self.yield_stress, self.hardening, self.tension]
+    }
+
+    pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
+        stored.to_vec()
+    }
+
+    pub(super) fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output {
+        visitor.visit(Solid { law: self, two_mu: self.moduli().two_mu })
+    }
+}
+
+/// Y₀ + H ε̄ᵖ
+struct Linear<V> {
+    start: V,
+    slope: V,
+}
+
+impl<V: Lanes> Flow<V> for Linear<V> {
+    #[inline(always)]
+    fn stress(&self, increment: V) -> (V, V) {
+        (self.start + self.slope * increment, self.slope)
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Solid<'a> {
+    law: &'a ElasticPlasticHydrodynamic,
+    two_mu: f64,
+}
+
+impl Kernel for Solid<'_> {
+    const STATE: &'static [&'static str] = &["EQPS"];
+    const VOLUME: bool = true;
+    const STIFFNESS: bool = true;
+
+    #[inline(always)]
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+        let (law, two_mu) = (self.law, V::splat(self.two_mu));
+        // (i) elastic predictor and return of the deviator
+        let mean = stress.trace() * V::splat(1.0 / 3.0);
+        let old = stress.add_diagonal(-mean);
+        let strain = step.strain.deviator();
+        let trial = old.zip(strain, |s, e| s + two_mu * e);
+        let eqps = V::load(&state[0], part);
+        let slope = V::splat(law.hardening);
+        let flow = Linear { start: V::splat(law.yield_stress) + slope * eqps, slope };
+        let back = radial_return(&trial, 1.5 * self.two_mu, &flow);
+        // (ii) pressure, with the deviator's work in the energy
+        let new = compose(&trial, back.factor, V::splat(0.0));
+        let work = old.zip(new, |a, b| a + b).contract(strain) * V::splat(0.5) * step.middle_volume;
+        let state_after = law.equation.advance(step, mean, work, V::splat(1.0));
+        let pressure = V::splat(-law.tension).max(state_after.pressure);
+        *stress = new.add_diagonal(-pressure);
+        (eqps + back.increment).store(&mut state[0], part);
+        let dilatational = state_after.bulk + two_mu * V::splat(2.0 / 3.0);
+        let stiffness = Stiffness { dilatational, shear: V::splat(0.5 * self.two_mu), kept: V::splat(1.0) };
+        Response { returned: back.factor, stiffness }
+    }
+}

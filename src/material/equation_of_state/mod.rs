@@ -1,0 +1,131 @@
+//! Equations of state: pressure from relative volume v = V/V₀ and internal energy E per initial volume.
+//!
+//! All of them are linear in the energy, p = a(v) + b(v) E, so that the energy equation of a step is solved in closed
+//! form. An equation is one file here and one line in `equations!` below.
+
+use super::{Entry, Refusal, Step};
+use crate::lanes::Lanes;
+
+mod ideal_gas;
+mod jwl;
+mod mie_gruneisen;
+#[cfg(test)]
+mod tests;
+
+pub use ideal_gas::IdealGas;
+pub use jwl::Jwl;
+pub use mie_gruneisen::{PowerSeries, UsUp};
+
+/// p = a(v) + b(v) E with the derivatives of a and b by v.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Terms<V> {
+    pub a: V,
+    pub b: V,
+    pub a_slope: V,
+    pub b_slope: V,
+}
+
+macro_rules! equations {
+    ($($module:ident :: $equation:ident = $entry:ident),+ $(,)?) => {
+        /// Any equation of state with its parameters.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum EquationOfState { $(#[doc = stringify!($equation)] $equation($equation),)+ }
+
+        /// Every equation of state there is.
+        pub static EQUATIONS_OF_STATE: &[&Entry<EquationOfState>] = &[$(&$module::$entry),+];
+
+        impl EquationOfState {
+            /// The table entry of this equation.
+            pub fn entry(&self) -> &'static Entry<EquationOfState> {
+                match self { $(EquationOfState::$equation(_) => &$module::$entry,)+ }
+            }
+            /// Parameter values in the order of the entry's properties.
+            pub fn values(&self) -> Vec<f64> {
+                match self { $(EquationOfState::$equation(equation) => equation.values(),)+ }
+            }
+            /// Internal energy per initial volume at the start.
+            pub fn initial_energy(&self) -> f64 {
+                match self { $(EquationOfState::$equation(equation) => equation.initial_energy,)+ }
+            }
+            #[inline(always)]
+            pub(super) fn terms<V: Lanes>(&self, volume: V) -> Terms<V> {
+                match self { $(EquationOfState::$equation(equation) => equation.terms(volume),)+ }
+            }
+        }
+    };
+}
+
+equations! {
+    mie_gruneisen::UsUp = US_UP,
+    mie_gruneisen::PowerSeries = POWER_SERIES,
+    jwl::Jwl = ENTRY,
+    ideal_gas::IdealGas = ENTRY,
+}
+
+/// Pressure and isentropic bulk modulus −v dp/dv of a state.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State<V> {
+    pub pressure: V,
+    pub bulk: V,
+}
+
+impl EquationOfState {
+    /// Pressure and bulk modulus at relative volume v and energy E per initial volume.
+    #[inline(always)]
+    pub(super) fn state<V: Lanes>(&self, volume: V, energy: V) -> State<V> {
+        let Terms { a, b, a_slope, b_slope } = self.terms(volume);
+        let pressure = a + b * energy;
+        // Along an isentrope dE = −p dv.
+        State { pressure, bulk: volume * (pressure * b - a_slope - b_slope * energy) }
+    }
+
+    /// Pressure and bulk modulus of the initial state.
+    pub(super) fn initial(&self) -> State<f64> {
+        self.state(1.0, self.initial_energy())
+    }
+
+    /// State at the end of a step that began with the mean stress `mean`. `deviatoric` is the work of the deviatoric
+    /// stress in the step, per initial volume; `burnt` the part of the pressure that acts.
+    ///
+    /// The energy is the one that the element books: E' = E + deviatoric + (½ (mean − p') + q) Δv with Δv = tr(Δε) times
+    /// the volume at mid-step, into which p' = burnt (a + b E') is put. The work of the bulk viscosity q counts as it was
+    /// in the step before; what is missing comes with the next step.
+    #[inline(always)]
+    pub(super) fn advance<V: Lanes>(&self, step: &Step<V>, mean: V, deviatoric: V, burnt: V) -> State<V> {
+        let (half, one) = (V::splat(0.5), V::splat(1.0));
+        let change = step.strain.trace() * step.middle_volume;
+        let energy = V::splat(self.initial_energy()) + step.energy + deviatoric;
+        let energy = energy + (mean * half + step.viscous) * change;
+        let Terms { a, b, a_slope, b_slope } = self.terms(step.volume);
+        let divisor = (one + half * burnt * b * change).max(V::splat(0.1));
+        let pressure = burnt * (a + b * energy) / divisor;
+        let energy = energy - half * pressure * change;
+        let full = a + b * energy;
+        let bulk = step.volume * (full * b - a_slope - b_slope * energy);
+        // Where the equation has no stiffness left there still has to be a time step.
+        let floor = V::splat(SOFTEST * self.initial().bulk);
+        State { pressure, bulk: floor.max(bulk) }
+    }
+}
+
+/// The bulk modulus is not below this part of the initial one.
+const SOFTEST: f64 = 1e-4;
+
+/// Where and when an explosive is lit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DetonationPoint {
+    /// Its place.
+    pub position: [f64; 3],
+    /// The time.
+    pub time: f64,
+}
+
+/// Refuses equations whose initial state has no stiffness.
+fn stiff(equation: EquationOfState, keyword: &'static str) -> Result<EquationOfState, Refusal> {
+    let bulk = equation.initial().bulk;
+    if bulk > 0.0 {
+        return Ok(equation);
+    }
+    let reason = format!("makes the initial bulk modulus {bulk:e}, which must be positive");
+    Err(Refusal { keyword, reason })
+}

@@ -1,0 +1,156 @@
+//! HYDRODYNAMIC: pressure from an equation of state and no strength; explosives with programmed burn.
+
+use super::equation_of_state::{DetonationPoint, EquationOfState};
+use super::property::STRESS;
+use super::{
+    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start, StateVariable, Step, Stiffness,
+};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use std::sync::Arc;
+
+/// A fluid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hydrodynamic {
+    /// Its equation of state.
+    pub equation: EquationOfState,
+    /// Largest tension that it bears, as a positive number, force/length².
+    pub tension: f64,
+    /// Where it is lit, if it is an explosive.
+    pub points: Arc<[DetonationPoint]>,
+}
+
+/// Pressure cutoff, for every law with an equation of state. Decks write it with either sign.
+pub(super) const PRESSURE_CUTOFF: Property = Property::required(
+    "PRESSURE CUTOFF",
+    "pc",
+    STRESS,
+    Range::Any,
+    "Largest tension that the material bears, with either sign.",
+);
+
+pub(super) static ENTRY: Entry = Entry {
+    name: "HYDRODYNAMIC",
+    aliases: &["HYDRO"],
+    summary: "Fluid, gas or explosive: pressure from an EQUATION OF STATE, no strength.",
+    properties: &[PRESSURE_CUTOFF],
+    state: &[
+        StateVariable { name: "BURN", meaning: "Part of an explosive that has burnt; 0 in other materials." },
+        StateVariable { name: "LIGHTING", meaning: "Time at which an explosive begins to burn; 0 in others." },
+    ],
+    origin: Origin::Recalled,
+    build: |v| {
+        Ok(Law::Hydrodynamic(Hydrodynamic {
+            equation: v.equation_of_state()?,
+            tension: v[0].abs(),
+            points: v.detonation.into(),
+        }))
+    },
+};
+
+/// Shear modulus by which hourglass modes of a fluid are resisted, over its bulk modulus.
+const HOURGLASS_SHARE: f64 = 0.05;
+
+/// Part of their resistance that a fluid keeps from step to step: it relaxes within a few, which makes it viscous.
+const HOURGLASS_KEPT: f64 = 0.5;
+
+impl Hydrodynamic {
+    pub(super) fn moduli(&self) -> Moduli {
+        Moduli { lambda: self.equation.initial().bulk, two_mu: 0.0 }
+    }
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        vec![self.tension]
+    }
+
+    pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
+        match stored {
+            [lighting, _, burnt] => vec![*burnt, *lighting],
+            _ => vec![0.0; 2],
+        }
+    }
+
+    pub(super) fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output {
+        let fluid = Fluid { equation: &self.equation, lowest: -self.tension };
+        match &self.equation {
+            EquationOfState::Jwl(jwl) => {
+                visitor.visit(Explosive { fluid, points: &self.points, velocity: jwl.velocity, width: jwl.width })
+            }
+            _ => visitor.visit(fluid),
+        }
+    }
+}
+
+/// What fluids share.
+#[derive(Clone, Copy)]
+struct Fluid<'a> {
+    equation: &'a EquationOfState,
+    /// Lowest pressure.
+    lowest: f64,
+}
+
+impl Fluid<'_> {
+    #[inline(always)]
+    fn advance<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, burnt: V) -> Response<V> {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
+        let mean = stress.trace() * V::splat(1.0 / 3.0);
+        let state = self.equation.advance(step, mean, zero, burnt);
+        // In this order a NaN passes.
+        let pressure = V::splat(self.lowest).max(state.pressure);
+        let mean = -pressure;
+        *stress = Sym3 { xx: mean, yy: mean, zz: mean, xy: zero, yz: zero, zx: zero };
+        let stiffness = Stiffness {
+            dilatational: state.bulk,
+            shear: state.bulk * V::splat(HOURGLASS_SHARE),
+            kept: V::splat(HOURGLASS_KEPT),
+        };
+        Response { returned: one, stiffness }
+    }
+}
+
+impl Kernel for Fluid<'_> {
+    const STATE: &'static [&'static str] = &[];
+    const VOLUME: bool = true;
+    const STIFFNESS: bool = true;
+
+    #[inline(always)]
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+        self.advance(step, stress, V::splat(1.0))
+    }
+}
+
+/// Programmed burn: the front leaves the detonation points at time and speed given, and passes through an element while
+/// the burnt part F grows linearly, over `width` times its size h: F = (t − t_l) D/(width h), p = F p(v, E).
+#[derive(Clone, Copy)]
+struct Explosive<'a> {
+    fluid: Fluid<'a>,
+    points: &'a [DetonationPoint],
+    velocity: f64,
+    width: f64,
+}
+
+impl Kernel for Explosive<'_> {
+    const STATE: &'static [&'static str] = &["LIGHTING", "BURNRATE", "BURN"];
+    const VOLUME: bool = true;
+    const STIFFNESS: bool = true;
+
+    fn start(&self, element: &Start, state: &mut [f64]) {
+        let lit = |point: &DetonationPoint| {
+            let [x, y, z] = [0, 1, 2].map(|i| element.centre[i] - point.position[i]);
+            point.time + (x * x + y * y + z * z).sqrt() / self.velocity
+        };
+        let first = self.points.iter().map(lit).fold(f64::INFINITY, f64::min);
+        let rate = self.velocity / (self.width * libm::cbrt(element.volume));
+        // Without a point all of it has burnt when the run begins.
+        let values = if first.is_finite() { [first, rate, 0.0] } else { [0.0, rate, 1.0] };
+        state.copy_from_slice(&values);
+    }
+
+    #[inline(always)]
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+        let [lighting, rate] = [V::load(&state[0], part), V::load(&state[1], part)];
+        let burning = (V::splat(step.time) - lighting) * rate;
+        let burnt = V::load(&state[2], part).max(burning).min(V::splat(1.0));
+        burnt.store(&mut state[2], part);
+        self.fluid.advance(step, stress, burnt)
+    }
+}

@@ -1,0 +1,201 @@
+//! MOONEY RIVLIN: rubber, from a stored energy; NEO HOOKEAN is the same with C01 = 0.
+
+use super::property::STRESS;
+use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Step, Stiffness};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
+
+/// W = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3) + ½ K (J − 1)², with the invariants of b̄ = J^(−2/3) F Fᵀ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MooneyRivlin {
+    /// C₁₀, force/length².
+    pub c10: f64,
+    /// C₀₁, force/length².
+    pub c01: f64,
+    /// Bulk modulus K, force/length².
+    pub bulk: f64,
+}
+
+pub(super) static ENTRY: Entry = Entry {
+    name: "MOONEY RIVLIN",
+    aliases: &["MOONEY", "NEO HOOKEAN"],
+    summary: "Rubber after Mooney and Rivlin, nearly incompressible; neo-Hookean without C01.",
+    properties: &[
+        Property::required("C10", "C10", STRESS, Range::Any, "Factor of the first invariant in the stored energy."),
+        Property::required("C01", "C01", STRESS, Range::Any, "Factor of the second invariant.").or(0.0),
+        Property::required("BULK MODULUS", "K", STRESS, Range::Positive, "Bulk modulus."),
+    ],
+    state: &[],
+    origin: Origin::Recalled,
+    build: |v| {
+        let (c10, c01, bulk) = (v[0], v[1], v[2]);
+        if c10 + c01 <= 0.0 {
+            let reason = format!("is {c10}, which with C01 = {c01} makes a shear modulus that is not positive");
+            return Err(Refusal { keyword: "C10", reason });
+        }
+        Ok(Law::MooneyRivlin(MooneyRivlin { c10, c01, bulk }))
+    },
+};
+
+impl MooneyRivlin {
+    /// Of small strains: μ = 2 (C₁₀ + C₀₁).
+    pub(super) fn moduli(&self) -> Moduli {
+        let two_mu = 4.0 * (self.c10 + self.c01);
+        Moduli { lambda: self.bulk - two_mu / 3.0, two_mu }
+    }
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        vec![self.c10, self.c01, self.bulk]
+    }
+
+    pub(super) fn state(&self, _: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
+        Vec::new()
+    }
+
+    pub(super) fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output {
+        visitor.visit(Rubber { law: self })
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Rubber<'a> {
+    law: &'a MooneyRivlin,
+}
+
+/// a · a of a symmetric tensor.
+#[inline(always)]
+fn square<V: Lanes>(a: &Sym3<V>) -> Sym3<V> {
+    Sym3 {
+        xx: a.xx * a.xx + a.xy * a.xy + a.zx * a.zx,
+        yy: a.xy * a.xy + a.yy * a.yy + a.yz * a.yz,
+        zz: a.zx * a.zx + a.yz * a.yz + a.zz * a.zz,
+        xy: a.xx * a.xy + a.xy * a.yy + a.zx * a.yz,
+        yz: a.xy * a.zx + a.yy * a.yz + a.yz * a.zz,
+        zx: a.xx * a.zx + a.xy * a.yz + a.zx * a.zz,
+    }
+}
+
+impl Kernel for Rubber<'_> {
+    const STATE: &'static [&'static str] = &[];
+    const VOLUME: bool = true;
+    const STIFFNESS: bool = true;
+
+    /// σ = (2/J) dev[(C₁₀ + C₀₁ Ī₁) b̄ − C₀₁ b̄²] + K (J − 1) I. In the frame F Fᵀ is U².
+    #[inline(always)]
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+        let law = self.law;
+        let (one, zero) = (V::splat(1.0), V::splat(0.0));
+        let u = &step.stretch;
+        // The stretch of the same shape with volume 1; its own determinant serves better than V/V₀, which differs by
+        // the integration of U.
+        let determinant = u.xx * (u.yy * u.zz - u.yz * u.yz) - u.xy * (u.xy * u.zz - u.yz * u.zx)
+            + u.zx * (u.xy * u.yz - u.yy * u.zx);
+        let scale = one / power(determinant, 1.0 / 3.0);
+        let b = square(&u.zip(*u, |c, _| c * scale));
+        let first = b.trace();
+        let (c10, c01) = (V::splat(law.c10), V::splat(law.c01));
+        let linear = c10 + c01 * first;
+        let inverse = V::splat(2.0) / step.volume;
+        let deviator = b.zip(square(&b), |b, b2| (linear * b - c01 * b2) * inverse).deviator();
+        *stress = deviator.add_diagonal(V::splat(law.bulk) * (step.volume - one));
+        // A bound on (4/3) μ of the stretched state: moduli grow with the largest principal value of b̄, at most tr b̄, and
+        // that of b̄², at most (tr b̄)².
+        let stiff = (c10.max(zero) + c01.max(zero) * first) * first * inverse * V::splat(4.0 / 3.0);
+        let bulk = V::splat(law.bulk) * step.volume;
+        let shear = V::splat(law.c10 + law.c01) * V::splat(2.0);
+        let least = V::splat(self.law.moduli().dilatational());
+        Response { returned: one, stiffness: Stiffness { dilatational: least.max(bulk + stiff), shear, kept: one } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::point::{Point, close, full, made};
+    use nalgebra::{Matrix3, Rotation3};
+
+    const C10: f64 = 0.4e6;
+    const C01: f64 = 0.1e6;
+
+    fn rubber(c01: f64) -> Point {
+        Point::new(made("MOONEY RIVLIN", 1100.0, &[("C10", C10), ("C01", c01), ("BULK MODULUS", 2e10)], &[]))
+    }
+
+    /// Free of lateral stress, nearly incompressible: σ = 2 (λ² − 1/λ)(C₁₀ + C₀₁/λ).
+    #[test]
+    fn uniaxial_tension_and_compression() {
+        for c01 in [0.0, C01] {
+            for (sign, steps) in [(1.0, 120), (-1.0, 80)] {
+                let mut point = rubber(c01);
+                for _ in 0..steps {
+                    point.stretch_freely(sign * 0.01);
+                }
+                let l = libm::exp(sign * 0.01 * f64::from(steps));
+                close("stress", point.stress[0], 2.0 * (l * l - 1.0 / l) * (C10 + c01 / l), 2e-3);
+                assert!(point.stress[1].abs() < 1.0);
+            }
+        }
+    }
+
+    /// Equibiaxial tension: σ = 2 (λ² − λ⁻⁴)(C₁₀ + C₀₁ λ²) above the free side.
+    #[test]
+    fn equibiaxial_tension() {
+        let mut point = rubber(C01);
+        point.strain_in(100, [0.4, 0.4, -0.8, 0.0, 0.0, 0.0]);
+        let l = libm::exp(0.4);
+        let expected = 2.0 * (l.powi(2) - l.powi(-4)) * (C10 + C01 * l.powi(2));
+        close("stress", point.stress[0] - point.stress[2], expected, 1e-9);
+    }
+
+    /// Compression alone is K (J − 1); small strains obey Hooke's law with μ = 2 (C₁₀ + C₀₁).
+    #[test]
+    fn volume_and_small_strains() {
+        let mut point = rubber(C01);
+        point.strain_in(10, [-0.01, -0.01, -0.01, 0.0, 0.0, 0.0]);
+        close("pressure", point.mean(), 2e10 * (libm::exp(-0.03) - 1.0), 1e-9);
+        assert!(point.von_mises() < 1e-3);
+        let mut point = rubber(C01);
+        point.strain([1e-6, -1e-6, 0.0, 2e-6, 0.0, 0.0]);
+        close("shear", point.stress[3], 4.0 * (C10 + C01) * 2e-6, 1e-5);
+        close("normal", point.stress[0] - point.stress[1], 4.0 * (C10 + C01) * 2e-6, 1e-5);
+    }
+
+    /// The work done on any path is the stored energy, by the trapezoidal rule.
+    #[test]
+    fn work_is_the_stored_energy() {
+        let mut point = rubber(C01);
+        let r = Rotation3::from_euler_angles(0.2, 0.5, -0.8).into_inner();
+        for leg in [
+            Matrix3::new(0.3, 0.0, 0.0, 0.0, -0.1, 0.0, 0.0, 0.0, -0.21),
+            Matrix3::new(-0.1, 0.2, 0.0, 0.2, 0.15, 0.0, 0.0, 0.0, -0.06),
+        ] {
+            // Strains along the present principal axes or not: stretch and strain are coaxial only in the first leg.
+            let m = if leg[(0, 1)] == 0.0 {
+                r * leg * r.transpose()
+            } else {
+                r * Matrix3::from_diagonal(&leg.diagonal()) * r.transpose()
+            };
+            point.strain_in(2000, super::super::point::flat(m));
+        }
+        let b = point.stretch * point.stretch;
+        let j = point.stretch.determinant();
+        let unit = b / j.powf(2.0 / 3.0);
+        let i1 = unit.trace();
+        let i2 = 0.5 * (i1 * i1 - (unit * unit).trace());
+        let stored = C10 * (i1 - 3.0) + C01 * (i2 - 3.0) + 0.5 * 2e10 * (j - 1.0).powi(2);
+        close("energy", point.energy, stored, 1e-5);
+        let _ = full(point.stress);
+    }
+
+    #[test]
+    fn safe_at_the_limits() {
+        for size in [0.0, 1e-320, 1e-160, 1e-12, 1e-3, 0.5, 3.0] {
+            for sign in [-1.0, 1.0] {
+                let mut point = rubber(C01);
+                for _ in 0..2 {
+                    point.strain([sign * size, -0.3 * size, 0.1 * size, 0.0, 0.0, 0.0]);
+                    point.assert_finite();
+                    assert!(point.dilatational >= 2e10 && point.dilatational.is_finite());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What the front part of the log says of contact and of the removal of elements.
+
+use super::{echo::table, number};
+use crate::model::{ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
+use crate::solver::contact::Overlap;
+
+/// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
+pub fn tables(model: &Model, overlap: Overlap) -> String {
+    let contact = &model.contact;
+    let friction =
+        |f: &Friction| format!("{:>13}{:>13}{:>13}", number(f.at_rest), number(f.high_speed), number(f.decay));
+    let share = |partition: Option<f64>| partition.map_or("IMPEDANCE".to_string(), number);
+    let pairs = contact.surfaces.iter().map(|pair| {
+        let [first, second] = pair.side_sets;
+        format!("{:<14}{first:>8}{second:>8}{:>13}{}", "SIDE SETS", number(pair.partition), friction(&pair.friction))
+    });
+    let data = contact.data.iter().map(|data| {
+        let [first, second] = data.materials;
+        format!("{:<14}{first:>8}{second:>8}{:>13}{}", "MATERIALS", share(data.partition), friction(&data.friction))
+    });
+    let lines: Vec<String> = materials(contact.materials.as_ref()).into_iter().chain(pairs).chain(data).collect();
+    [
+        table("CONTACT", "BETWEEN          FIRST  SECOND    PARTITION     FRICTION   HIGH SPEED        DECAY", lines),
+        table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
+        table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
+        table(
+            "REMOVAL OF ELEMENTS",
+            "BLOCK   VARIABLE      BOUND        VALUE   NODES",
+            model.deaths.iter().map(death).collect(),
+        ),
+    ]
+    .concat()
+}
+
+fn materials(materials: Option<&ContactMaterials>) -> Option<String> {
+    let named = match materials? {
+        ContactMaterials::All => "ALL".to_string(),
+        ContactMaterials::Blocks(ids) => ids.iter().map(i64::to_string).collect::<Vec<_>>().join(" "),
+    };
+    Some(format!("{:<14}{named}", "MATERIALS"))
+}
+
+fn control(model: &Model) -> Vec<String> {
+    let control = &model.contact.control;
+    let search = match control.search {
+        ContactSearch::PointInBox => "POINT IN BOX",
+        ContactSearch::Grid => "GRID",
+        ContactSearch::Tree => "TREE",
+    };
+    vec![
+        format!("AT MOST {} PASSES, TO AN OVERLAP OF {} FACE SIZES", control.passes, number(control.tolerance)),
+        format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
+        format!("EDGES TOUCH EDGES: {}", if control.edges { "YES" } else { "NO" }),
+    ]
+}
+
+fn overlaps(overlap: Overlap) -> Vec<String> {
+    let moved = (overlap.nodes > 0).then(|| format!("{:>11}{:>13}", overlap.nodes, number(overlap.farthest)));
+    moved.into_iter().collect()
+}
+
+fn death(death: &Death) -> String {
+    let variable = match &death.variable {
+        DeathVariable::State(name) => name.clone(),
+        DeathVariable::Field(field, component) => field.components()[*component].to_string(),
+        DeathVariable::Volume => "VOLUME".into(),
+        DeathVariable::TimeStep => "TMSTEP".into(),
+    };
+    let bound = if death.is_maximum { "MAX" } else { "MIN" };
+    let nodes = if death.keeps_nodes { "FREE" } else { "DROP" };
+    format!("{:>5}   {variable:<14}{bound:<8}{:>10}   {nodes}", death.block, number(death.value))
+}

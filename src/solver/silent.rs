@@ -1,0 +1,132 @@
+//! Boundaries that waves leave through: dashpots on the faces of side sets (Lysmer and Kuhlemeyer 1969).
+//!
+//! A plane wave that leaves a face along its normal n carries the traction t = -ρ c_L (v·n) n - ρ c_S (v - (v·n) n).
+//! This traction on the face, lumped at its corners, is a force F = -C v with a symmetric C per node, of the faces as
+//! they are in the mesh. Velocities live at mid-step; the v of a state is the mean of the two around it, and as the
+//! later one depends on F, three equations are solved per node:
+//!
+//! (1 + ½ Δt̄ C/m) v = v⁻ + ½ Δt̄ f/m.
+//!
+//! So the dashpots never give energy, Δt̄ F·v ≤ 0, and the stable step is that of the body without them.
+
+use super::body::Body;
+use super::domain::ABSENT;
+use super::loads::face_area_vectors;
+use super::nodes::{Nodes, cross, dot, scaled};
+use crate::mesh::{HEX_SIDES, Mesh};
+use crate::model::Model;
+
+/// What the faces at one node of this rank do to it.
+#[derive(Debug, Clone)]
+pub struct Dashpot {
+    /// Local node.
+    pub node: u32,
+    /// Rows of C, force per velocity.
+    pub resistance: [[f64; 3]; 3],
+    /// Force on the node now.
+    pub force: [f64; 3],
+    /// Work done so far; it is negative.
+    pub work: f64,
+}
+
+impl Dashpot {
+    /// Adds the force at the present state; all other forces on the node but those of constraints and contact are known.
+    pub fn apply(&mut self, nodes: &mut Nodes, kick: f64) {
+        let row = &nodes.rows[self.node as usize].0;
+        let half = 0.5 * kick * row[7];
+        let f = &mut nodes.forces[self.node as usize].0;
+        let before = [0, 1, 2].map(|i| row[4 + i] + half * f[i]);
+        let mut matrix = self.resistance.map(|c| scaled(c, half));
+        (0..3).for_each(|i| matrix[i][i] += 1.0);
+        let velocity = solve(matrix, before);
+        self.force = self.resistance.map(|c| -dot(c, velocity));
+        (0..3).for_each(|i| f[i] += self.force[i]);
+    }
+
+    /// Books half the step's work with the present velocity.
+    pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
+        self.work += half_step * dot(self.force, nodes.velocity(self.node));
+    }
+}
+
+/// x of A x = b, for a symmetric A with eigenvalues of 1 or more.
+fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
+    let determinant = dot(a[0], cross(a[1], a[2]));
+    let parts = [dot(b, cross(a[1], a[2])), dot(a[0], cross(b, a[2])), dot(a[0], cross(a[1], b))];
+    parts.map(|part| part / determinant)
+}
+
+/// The dashpots of a rank's nodes, in the order of its nodes. Every rank that has a node sums all faces there, in the
+/// order of the mesh, so that all get the same bits.
+pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<Dashpot> {
+    let sets = model.silent_boundaries.iter().filter_map(|set| mesh.side_set(*set));
+    // A face that is named twice lets a wave through once.
+    let mut sides: Vec<(u32, u8)> = sets.flat_map(|set| set.sides.iter().copied()).collect();
+    if sides.is_empty() {
+        return Vec::new();
+    }
+    sides.sort_unstable();
+    sides.dedup();
+    let elements: Vec<(usize, &[u32; 8])> = mesh.elements().collect();
+    let mut sums = vec![[[0.0; 3]; 3]; local.len()];
+    for (element, side) in sides {
+        let (block, corners) = elements[element as usize];
+        let material = &model.materials[body.block_material[block]];
+        let moduli = material.law.moduli();
+        let impedance = |modulus: f64| (material.density * modulus).sqrt();
+        let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
+        let nodes = HEX_SIDES[side as usize].map(|corner| corners[corner]);
+        let areas = face_area_vectors(nodes.map(|node| body.positions[node as usize]));
+        for (node, area) in nodes.into_iter().zip(areas).filter(|(node, _)| local[*node as usize] != ABSENT) {
+            add_face(&mut sums[node as usize], area, along, across);
+        }
+    }
+    let mut found: Vec<Dashpot> = local
+        .iter()
+        .zip(sums)
+        .filter(|(node, sum)| **node != ABSENT && *sum != [[0.0; 3]; 3])
+        .map(|(&node, resistance)| Dashpot { node, resistance, force: [0.0; 3], work: 0.0 })
+        .collect();
+    found.sort_unstable_by_key(|dashpot| dashpot.node);
+    found
+}
+
+/// Adds a (ρ c_L n nᵀ + ρ c_S (1 - n nᵀ)) for an area vector a n.
+fn add_face(sum: &mut [[f64; 3]; 3], area: [f64; 3], along: f64, across: f64) {
+    let size = dot(area, area).sqrt();
+    if size == 0.0 {
+        return;
+    }
+    let normal = scaled(area, 1.0 / size);
+    for i in 0..3 {
+        for j in 0..3 {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            sum[i][j] += size * (across * unit + (along - across) * normal[i] * normal[j]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_three_equations() {
+        let a = [[2.0, 0.5, -0.25], [0.5, 3.0, 1.0], [-0.25, 1.0, 1.5]];
+        let x = [1.0, -2.0, 4.0];
+        let b = a.map(|row| dot(row, x));
+        let found = solve(a, b);
+        assert!((0..3).all(|i| (found[i] - x[i]).abs() < 1e-14), "{found:?}");
+    }
+
+    #[test]
+    fn a_face_resists_along_and_across_its_normal() {
+        let mut sum = [[0.0; 3]; 3];
+        add_face(&mut sum, [0.0, 3.0, 4.0], 7.0, 2.0);
+        let along = [0.0, 0.6, 0.8];
+        let across = [0.0, -0.8, 0.6];
+        assert!((0..3).all(|i| (dot(sum[i], along) - 35.0 * along[i]).abs() < 1e-13));
+        assert!((0..3).all(|i| (dot(sum[i], across) - 10.0 * across[i]).abs() < 1e-13));
+        assert!((dot(sum[0], [1.0, 0.0, 0.0]) - 10.0).abs() < 1e-13);
+    }
+}
