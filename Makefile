@@ -7,15 +7,16 @@ FEATURES = $$(.ci/packages features)
 
 .PHONY: demo test build mpi bench verify man install clean packages needed
 
-demo: build            # runs the Taylor bar, a minute or two on two cores, and draws it
+demo: build            # crushes a can under a plate, half a minute on two cores, and draws it
 	@mkdir -p out
-	$(URTO) run decks/taylor_bar.i --output out/taylor_bar
-	$(URTO) view out/taylor_bar.e --output out/taylor_bar.png --variable EQPS --mirror xy
-	$(URTO) view out/taylor_bar.e --output out/taylor_bar_cut.png --variable EQPS --mirror x
+	$(URTO) run decks/can_crush.i --output out/can_crush
+	$(URTO) view out/can_crush.e --output out/can_crush.png --variable EQPS --mirror y --from front --time 3.2e-3
+	$(URTO) view out/can_crush.e --output out/can_crush.gif --variable EQPS --mirror y --from front --animate --size 800x600
 	@echo
-	@echo "The print log     out/taylor_bar.o      text; the energy balance is at its end"
-	@echo "The results       out/taylor_bar.e      EXODUS: open them with ParaView"
-	@echo "The pictures      out/taylor_bar.png, and cut open: out/taylor_bar_cut.png"
+	@echo "The print log     out/can_crush.o       text; the energy balance is at its end"
+	@echo "The results       out/can_crush.e       EXODUS: open them with ParaView"
+	@echo "The picture       out/can_crush.png     the can after 3.2 ms"
+	@echo "The animation     out/can_crush.gif     the whole crush"
 
 test: packages         # every test; those over MPI too where the machine has it
 	cargo test $(FEATURES)
@@ -29,8 +30,8 @@ mpi: needed            # the program with MPI, or the reason why not
 bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench
 
-verify: needed         # the problems with known answers only, with what they found
-	cargo test --release --test 'verif*' -- --nocapture
+verify: needed         # the problems with known answers only, at full size, with what they found
+	cargo test --release --test 'verif*' -- --nocapture --include-ignored
 
 man: build             # man pages from the option table and the grammar
 	$(URTO) generate man > man/urto.1

@@ -267,7 +267,8 @@ fn completions_are_made() {
 #[test]
 fn an_inverted_element_ends_the_run_with_its_name_and_advice() {
     let desk = Desk::new();
-    let crush = "NO DISPLACEMENT, Z, 3\nFUNCTION, 1\n0., 0.\n1.E-6, 1.\nEND\nPRESCRIBED DISPLACEMENT, Z, 4, 1, -0.03\n";
+    let crush = "NO DISPLACEMENT, Z, 3\nFUNCTION, 1\n0., 0.\n1.E-6, 1.\nEND\nPRESCRIBED DISPLACEMENT, Z, 4, 1, -0.03\n\
+                 MATERIAL POINT, 0., 0., 0.04\n";
     put_bar(&desk, 1e-4, crush);
     let left = desk.urto(&["bar.i", "--quiet", "--ranks", "3"]).with(1);
     left.says(&["stopped at step", "time", "element ", "of block 1", "at (", "help: "]);
@@ -278,6 +279,7 @@ fn an_inverted_element_ends_the_run_with_its_name_and_advice() {
         assert!(log.contains(words), "{words} is not in\n{log}");
     }
     last_state_is_that_of_the_log(&desk);
+    assert_eq!(desk.results("bar.h").times().last(), desk.results("bar.e").times().last(), "histories end there too");
 }
 
 #[test]
@@ -404,9 +406,9 @@ fn every_example_is_sound_without_options() {
     }
 }
 
-/// The first deck of the README is the one that `make demo` runs.
+/// The first deck of the README is one of ours, line by line.
 #[test]
-fn the_readme_shows_the_deck_of_the_demo() {
+fn the_readme_shows_a_deck_of_ours() {
     let words = |text: &str| -> Vec<String> {
         let lines = text.lines().map(|line| line.split('$').next().unwrap_or("").trim().to_string());
         lines.filter(|line| !line.is_empty()).collect()

@@ -185,10 +185,11 @@ fn v26_newtons_cradle() {
     }
 }
 
-/// One pass is enough in the row, whose joints are far apart; more change nothing.
+/// One pass is enough in the row, whose joints are far apart; more change nothing but round-off.
 #[test]
 fn v26_passes_do_not_matter() {
     let mesh = recipe(CRADLE_MESH);
     let of = |passes: &str| velocities(&mesh, &run(&with(CRADLE, &format!("CONTACT PASSES, {passes}")), &mesh));
-    assert_eq!(of("1"), of("100, 1.E-14"));
+    let worst = of("1").iter().zip(of("100, 1.E-14")).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    between("V-26", "change of velocities over v with 100 passes instead of one", worst, 0.0, 1e-6);
 }

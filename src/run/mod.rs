@@ -157,7 +157,8 @@ fn give_up(
     writer: &mut Writer,
     comm: &mut dyn Communicator,
 ) -> Result<Request, RunError> {
-    let unwritten = writer.state(solver, comm).err().map(Box::new);
+    let written = writer.state(solver, comm).and_then(|()| writer.last_history(solver, comm));
+    let unwritten = written.err().map(Box::new);
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
 
@@ -267,6 +268,12 @@ impl<'a> Writer<'a> {
             (Some(file), Some(values)) => Ok(file.write_state(solver.time, &values, &[], &[])?),
             _ => Ok(()),
         }
+    }
+
+    /// Appends the state in which a run cannot go on; all ranks learn whether that worked.
+    fn last_history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        let outcome = self.history(solver, comm);
+        together(outcome, comm)
     }
 
     fn print_error(&self, source: std::io::Error) -> RunError {

@@ -8,7 +8,7 @@
 use super::face::{self, Stand};
 use super::faces::Faces;
 use super::points::Points;
-use crate::solver::nodes::{dot, subtract};
+use crate::solver::nodes::{add, dot, scaled, subtract};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;
@@ -53,7 +53,7 @@ pub struct Touch {
     pub time: f64,
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
-    /// Where the point would be at the end of the step.
+    /// Where the point would be at the end of the step; the weights are those of the forces, see `face::shares_along`.
     pub stand: Stand,
     /// Overlap that stays.
     pub allowed: f64,
@@ -89,6 +89,42 @@ impl Check<'_> {
         }
         if touches.len() > 1 {
             self.choose(point, touches);
+        }
+        for touch in touches.iter_mut() {
+            self.blend(near, touch);
+            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
+            if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
+                let end = self.faces.end(touch.face, self.points);
+                let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(end[i], shares[i])));
+                touch.stand.weights = shares;
+                touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
+            }
+        }
+    }
+
+    /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
+    /// theirs, so that what is symmetric stays so.
+    fn blend(&self, near: &[u32], touch: &mut Touch) {
+        let corners = self.faces.corners[touch.face as usize];
+        let unit = |face: u32| {
+            let normal = face::area_normal(&self.faces.end(face, self.points));
+            scaled(normal, 1.0 / dot(normal, normal).sqrt())
+        };
+        let shared = |face: u32| -> f64 {
+            let other = self.faces.corners[face as usize];
+            corners.iter().zip(touch.stand.weights).filter(|(corner, _)| other.contains(corner)).map(|(_, w)| w).sum()
+        };
+        let mut sum = [0.0; 3];
+        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - face::TIE) {
+            let normal = unit(face);
+            if dot(normal, touch.stand.normal) > SAME_WAY {
+                sum = add(sum, normal);
+            }
+        }
+        let length = dot(sum, sum).sqrt();
+        // The face itself is one of them.
+        if length > 1.5 {
+            touch.stand.normal = scaled(sum, 1.0 / length);
         }
     }
 
@@ -195,7 +231,21 @@ impl Check<'_> {
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
-        (shallow && self.opposition(point, &end) < 0.0).then(|| touch(0.0, start.gap))
+        let inside = shallow && self.opposition(point, &end) < 0.0 && !self.in_front_of_another(point, face);
+        inside.then(|| touch(0.0, start.gap))
+    }
+
+    /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
+    /// however far behind the face's plane.
+    fn in_front_of_another(&self, point: u32, face: u32) -> bool {
+        let element = |face: u32| self.faces.number[face as usize] / 6;
+        let same = |other: &u32| element(*other) == element(face);
+        let below = (0..face).rev().take_while(same);
+        let above = (face + 1..self.faces.len() as u32).take_while(same);
+        below.chain(above).any(|other| {
+            let start = face::stand(&self.faces.start(other, self.points), self.points.start[point as usize]);
+            start.is_some_and(|start| start.gap >= 0.0)
+        })
     }
 
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a

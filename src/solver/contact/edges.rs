@@ -190,9 +190,19 @@ impl EdgeCheck<'_> {
         })
     }
 
+    /// Places where the edges see each other at the beginning of the step, along the normal of its end: forces there have
+    /// no moment.
+    fn places_along(&self, pair: [u32; 2], end: &Crossing) -> [f64; 2] {
+        let [a, b] = pair.map(|edge| self.ends(edge, &self.points.start));
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let volume = dot(end.normal, cross(u, v));
+        let places = [dot(end.normal, cross(r, v)) / volume, dot(end.normal, cross(r, u)) / volume];
+        if places.iter().all(|place| (-0.5..=1.5).contains(place)) { places } else { end.places }
+    }
+
     fn constraint(&self, pair: [u32; 2], end: &Crossing, now: &PastPair, gap: f64, pairing: Pairing) -> Constraint {
         let [a, b] = [self.edges[pair[0] as usize].ends, self.edges[pair[1] as usize].ends];
-        let [s, t] = end.places;
+        let [s, t] = self.places_along(pair, end);
         Constraint {
             members: [a[0], a[1], b[0], b[1], a[0]],
             weights: [1.0 - s, s, t - 1.0, -t, 0.0],

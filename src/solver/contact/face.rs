@@ -11,6 +11,10 @@ use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 /// through each other.
 const BORDER: f64 = 1e-6;
 
+/// A foot nearer to the line between triangles or faces than this part of them is on both, for the normal. Below a node of a
+/// tilted surface the feet of the perpendiculars are not quite at the node.
+pub const TIE: f64 = 1e-3;
+
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stand {
@@ -23,6 +27,8 @@ pub struct Stand {
     pub weights: [f64; 4],
     /// How far the foot lies beyond the border; 0 on the face.
     pub outside: f64,
+    /// Number of the triangle in which the foot is.
+    sector: usize,
 }
 
 /// Mean of four corners.
@@ -67,8 +73,52 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
     let mut weights = [rest; 4];
     weights[sector] += b1;
     weights[next] += b2;
-    let gap = dot(r, normal) / length;
-    gap.is_finite().then(|| Stand { gap, normal: scaled(normal, 1.0 / length), weights, outside })
+    let mut gap = dot(r, normal) / length;
+    let mut normal = scaled(normal, 1.0 / length);
+    if let Some(blended) = between_triangles(&arms, sector, [b1, b2], normal) {
+        normal = blended;
+        gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
+    }
+    gap.is_finite().then(|| Stand { gap, normal, weights, outside, sector })
+}
+
+/// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
+/// choose one, or what is symmetric would not stay so. `None` elsewhere.
+fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], normal: [f64; 3]) -> Option<[f64; 3]> {
+    let other = match (b1 < TIE, b2 < TIE) {
+        (false, false) => return None,
+        (true, true) => (sector + 2) % 4,
+        (true, false) => (sector + 1) % 4,
+        (false, true) => (sector + 3) % 4,
+    };
+    let second = cross(arms[other], arms[(other + 1) % 4]);
+    let sum = add(normal, scaled(second, 1.0 / dot(second, second).sqrt()));
+    let length = dot(sum, sum).sqrt();
+    // Triangles that have collapsed or turned over have no say.
+    (length > 1.0).then(|| scaled(sum, 1.0 / length))
+}
+
+/// Shares of the corners in the point of a face that is met along a direction: Σ N x_I = point − α direction, in the plane
+/// of the triangle that `stand` has found. Beyond the border they are continued. `None` where the direction hardly leaves
+/// the plane, or far beyond the border.
+///
+/// Forces act at the beginning of a step, on the positions there; along the normal of its end they have no moment when
+/// the shares are these. The gap at the end is the same with all shares of points in the plane.
+pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], stand: &Stand) -> Option<[f64; 4]> {
+    let middle = centre(corners);
+    let next = (stand.sector + 1) % 4;
+    let (e1, e2, r) =
+        (subtract(corners[stand.sector], middle), subtract(corners[next], middle), subtract(point, middle));
+    let volume = dot(stand.normal, cross(e1, e2));
+    let (b1, b2) = (dot(stand.normal, cross(r, e2)) / volume, dot(stand.normal, cross(e1, r)) / volume);
+    let near = |b: f64| (-0.5..=1.5).contains(&b);
+    if volume <= 0.0 || !(near(b1) && near(b2) && near(b1 + b2)) {
+        return None;
+    }
+    let mut shares = [0.25 * (1.0 - b1 - b2); 4];
+    shares[stand.sector] += b1;
+    shares[next] += b2;
+    Some(shares)
 }
 
 /// Part of the step, 0 to 1, after which a point comes through a face from the front (Heinstein et al. 1993), or
@@ -135,6 +185,19 @@ mod tests {
             assert!(s.outside == 0.0 && s.weights.iter().sum::<f64>() == 1.0, "{s:?}");
         }
         assert!(stand(&SQUARE, [1.0 + 1e-6, 0.3, 0.0]).is_some_and(|s| s.outside > 0.0));
+    }
+
+    #[test]
+    fn shares_along_a_direction_have_no_arm_across_it() {
+        // A face that turns and a point that slides: the shares are those of the beginning, along the normal of the end.
+        let end = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]];
+        let s = stand(&end, [0.7, 0.4, 0.0]).expect("a face");
+        let shares = shares_along(&SQUARE, [0.65, 0.45, 0.02], &s).expect("near the face");
+        let foot = (0..4).fold([0.0; 3], |sum, i| add(sum, scaled(SQUARE[i], shares[i])));
+        let arm = cross(subtract([0.65, 0.45, 0.02], foot), s.normal);
+        assert!(arm.iter().all(|x| x.abs() < 1e-16) && foot[2].abs() < 1e-16, "{arm:?} {foot:?}");
+        assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+        assert_eq!(shares_along(&SQUARE, [5.0, 0.4, 0.0], &s), None);
     }
 
     #[test]

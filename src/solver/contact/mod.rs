@@ -61,6 +61,8 @@ pub struct Contact {
     edges_due: bool,
     edge_history: Vec<PastPair>,
     planes: Vec<RigidSurface>,
+    /// Mean size of the faces: what overlaps with planes are small against.
+    mean_size: f64,
     plane_points: Vec<PlanePoint>,
     constraints: Vec<Constraint>,
     enforcer: Enforcer,
@@ -143,10 +145,11 @@ impl Contact {
             edges_due: false,
             edge_history: Vec::new(),
             planes: model.rigid_surfaces.clone(),
+            mean_size: mean_size(&layout),
             plane_points: plane_points(&watched, model, body, &layout),
             constraints: Vec::new(),
             enforcer: Enforcer::new(count),
-            limits: Limits { passes: model.contact.control.passes, tolerance: model.contact.control.tolerance },
+            limits: limits(model, &watched),
             pushed: Vec::new(),
             normal_work: vec![0.0; count],
             friction_work: vec![0.0; count],
@@ -261,7 +264,7 @@ impl Contact {
         }
         let always = !self.layout.interfaces.is_empty();
         for watch in &self.plane_points {
-            self.constraints.extend(watch.constraint(&self.planes, &self.points, always));
+            self.constraints.extend(watch.constraint(&self.planes, &self.points, self.mean_size, always));
         }
         self.enforce(step);
         self.hand_over(nodes, held);
@@ -328,7 +331,7 @@ impl Contact {
         let Outcome { passes, left } = self.enforcer.solve(&mut self.constraints, &self.points, step, self.limits);
         self.tally.steps += 1;
         self.tally.passes += u64::from(passes);
-        self.tally.capped += u64::from(left > self.limits.tolerance);
+        self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
     }
 
@@ -440,13 +443,31 @@ fn kind(search: ContactSearch) -> SearchKind {
     }
 }
 
+/// Mean size of the faces, 1 where there are none.
+fn mean_size(layout: &Layout) -> f64 {
+    let sizes = &layout.faces.size;
+    if sizes.is_empty() { 1.0 } else { sizes.iter().sum::<f64>() / sizes.len() as f64 }
+}
+
 fn reach(model: &Model, layout: &Layout) -> Reach {
     let control = &model.contact.control;
-    let sizes = &layout.faces.size;
-    let mean = if sizes.is_empty() { 0.0 } else { sizes.iter().sum::<f64>() / sizes.len() as f64 };
+    let mean = mean_size(layout);
     // A reach of one step at least: the search must hold for the step it is made for.
     let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
     Reach { steps: control.reach.max(1.0), least, depth: detect::KEEP }
+}
+
+/// How far the passes go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
+/// stops at the same pass; planes alone are each rank's own, and get as many passes as they can need.
+fn limits(model: &Model, watched: &[Vec<u32>]) -> Limits {
+    let control = &model.contact.control;
+    if model.contact.is_some() {
+        return Limits { passes: control.passes, tolerance: control.tolerance };
+    }
+    let mut nodes = watched.concat();
+    nodes.sort_unstable();
+    let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
+    Limits { passes: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
 }
 
 fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlanePoint> {

@@ -27,8 +27,9 @@ impl PlanePoint {
         PlanePoint { point, plane: number as u32, allowed: gap(plane, position).min(0.0) }
     }
 
-    /// The constraint that keeps the point from crossing, when it would or when `always`.
-    pub fn constraint(&self, planes: &[RigidSurface], points: &Points, always: bool) -> Option<Constraint> {
+    /// The constraint that keeps the point from crossing, when it would or when `always`; overlaps are measured in units of
+    /// `size`.
+    pub fn constraint(&self, planes: &[RigidSurface], points: &Points, size: f64, always: bool) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
         let end = points.end[self.point as usize];
         let gap = gap(plane, end) - self.allowed;
@@ -41,7 +42,7 @@ impl PlanePoint {
             count: 1,
             normal: plane.normal,
             gap,
-            size: f64::MIN_POSITIVE,
+            size,
             share: 1.0,
             friction: Friction::constant(plane.friction),
             push: 0.0,
