@@ -315,8 +315,7 @@ fn taylor_bar_with_laws_that_reduce_to_linear_hardening() {
     }
 }
 
-/// Rate hardening shortens the mushroom, heat widens it; all kinetic energy that plastic work has taken shows as heat:
-/// the mean rise of temperature is at most χ v²/2c_p.
+/// Heat softens: the foot grows wider and the bar shorter. Rate hardening does the opposite.
 #[test]
 fn taylor_bar_of_johnson_and_cook() {
     let law = |more: &str| {

@@ -77,7 +77,8 @@ pub fn ln<V: Lanes>(x: V) -> V {
     }
     // 2 s = f − s f keeps the digits of f.
     let tail = s * ((square + square) * sum - f);
-    n * V::splat(LN2_HIGH) + (f + (tail + n * V::splat(LN2_LOW))) + (x - x)
+    // The last term is 0, or NaN.
+    n * V::splat(LN2_HIGH) + (f + (tail + n * V::splat(LN2_LOW))) + x * V::splat(0.0)
 }
 
 /// xᵖ of x ≥ 0 for a fixed p > 0; the relative error is about p ln x units in the last place. Zero stays zero as

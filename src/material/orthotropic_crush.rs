@@ -205,7 +205,7 @@ impl Kernel for Honeycomb<'_> {
 #[cfg(test)]
 mod tests {
     use super::super::Start;
-    use super::super::point::{IDENTITY, Point, close, flat, full, made};
+    use super::super::point::{Point, close, flat, full, made};
     use nalgebra::Rotation3;
 
     const FUNCTIONS: &[(i64, &[(f64, f64)])] =
@@ -286,7 +286,6 @@ mod tests {
         turned.strain_in(200, flat(r.transpose() * full(path) * r));
         let back = r * full(turned.stress) * r.transpose();
         assert!((back - full(straight.stress)).amax() < 1e-3, "{back} {}", full(straight.stress));
-        let _ = IDENTITY;
     }
 
     #[test]

@@ -77,7 +77,7 @@ fn soil(v: &Given) -> Result<Soil, Refusal> {
     let curve = v.curve(6, "FUNCTION ID")?;
     let refusal = |reason: String| Refusal { keyword: "FUNCTION ID", reason };
     let id = curve.id;
-    let start = value(&curve.points, 0.0);
+    let start = interpolate(&curve.points, 0.0);
     if start != 0.0 {
         return Err(refusal(format!("is {id}, a function that is {start} and not 0 without compression")));
     }
@@ -94,11 +94,6 @@ fn soil(v: &Given) -> Result<Soil, Refusal> {
         }
     }
     Ok(Soil { two_mu: v[0], bulk: v[1], a0: v[2], a1: v[3], a2: v[4], tension: v[5].abs(), curve })
-}
-
-/// Piecewise linear, constant outside the points.
-fn value(points: &[(f64, f64)], x: f64) -> f64 {
-    interpolate(points, x)
 }
 
 /// A function at x: linear between its points, constant outside.
@@ -127,7 +122,7 @@ impl Soil {
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
         let (largest, now) = (stored[0], stored[1]);
-        let fracture = largest - (value(&self.curve.points, largest) + self.tension) / self.bulk;
+        let fracture = largest - (interpolate(&self.curve.points, largest) + self.tension) / self.bulk;
         let segment = self.curve.points.iter().filter(|p| p.0 <= largest).count();
         vec![largest, fracture, now, segment as f64]
     }
