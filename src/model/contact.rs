@@ -24,7 +24,9 @@ fn death(card: &Card, draft: &mut Draft) {
     let Some(variable) = death_variable(block, &name, draft) else {
         let mut known = vec!["VOLUME".to_string(), "TMSTEP".to_string()];
         known.extend(state_names(block, draft));
-        known.extend(ElementField::ALL.iter().flat_map(|field| field.components()).map(|name| name.to_string()));
+        let fields =
+            ElementField::ALL.iter().filter(|field| !matches!(field, ElementField::Status | ElementField::Rank));
+        known.extend(fields.flat_map(|field| field.components()).map(|name| name.to_string()));
         let diagnostic = Diagnostic::error(format!("DEATH: there is no variable {} to watch", spelling::cut(&name)))
             .at(card.place("variable"), "expected a state variable or a component of PLOT ELEMENT");
         let near = spelling::nearest(&name, known.iter().map(String::as_str));
@@ -33,12 +35,18 @@ fn death(card: &Card, draft: &mut Draft) {
             None => diagnostic.help(format!("block {block} has {}", spelling::all(&known))),
         });
     };
+    let keeps_nodes = card.text("nodes") == "FREE";
+    if draft.model.deaths.iter().any(|other| other.block == block && other.keeps_nodes != keeps_nodes) {
+        let message = format!("DEATH: nodes of block {block} are to be kept by one command and dropped by another");
+        return draft
+            .report(Diagnostic::error(message).at(card.place("nodes").join(card.record), "the second of them"));
+    }
     draft.model.deaths.push(Death {
         block,
         variable,
         is_maximum: card.text("bound") == "MAX",
         value: card.number("value"),
-        keeps_nodes: card.text("nodes") == "FREE",
+        keeps_nodes,
     });
 }
 
@@ -53,7 +61,8 @@ fn death_variable(block: i64, name: &str, draft: &Draft) -> Option<DeathVariable
         "TMSTEP" => return Some(DeathVariable::TimeStep),
         _ => (),
     }
-    let field = ElementField::ALL.iter().find_map(|&field| {
+    let watched = ElementField::ALL.iter().filter(|field| !matches!(field, ElementField::Status | ElementField::Rank));
+    let field = watched.copied().find_map(|field| {
         let component = field.components().iter().position(|component| *component == name)?;
         Some(DeathVariable::Field(field, component))
     });
@@ -90,8 +99,14 @@ fn contact_surface(card: &Card, draft: &mut Draft) {
 }
 
 fn contact_data(card: &Card, draft: &mut Draft) {
+    let materials = [card.integer("first"), card.integer("second")];
+    let [a, b] = materials;
+    if draft.model.contact.data.iter().any(|data| data.materials == [a, b] || data.materials == [b, a]) {
+        let message = format!("CONTACT DATA: materials {a} and {b} have been paired before");
+        draft.report(Diagnostic::warning(message).at(card.record, "the last one holds"));
+    }
     draft.model.contact.data.push(ContactData {
-        materials: [card.integer("first"), card.integer("second")],
+        materials,
         friction: friction(card),
         partition: card.maybe_number("partition"),
     });

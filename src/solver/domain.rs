@@ -257,6 +257,8 @@ fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> V
         let load = &model.pressures[face.pressure as usize];
         PressureFace {
             nodes: face.nodes.map(|n| local[n as usize]),
+            element: face.element,
+            gone: false,
             function: load.function,
             scale: load.scale,
             force: [[0.0; 3]; 4],

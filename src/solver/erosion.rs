@@ -36,11 +36,10 @@ const CUBE: [[f64; 3]; 8] = [
 pub struct Erosion {
     rules: Vec<Death>,
     element_nodes: Arc<Vec<[u32; 8]>>,
-    /// Block number of each mesh block.
-    block_ids: Vec<i64>,
-    element_block: Arc<Vec<u32>>,
     /// Local number of each node of the mesh.
     local: Vec<u32>,
+    /// Whether a node of the mesh goes on when it has lost its elements: if any block around it wants that.
+    keeps: Vec<bool>,
     /// Elements left at each local node, of all ranks.
     left: Vec<u32>,
     /// First of the eight nodes of the stand-in.
@@ -76,9 +75,8 @@ impl Erosion {
         Some(Erosion {
             rules: model.deaths.clone(),
             element_nodes: body.element_nodes.clone(),
-            block_ids: mesh.blocks.iter().map(|block| block.id).collect(),
-            element_block: body.element_block.clone(),
             local: local.to_vec(),
+            keeps: keeps(mesh, model, body),
             left,
             stand_in,
             edge,
@@ -121,15 +119,13 @@ impl Erosion {
     /// Counts the elements that nodes lose, and drops free nodes where that is asked for.
     fn release(&mut self, dead: &[u32], nodes: &mut Nodes) {
         for &element in dead {
-            let block = self.block_ids[self.element_block[element as usize] as usize];
-            let keeps = self.keeps_nodes(block);
             for node in self.element_nodes[element as usize] {
                 let here = self.local[node as usize];
                 if here == ABSENT {
                     continue;
                 }
                 self.left[here as usize] -= 1;
-                if self.left[here as usize] == 0 && !keeps {
+                if self.left[here as usize] == 0 && !self.keeps[node as usize] {
                     let v = nodes.velocity(here);
                     if nodes.owned[here as usize] {
                         self.energy.push(0.5 * nodes.mass(here) * dot(v, v));
@@ -140,24 +136,26 @@ impl Erosion {
         }
     }
 
-    fn keeps_nodes(&self, block: i64) -> bool {
-        self.rules.iter().any(|rule| rule.block == block && rule.keeps_nodes)
-    }
-
-    /// Whether a node of the mesh that has lost its elements goes on; those of other ranks are judged by their elements.
-    pub fn keeps(&self, dead: &[u32]) -> impl Fn(u32) -> bool + '_ {
-        let mut dropped: Vec<u32> = (dead.iter())
-            .filter(|&&element| !self.keeps_nodes(self.block_ids[self.element_block[element as usize] as usize]))
-            .flat_map(|&element| self.element_nodes[element as usize])
-            .collect();
-        dropped.sort_unstable();
-        move |node| dropped.binary_search(&node).is_err()
+    /// Whether a node of the mesh goes on when it has lost its elements.
+    pub fn keeps(&self, node: u32) -> bool {
+        self.keeps[node as usize]
     }
 
     /// Local number of each node of the mesh.
     pub fn local(&self) -> &[u32] {
         &self.local
     }
+}
+
+/// Nodes that go on without elements: those with an element of a block that wants it.
+fn keeps(mesh: &Mesh, model: &Model, body: &Body) -> Vec<bool> {
+    let wants = |block: i64| model.deaths.iter().any(|rule| rule.block == block && rule.keeps_nodes);
+    let wanting: Vec<bool> = mesh.blocks.iter().map(|block| wants(block.id)).collect();
+    let mut keeps = vec![false; body.positions.len()];
+    for (nodes, block) in body.element_nodes.iter().zip(&*body.element_block) {
+        nodes.iter().for_each(|&node| keeps[node as usize] |= wanting[*block as usize]);
+    }
+    keeps
 }
 
 /// The numbers of all ranks, ascending.

@@ -12,6 +12,10 @@ use crate::model::{Function, Gravity};
 pub struct PressureFace {
     /// Local nodes, counter-clockwise seen from outside.
     pub nodes: [u32; 4],
+    /// Canonical number of its element.
+    pub element: u32,
+    /// Whether the element has been taken away; nothing presses then.
+    pub gone: bool,
     /// Function of time.
     pub function: usize,
     /// Factor on it.
@@ -36,7 +40,7 @@ pub fn face_area_vectors(x: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
 impl PressureFace {
     /// Forces of the pressure p(t) on the present face. Positive pressure pushes on it, against the outward normal.
     pub fn evaluate(&mut self, nodes: &Nodes, functions: &[Function], time: f64) {
-        let pressure = self.scale * functions[self.function].value(time);
+        let pressure = if self.gone { 0.0 } else { self.scale * functions[self.function].value(time) };
         let corners = self.nodes.map(|n| nodes.position(n));
         self.force = face_area_vectors(corners).map(|area| scaled(area, -pressure));
     }

@@ -216,10 +216,13 @@ impl Solver {
 
     /// Takes failed elements away, and lets the surface grow inwards.
     fn erode(&mut self, comm: &mut dyn Communicator) {
-        let Domain { erosion, blocks, nodes, element_canonical, contact, .. } = &mut self.domain;
+        let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, .. } = &mut self.domain;
         let Some(erosion) = erosion else { return };
         self.clock.start();
         let dead = erosion.advance(blocks, element_canonical, nodes, self.time_step, comm);
+        if !dead.is_empty() {
+            pressure_faces.iter_mut().for_each(|face| face.gone |= dead.binary_search(&face.element).is_ok());
+        }
         if let Some(contact) = contact
             && !dead.is_empty()
         {

@@ -23,6 +23,9 @@ pub const KEEP: f64 = 0.05;
 /// that goes on in the same way takes over.
 const HOLD: f64 = 0.01;
 
+/// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
+const CLEARLY: f64 = 1e-6;
+
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
 
@@ -30,7 +33,7 @@ const FACING: f64 = -0.02;
 const SAME_WAY: f64 = 0.8;
 
 /// Part of an old overlap that stays each step: it fades without giving velocity.
-const FADE: f64 = 0.998;
+pub const FADE: f64 = 0.998;
 
 /// Where a face has seen a point before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,16 +78,18 @@ pub struct Check<'a> {
 impl Check<'_> {
     /// Fills `touches` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
     /// this step meet the point's; `past` the faces touched before.
-    pub fn point(&self, point: u32, near: &[u32], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
+    /// `strict[i]` says whether the `i`-th of them is met only by points one of whose own faces looks at it; the nodes of a
+    /// side set do not bring all the faces of their body.
+    pub fn point(&self, point: u32, near: &[u32], strict: &[bool], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
         touches.clear();
         if past[0].face != NONE {
             self.watched(point, near, past, touches);
         }
         let held = touches.len();
-        for &face in near {
+        for (&face, &strict) in near.iter().zip(strict) {
             // Faces around those that hold the point have had their turn.
             if touches[..held].iter().all(|touch| touch.face != face && !self.faces.touch(touch.face, face)) {
-                touches.extend(self.newcomer(point, face));
+                touches.extend(self.newcomer(point, face, strict));
             }
         }
         if touches.len() > 1 {
@@ -210,7 +215,8 @@ impl Check<'_> {
     }
 
     fn held(&self, face: u32, stand: Stand, allowed: f64) -> Touch {
-        Touch { face, time: -1.0, opposition: 0.0, stand, allowed }
+        // What has opened does not close again for nothing.
+        Touch { face, time: -1.0, opposition: 0.0, allowed: allowed.max(stand.gap.min(0.0)), stand }
     }
 
     /// Neither away from the face nor so deep that it must have come from elsewhere.
@@ -219,14 +225,15 @@ impl Check<'_> {
     }
 
     /// A point that this face has not seen before.
-    fn newcomer(&self, point: u32, face: u32) -> Option<Touch> {
+    fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
         let end = self.stand_at_end(point, face).filter(|stand| stand.gap < 0.0)?;
         let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
             let time = face::first_crossing(&corners, self.points.path(point))?;
-            return self.faced(point, &end).then(|| touch(time, 0.0));
+            let comes = !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
+            return comes.then(|| touch(time, 0.0));
         }
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
@@ -238,26 +245,43 @@ impl Check<'_> {
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
-        let element = |face: u32| self.faces.number[face as usize] / 6;
-        let same = |other: &u32| element(*other) == element(face);
-        let below = (0..face).rev().take_while(same);
-        let above = (face + 1..self.faces.len() as u32).take_while(same);
-        below.chain(above).any(|other| {
+        self.beside(face).any(|other| {
             let start = face::stand(&self.faces.start(other, self.points), self.points.start[point as usize]);
-            start.is_some_and(|start| start.gap >= 0.0)
+            start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
+    }
+
+    /// The other outer faces of a face's element.
+    fn beside(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
+        let element = |face: u32| self.faces.number[face as usize] / 6;
+        let same = move |other: &u32| element(*other) == element(face);
+        let below = (0..face).rev().take_while(same);
+        below.chain((face + 1..self.faces.len() as u32).take_while(same))
     }
 
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
     /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
     /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
-    fn faced(&self, point: u32, stand: &Stand) -> bool {
+    fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
         let around = self.faces.around(point);
         around.is_empty()
             || around.iter().any(|&face| {
-                let normal = face::area_normal(&self.faces.start(face, self.points));
-                dot(normal, stand.normal) < FACING * dot(normal, normal).sqrt()
+                let own = face::area_normal(&self.faces.start(face, self.points));
+                dot(own, *normal) < FACING * dot(own, own).sqrt()
             })
+    }
+
+    /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
+    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
+    fn slides_over(&self, point: u32, face: u32, end: &Stand) -> bool {
+        let at = self.points.start[point as usize];
+        let corners = self.faces.start(face, self.points);
+        let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(corners[i], end.weights[i])));
+        self.beside(face).any(|other| {
+            let (corners, reach) = (self.faces.start(other, self.points), HOLD * self.faces.size[other as usize]);
+            let near = |position| face::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);
+            near(foot).is_some() && near(at).is_some_and(|stand| self.faced(point, &stand.normal))
+        })
     }
 
     fn opposition(&self, point: u32, stand: &Stand) -> f64 {

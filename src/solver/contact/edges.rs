@@ -5,6 +5,7 @@
 //! comes anew, where it would be at the end of the step for one that has touched before.
 
 use super::cubic;
+use super::detect::FADE;
 use super::enforce::{Constraint, MEMBERS};
 use super::face::{area_normal, centre};
 use super::faces::Faces;
@@ -140,7 +141,8 @@ impl EdgeCheck<'_> {
         }
         let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
         let now = match past {
-            Some(past) => *past,
+            // What has opened does not close again for nothing.
+            Some(past) => PastPair { allowed: (FADE * past.allowed).max((past.sense * end.gap).min(0.0)), ..*past },
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - now.allowed;

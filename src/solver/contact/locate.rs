@@ -1,5 +1,6 @@
 //! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
 
+use super::detect::{Past, TOUCHES};
 use super::edges::{self, Edge};
 use super::faces::Faces;
 use super::points::Points;
@@ -104,14 +105,17 @@ impl Locator {
     }
 
     /// Makes sure that the candidates hold for the coming step, and finds the boxes of their faces.
-    pub fn locate(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface], edges: &[Edge]) {
-        if self.expired(points) {
+    /// True after a new search.
+    pub fn locate(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface], edges: &[Edge]) -> bool {
+        let expired = self.expired(points);
+        if expired {
             self.search(points, faces, interfaces);
             self.search_edges(points, faces, edges);
         }
         for &face in &self.active {
             self.boxes[face as usize] = capture_box(faces, face, points, self.reach.depth);
         }
+        expired
     }
 
     /// Whether a point has left the box that the last search gave it.
@@ -141,7 +145,7 @@ impl Locator {
             let boxes: Vec<Box3> = (interface.faces.iter())
                 .map(|&face| {
                     let [a, b, c, d] = faces.corners[face as usize].map(|corner| around(corner as usize));
-                    a.joined(&b).joined(&c).joined(&d).grown(self.reach.depth * faces.depth[face as usize])
+                    a.joined(&b).joined(&c).joined(&d).grown(faces.depth[face as usize])
                 })
                 .collect();
             let corners: Vec<[u32; 4]> = interface.faces.iter().map(|&f| faces.corners[f as usize]).collect();
@@ -221,11 +225,13 @@ impl Locator {
         &self.watched
     }
 
-    /// Candidates of the `i`-th watched point whose boxes over this step meet that of the point.
-    pub fn near<'a>(&'a self, i: usize, points: &Points) -> impl Iterator<Item = Near> + 'a {
+    /// Candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that have
+    /// held it before.
+    pub fn near<'a>(&'a self, i: usize, points: &Points, past: &'a [Past; TOUCHES]) -> impl Iterator<Item = Near> + 'a {
         let own = way(points, self.watched[i]);
         let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
-        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].overlaps(&own))
+        let held = |near: &Near| past.iter().any(|past| past.face == near.face);
+        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].overlaps(&own) || held(near))
     }
 
     /// Numbers of watched points and of candidate pairs.

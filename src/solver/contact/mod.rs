@@ -57,8 +57,6 @@ pub struct Contact {
     history: Vec<[Past; TOUCHES]>,
     edges: Vec<Edge>,
     edges_wanted: bool,
-    /// Whether edges have to be found anew.
-    edges_due: bool,
     edge_history: Vec<PastPair>,
     planes: Vec<RigidSurface>,
     /// Mean size of the faces: what overlaps with planes are small against.
@@ -79,6 +77,7 @@ pub struct Contact {
     pub tally: Tally,
     near: Vec<Near>,
     near_faces: Vec<u32>,
+    strict: Vec<bool>,
     touches: Vec<Touch>,
 }
 
@@ -142,7 +141,6 @@ impl Contact {
             locator: Locator::new(kind(model.contact.control.search), reach(model, &layout)),
             history: vec![UNTOUCHED; count],
             edges: Vec::new(),
-            edges_due: false,
             edge_history: Vec::new(),
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
@@ -157,6 +155,7 @@ impl Contact {
             tally: Tally::default(),
             near: Vec::new(),
             near_faces: Vec::new(),
+            strict: Vec::new(),
             touches: Vec::new(),
             pairings: Pairings::new(mesh, model, body),
             skin,
@@ -176,7 +175,7 @@ impl Contact {
     /// Gets to know the points of other ranks.
     fn meet(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
         self.weigh(nodes);
-        self.edges_due = self.edges_wanted;
+        self.find_edges();
         if !self.layout.interfaces.is_empty() {
             self.gather = Gather::new(&self.here, nodes, comm);
             if let Some(gather) = &mut self.gather {
@@ -187,7 +186,7 @@ impl Contact {
 
     /// Lets the surface grow inwards after elements have gone: `dead` are their canonical numbers, ascending.
     pub fn erode(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, comm: &mut dyn Communicator) {
-        self.skin.delete(dead, &self.layout, erosion.keeps(dead));
+        self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
         let new = &self.layout;
         let count = new.nodes.len();
@@ -218,8 +217,22 @@ impl Contact {
         self.enforcer = Enforcer::new(count);
         self.forget();
         self.locator.forget();
-        self.edge_history.clear();
+        let old_edges = std::mem::take(&mut self.edges);
         self.meet(nodes, comm);
+        self.carry_edges(&old, &old_edges);
+    }
+
+    /// Gives the pairs of edges that touched before an erosion their new numbers.
+    fn carry_edges(&mut self, old: &Layout, old_edges: &[Edge]) {
+        let new = |edge: u32| {
+            let ends = old_edges[edge as usize].ends.map(|point| self.layout.point(old.nodes[point as usize]));
+            self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
+        };
+        let carried = self.edge_history.iter().filter_map(|past| {
+            let (first, second) = (new(past.pair[0])?, new(past.pair[1])?);
+            Some(PastPair { pair: [first, second], ..*past })
+        });
+        self.edge_history = carried.collect();
     }
 
     /// Inverse masses of the points that are here; none along directions that a constraint holds.
@@ -231,14 +244,12 @@ impl Contact {
         }
     }
 
-    /// Edges of the faces that CONTACT MATERIAL lets touch, from where they are now.
+    /// Edges of the faces that CONTACT MATERIAL lets touch, as sharp as they are in the mesh.
     fn find_edges(&mut self) {
-        if !std::mem::take(&mut self.edges_due) {
-            return;
-        }
         self.edges.clear();
-        if let Some(automatic) = self.layout.automatic() {
-            self.edges = edges::standing_out(&automatic.faces, &self.layout.faces, &self.points.start);
+        if let Some(automatic) = self.layout.automatic().filter(|_| self.edges_wanted) {
+            let positions = self.skin.positions(&self.layout.nodes);
+            self.edges = edges::standing_out(&automatic.faces, &self.layout.faces, &positions);
         }
     }
 
@@ -257,8 +268,9 @@ impl Contact {
         }
         self.constraints.clear();
         if !self.layout.interfaces.is_empty() {
-            self.find_edges();
-            self.locator.locate(&self.points, &self.layout.faces, &self.layout.interfaces, &self.edges);
+            if self.locator.locate(&self.points, &self.layout.faces, &self.layout.interfaces, &self.edges) {
+                self.forget_strangers();
+            }
             self.check();
             self.check_edges();
         }
@@ -281,21 +293,36 @@ impl Contact {
         }
     }
 
+    /// A point that has no candidates any more has no history either: whether it is looked at must not depend on when the
+    /// search is made.
+    fn forget_strangers(&mut self) {
+        let mut watched = self.locator.watched().iter().peekable();
+        for (point, past) in self.history.iter_mut().enumerate() {
+            if watched.next_if(|&&next| next as usize == point).is_none() {
+                *past = UNTOUCHED;
+            }
+        }
+    }
+
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     fn check(&mut self) {
-        let Contact { points, layout, pairings, locator, history, constraints, near, near_faces, touches, .. } = self;
+        let Contact {
+            points, layout, pairings, locator, history, constraints, near, near_faces, strict, touches, ..
+        } = self;
         let check = Check { points, faces: &layout.faces };
         for (i, &point) in locator.watched().iter().enumerate() {
             near.clear();
-            near.extend(locator.near(i, points));
             let past = &mut history[point as usize];
+            near.extend(locator.near(i, points, past));
             if near.is_empty() {
-                past[0].face = NONE;
+                *past = UNTOUCHED;
                 continue;
             }
             near_faces.clear();
             near_faces.extend(near.iter().map(|near| near.face));
-            check.point(point, near_faces, past, touches);
+            strict.clear();
+            strict.extend(near.iter().map(|near| layout.interfaces[near.interface as usize].rule == Rule::Blocks));
+            check.point(point, near_faces, strict, past, touches);
             *past = UNTOUCHED;
             for (past, touch) in past.iter_mut().zip(touches.iter()) {
                 *past = Past { face: touch.face, allowed: touch.allowed };
@@ -329,7 +356,7 @@ impl Contact {
             return;
         }
         let Outcome { passes, left } = self.enforcer.solve(&mut self.constraints, &self.points, step, self.limits);
-        self.tally.steps += 1;
+        self.tally.steps += u64::from(passes > 0);
         self.tally.passes += u64::from(passes);
         self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
@@ -394,9 +421,10 @@ impl Contact {
         }
         for c in self.constraints.iter().filter(|c| c.push > 0.0) {
             let of_point = &mut values[c.members[0] as usize];
-            (of_point[3], of_point[4]) = (of_point[3].min(c.gap), 2.0);
+            of_point[3] = of_point[3].min(c.gap);
             let past = self.history[c.members[0] as usize][0];
             if c.count == MEMBERS && past.face != NONE {
+                of_point[4] = 2.0;
                 of_point[5] = self.skin.file_number(self.layout.faces.number[past.face as usize]);
             }
         }
@@ -487,7 +515,9 @@ fn constraint(layout: &Layout, pairings: &Pairings, point: u32, touch: &Touch, i
     let (faces, face) = (&layout.faces, touch.face as usize);
     let rule = layout.interfaces[interface as usize].rule;
     let pairing = pairings.of(rule, layout.point_block[point as usize], faces.block[face]);
-    if pairing.share <= 0.0 {
+    // A point without faces of its own cannot be the master of anything.
+    let share = if faces.around(point).is_empty() { 1.0 } else { pairing.share };
+    if share <= 0.0 {
         return None;
     }
     let mut constraint = Constraint {
@@ -497,7 +527,7 @@ fn constraint(layout: &Layout, pairings: &Pairings, point: u32, touch: &Touch, i
         normal: touch.stand.normal,
         gap: touch.stand.gap - touch.allowed,
         size: faces.size[face],
-        share: pairing.share,
+        share,
         friction: pairing.friction,
         push: 0.0,
         drag: [0.0; 3],

@@ -79,9 +79,9 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super:
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
     for (i, &point) in locator.watched().iter().enumerate() {
-        let near: Vec<Near> = locator.near(i, points).collect();
+        let near: Vec<Near> = locator.near(i, points, &UNTOUCHED).collect();
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
-        check.point(point, &faces, &UNTOUCHED, &mut touches);
+        check.point(point, &faces, &vec![true; faces.len()], &UNTOUCHED, &mut touches);
         for touch in &mut touches {
             touch.allowed = 0.0;
             let size = layout.faces.size[touch.face as usize];

@@ -54,6 +54,8 @@ impl Pairings {
                 _ => None,
             });
             match data {
+                // A material is neither master nor slave of itself.
+                Some((data, _)) if point == face => Pairing { friction: data.friction, share: 0.5 },
                 Some((data, share)) => Pairing { friction: data.friction, share: share.unwrap_or(by_impedance) },
                 None => Pairing { friction: Friction::default(), share: by_impedance },
             }
@@ -61,7 +63,8 @@ impl Pairings {
         let blocks = (0..count * count).map(|i| pairing(i / count, i % count)).collect();
         let pairs = model.contact.surfaces.iter().flat_map(|pair| {
             // Points of the first set on faces of the second, then the other way round.
-            [1.0 - pair.partition, pair.partition].map(|share| Pairing { friction: pair.friction, share })
+            let partition = if pair.side_sets[0] == pair.side_sets[1] { 0.5 } else { pair.partition };
+            [1.0 - partition, partition].map(|share| Pairing { friction: pair.friction, share })
         });
         Pairings { blocks, count, pairs: pairs.collect() }
     }
@@ -110,8 +113,8 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
-    /// Nodes that have lost their last face and go on as free points.
-    free: Vec<u32>,
+    /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
+    free: Vec<(u32, u32)>,
 }
 
 impl Skin {
@@ -138,6 +141,11 @@ impl Skin {
         }
     }
 
+    /// Initial positions of some nodes of the mesh.
+    pub fn positions(&self, nodes: &[u32]) -> Vec<[f64; 3]> {
+        nodes.iter().map(|&node| self.positions[node as usize]).collect()
+    }
+
     /// Place in the mesh file, from 1, of the element of a face.
     pub fn file_number(&self, face: u32) -> f64 {
         f64::from(self.element_order[face as usize / 6] + 1)
@@ -151,7 +159,7 @@ impl Skin {
         numbers.dedup();
         let mut layout = Layout::default();
         layout.nodes = numbers.iter().flat_map(|&face| face_nodes(&self.element_nodes, face)).collect();
-        layout.nodes.extend(self.more.iter().chain(&self.free));
+        layout.nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
         layout.nodes.sort_unstable();
         layout.nodes.dedup();
         let points = layout.nodes.len();
@@ -160,6 +168,10 @@ impl Skin {
         let faces = &layout.faces;
         let block = |point: u32| faces.around(point).first().map_or(0, |&face| faces.block[face as usize]);
         layout.point_block = (0..points as u32).map(block).collect();
+        for &(node, block) in &self.free {
+            let point = layout.point(node) as usize;
+            layout.point_block[point] = block;
+        }
         layout.interfaces = self.interfaces(&layout, &automatic);
         layout
     }
@@ -179,7 +191,7 @@ impl Skin {
             }
         }
         let lost = (0..old.nodes.len()).filter(|&point| automatic.points[point] && !on_a_face[point]);
-        self.free = lost.map(|point| old.nodes[point]).filter(|&node| keeps(node)).collect();
+        self.free = lost.map(|p| (old.nodes[p], old.point_block[p])).filter(|(node, _)| keeps(*node)).collect();
     }
 
     fn shorten_sets(&mut self, dead: &[u32]) {
@@ -213,7 +225,7 @@ impl Skin {
         if !automatic.is_empty() {
             let faces = places(automatic);
             let mut points = corners(&faces);
-            self.free.iter().for_each(|&node| points[layout.point(node) as usize] = true);
+            self.free.iter().for_each(|&(node, _)| points[layout.point(node) as usize] = true);
             interfaces.push(Interface { points, faces, rule: Rule::Blocks });
         }
         interfaces
