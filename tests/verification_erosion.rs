@@ -78,6 +78,77 @@ fn initial_overlap_goes_without_velocity() {
     assert!(last.kinetic < 1e-12 && last.internal < 1e-12, "{} {}", last.kinetic, last.internal);
 }
 
+/// Extreme 13 where sides are flush: the nodes there are in the planes of the other body's sides.
+#[test]
+fn overlap_of_flush_bodies_goes_everywhere() {
+    let steel = |block: usize| {
+        format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n")
+    };
+    for (cells, moved) in [(3, 32), (1, 8)] {
+        let mesh = recipe(&format!(
+            "TITLE\n flush\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.01, {cells}, {cells}, {cells}\n\
+             BOX, 2, 0., 0., 0.0095, 0.01, 0.01, 0.01, {cells}, {cells}, {cells}\n"
+        ));
+        let deck = format!(
+            "TITLE\n flush\nTERMINATION TIME, 2.E-6\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\n{}{}",
+            steel(1),
+            steel(2)
+        );
+        let left = run(&deck, &mesh);
+        let shifts: Vec<f64> = left.states[0].nodal("DISPLZ").iter().copied().filter(|u| *u != 0.0).collect();
+        assert_eq!(shifts.len(), moved);
+        // Equal masses: each side goes half of the half millimetre.
+        assert!(shifts.iter().all(|u| (u.abs() - 2.5e-4).abs() < 1e-9), "{shifts:?}");
+        assert!(left.last().totals.kinetic < 1e-12);
+    }
+}
+
+/// A block slides over the seam between two plates that are not joined: their buried sides are not in its way.
+#[test]
+fn a_flush_seam_is_no_obstacle() {
+    let mesh = recipe(
+        "TITLE\n seam\nBOX, 1, 0., 0., 0., 0.01, 0.02, 0.004, 2, 4, 1\nBOX, 2, 0.01, 0., 0., 0.02, 0.02, 0.004, 4, 4, 1\n\
+         BOX, 3, 0.002, 0.007, 0.004, 0.006, 0.006, 0.004, 2, 2, 1\n\
+         NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 1, 2\n",
+    );
+    let mut deck = "TITLE\n seam\nTERMINATION TIME, 2.E-4\nOUTPUT TIME, 1.E-5\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\n\
+         INITIAL VELOCITY MATERIAL, 3, 40., 0., 0.\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n"
+        .to_string();
+    for block in 1..=3 {
+        deck += &format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    }
+    let slid = run(&deck, &mesh);
+    // Nothing pushes: the block flies on as it began, to round-off.
+    let lost = 1.0 - slid.last().totals.kinetic / slid.initial_energy;
+    assert!(lost.abs() < 1e-12, "{lost}");
+}
+
+/// What presses on a face presses no more when its element is gone.
+#[test]
+fn pressure_ends_with_its_element() {
+    let mut mesh = recipe(
+        "TITLE\n pressed\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.02, 2, 2, 4\nSPLIT BLOCK, 1, 2, , , , , 0.015, 0.03\n",
+    );
+    support::meshes::add_side_set(&mut mesh, 100, |p| p[2] > 0.02 - 1e-9);
+    let steel = |block: usize| {
+        format!(
+            "MATERIAL, {block}, ELASTIC PLASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nYIELD STRESS = 100.E6\n\
+             HARDENING MODULUS = 0.\nBETA = 1.\nEND\n"
+        )
+    };
+    let deck = format!(
+        "TITLE\n pressed\nTERMINATION TIME, 2.E-5\nOUTPUT TIME, 1.E-6\nFUNCTION, 1\n0., 1.\nEND\nPRESSURE, 100, 1, 1.E8\n\
+         DEATH, 2, VOLUME, MIN, 0.9999, FREE\n{}{}",
+        steel(1),
+        steel(2)
+    );
+    let pressed = run(&deck, &mesh);
+    let work: Vec<f64> = pressed.lines.iter().map(|line| line.totals.external).collect();
+    assert!(pressed.end().element("STATUS").contains(&0.0), "{work:?}");
+    let (middle, last) = (work[work.len() / 2], work[work.len() - 1]);
+    assert_eq!(middle, last, "work goes on after the element has gone");
+}
+
 /// A bar pulled apart: the middle fails, both halves fly on. Mass and momentum stay, the balance closes.
 fn pulled(keeps: &str) -> (Mesh, String) {
     let mesh = recipe(

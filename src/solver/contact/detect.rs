@@ -238,7 +238,10 @@ impl Check<'_> {
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
-        let inside = shallow && self.opposition(point, &end) < 0.0 && !self.in_front_of_another(point, face);
+        let inside = shallow
+            && self.opposition(point, &end) < 0.0
+            && !self.in_front_of_another(point, face)
+            && !self.slides_over(point, face, &end);
         inside.then(|| touch(0.0, start.gap))
     }
 
