@@ -26,6 +26,13 @@ const HOLD: f64 = 0.01;
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
 
+/// Cosine of the angle between two planes that count as one.
+const FLUSH: f64 = 0.99;
+
+/// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
+/// each other's planes must not be taken for a seam.
+const SEAM: f64 = 1e-4;
+
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
 
@@ -266,12 +273,16 @@ impl Check<'_> {
     /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
     /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
     fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
-        let around = self.faces.around(point);
-        around.is_empty()
-            || around.iter().any(|&face| {
-                let own = face::area_normal(&self.faces.start(face, self.points));
-                dot(own, *normal) < FACING * dot(own, own).sqrt()
-            })
+        self.faces.around(point).is_empty() || self.most_opposed(point, normal) < FACING
+    }
+
+    /// Smallest cosine between a normal and those of the faces around a point.
+    fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
+        let cosine = |&face: &u32| {
+            let own = face::area_normal(&self.faces.start(face, self.points));
+            dot(own, *normal) / dot(own, own).sqrt()
+        };
+        self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
     }
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
@@ -281,9 +292,9 @@ impl Check<'_> {
         let corners = self.faces.start(face, self.points);
         let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(corners[i], end.weights[i])));
         self.beside(face).any(|other| {
-            let (corners, reach) = (self.faces.start(other, self.points), HOLD * self.faces.size[other as usize]);
+            let (corners, reach) = (self.faces.start(other, self.points), SEAM * self.faces.size[other as usize]);
             let near = |position| face::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);
-            near(foot).is_some() && near(at).is_some_and(|stand| self.faced(point, &stand.normal))
+            near(foot).is_some() && near(at).is_some_and(|stand| self.most_opposed(point, &stand.normal) < -FLUSH)
         })
     }
 

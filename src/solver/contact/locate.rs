@@ -156,7 +156,9 @@ impl Locator {
 
     /// Puts the candidates of all interfaces together, point by point, faces ascending.
     fn collect(&mut self, points: usize, faces: &Faces, interfaces: &[Interface]) {
-        (self.watched.clear(), self.first.clear(), self.near.clear());
+        self.watched.clear();
+        self.first.clear();
+        self.near.clear();
         let mut is_active = vec![false; faces.len()];
         for point in 0..points as u32 {
             let begin = self.near.len();

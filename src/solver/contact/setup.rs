@@ -157,11 +157,11 @@ impl Skin {
         let mut numbers: Vec<u32> = automatic.iter().chain(self.sets.iter().flatten()).copied().collect();
         numbers.sort_unstable();
         numbers.dedup();
-        let mut layout = Layout::default();
-        layout.nodes = numbers.iter().flat_map(|&face| face_nodes(&self.element_nodes, face)).collect();
-        layout.nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
-        layout.nodes.sort_unstable();
-        layout.nodes.dedup();
+        let mut nodes: Vec<u32> = numbers.iter().flat_map(|&face| face_nodes(&self.element_nodes, face)).collect();
+        nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut layout = Layout { nodes, ..Default::default() };
         let points = layout.nodes.len();
         let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
         layout.faces = Faces::new(&numbers, body, |node| layout.point(node), points);
