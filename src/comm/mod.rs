@@ -47,6 +47,15 @@ pub trait Communicator: Send {
     fn barrier(&mut self);
 }
 
+/// The numbers that every other rank gives, by rank; all ranks call it.
+pub fn numbers_of_others(own: &[u32], comm: &mut dyn Communicator) -> Vec<(usize, Vec<u32>)> {
+    let bytes: Vec<u8> = own.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let others = (0..comm.size()).filter(|&rank| rank != comm.rank());
+    let incoming = comm.sparse_exchange(others.map(|rank| (rank, bytes.clone())).collect());
+    let number = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+    incoming.into_iter().map(|(rank, bytes)| (rank, bytes.chunks_exact(4).map(number).collect())).collect()
+}
+
 /// One neighbour of a fixed exchange pattern, with buffers that live as long as the pattern.
 #[derive(Debug, Clone, Default)]
 pub struct Peer {

@@ -10,7 +10,7 @@ use super::elements::hex8::rows;
 use super::elements::kinematics::rotation_matrix;
 use super::elements::{ElementBlock, Group};
 use super::nodes::{Nodes, dot};
-use crate::comm::Communicator;
+use crate::comm::{Communicator, numbers_of_others};
 use crate::lanes::{CHUNK, Row, Sym3};
 use crate::mesh::Mesh;
 use crate::mesh::check::hexahedron_volume;
@@ -163,12 +163,8 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
     let mut count = [own.len() as u64];
     comm.all_sum(&mut count);
     if count[0] > 0 && comm.size() > 1 {
-        let bytes: Vec<u8> = own.iter().flat_map(|number| number.to_le_bytes()).collect();
-        let others = (0..comm.size()).filter(|&rank| rank != comm.rank());
-        let incoming = comm.sparse_exchange(others.map(|rank| (rank, bytes.clone())).collect());
-        for (_, bytes) in incoming {
-            own.extend(bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
-        }
+        let theirs = numbers_of_others(&own, comm);
+        own.extend(theirs.into_iter().flat_map(|(_, numbers)| numbers));
     }
     own.sort_unstable();
     own

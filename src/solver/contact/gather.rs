@@ -2,7 +2,7 @@
 
 use super::points::Points;
 use super::setup::ABSENT;
-use crate::comm::{Communicator, Peer};
+use crate::comm::{Communicator, Peer, numbers_of_others};
 use crate::solver::nodes::Nodes;
 
 /// Who owns which point, and buffers to tell the others.
@@ -22,13 +22,8 @@ impl Gather {
         }
         let owned = |node: u32| node != ABSENT && nodes.owned[node as usize];
         let own: Vec<u32> = (0..here.len() as u32).filter(|&point| owned(here[point as usize])).collect();
-        let bytes: Vec<u8> = own.iter().flat_map(|point| point.to_le_bytes()).collect();
-        let outgoing = (0..comm.size()).filter(|&rank| rank != comm.rank()).map(|rank| (rank, bytes.clone())).collect();
-        let incoming = comm.sparse_exchange(outgoing);
-        let numbers =
-            |bytes: &[u8]| bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-        let theirs: Vec<Vec<u32>> = incoming.iter().map(|(_, bytes)| numbers(bytes)).collect();
-        let peers = incoming.iter().map(|&(rank, _)| Peer { rank, ..Default::default() }).collect();
+        let (ranks, theirs): (Vec<usize>, Vec<Vec<u32>>) = numbers_of_others(&own, comm).into_iter().unzip();
+        let peers = ranks.into_iter().map(|rank| Peer { rank, ..Default::default() }).collect();
         Some(Gather { own, theirs, peers })
     }
 

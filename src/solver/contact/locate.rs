@@ -42,8 +42,8 @@ pub struct Reach {
     pub steps: f64,
     /// Smallest reach, a length.
     pub least: f64,
-    /// How far a face looks beyond its corners, as a part of half its element: a little, to keep an eye on points that
-    /// it has held; all of it, to find points that are behind it at the start.
+    /// How far a face looks beyond its corners in a step, as a part of half its element: a little, for points that have
+    /// just left it; all of it, to find points that are behind it at the start. Searches look as far as all of it.
     pub depth: f64,
 }
 
