@@ -94,9 +94,15 @@ pub trait Lanes:
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// `self` where it is less than `other`, else `other` (also where one is NaN).
-    fn min(self, other: Self) -> Self;
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select_less(self, other, self, other)
+    }
     /// `self` where it is greater than `other`, else `other` (also where one is NaN).
-    fn max(self, other: Self) -> Self;
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select_less(other, self, self, other)
+    }
     /// `yes` where `a < b`, else `no` (also where one is NaN).
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
     /// Whether `a < b` in any lane. Only to leave out work whose result no lane would take.

@@ -46,14 +46,6 @@ impl Lanes for Pair {
         Pair([self.0[0].sqrt(), self.0[1].sqrt()])
     }
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self::select_less(self, other, self, other)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self::select_less(other, self, self, other)
-    }
-    #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         Pair([f64::select_less(a.0[0], b.0[0], yes.0[0], no.0[0]), f64::select_less(a.0[1], b.0[1], yes.0[1], no.0[1])])
     }
@@ -100,14 +92,6 @@ impl Lanes for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self::select_less(self, other, self, other)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self::select_less(other, self, self, other)
     }
     #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {

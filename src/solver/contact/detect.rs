@@ -107,7 +107,7 @@ impl Check<'_> {
             let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
             if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
                 let end = self.faces.end(touch.face, self.points);
-                let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(end[i], shares[i])));
+                let foot = face::foot(&end, &shares);
                 touch.stand.weights = shares;
                 touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
             }
@@ -290,7 +290,7 @@ impl Check<'_> {
     fn slides_over(&self, point: u32, face: u32, end: &Stand) -> bool {
         let at = self.points.start[point as usize];
         let corners = self.faces.start(face, self.points);
-        let foot = (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(corners[i], end.weights[i])));
+        let foot = face::foot(&corners, &end.weights);
         self.beside(face).any(|other| {
             let (corners, reach) = (self.faces.start(other, self.points), SEAM * self.faces.size[other as usize]);
             let near = |position| face::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);

@@ -36,6 +36,11 @@ pub fn centre(corners: &[[f64; 3]; 4]) -> [f64; 3] {
     scaled(add(add(corners[0], corners[1]), add(corners[2], corners[3])), 0.25)
 }
 
+/// The point of a face with these shares of its corners.
+pub fn foot(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
+    (0..4).fold([0.0; 3], |foot, i| add(foot, scaled(corners[i], weights[i])))
+}
+
 /// Normal with the length of the face's area.
 pub fn area_normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
     scaled(cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1])), 0.5)
