@@ -4,9 +4,11 @@ mod collect;
 mod fields;
 mod history;
 pub mod print;
+mod restart;
 mod schedule;
 
 pub use collect::Collector;
 pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
 pub use history::HistoryPlan;
+pub use restart::snapshot;
 pub use schedule::Schedule;

@@ -3,6 +3,8 @@
 //! An element that goes leaves its lane of the chunk to a cube at rest far larger than any element, made of eight nodes
 //! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
 
+mod state;
+
 use super::Body;
 use super::domain::ABSENT;
 use super::elements::geometry::{corners, gradient, modes};
@@ -35,6 +37,7 @@ const CUBE: [[f64; 3]; 8] = [
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
     rules: Vec<Death>,
+    element_order: Arc<Vec<u32>>,
     element_nodes: Arc<Vec<[u32; 8]>>,
     /// Local number of each node of the mesh.
     local: Vec<u32>,
@@ -74,6 +77,7 @@ impl Erosion {
         }
         Some(Erosion {
             rules: model.deaths.clone(),
+            element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),
             local: local.to_vec(),
             keeps: keeps(mesh, model, body),
@@ -98,7 +102,7 @@ impl Erosion {
         let mut dead: Vec<u32> = Vec::new();
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
-            let mass = block.density * self.edge * self.edge * self.edge;
+            let mass = self.stand_in_mass(block);
             for border in [true, false] {
                 let group = if border { &block.border } else { &block.interior };
                 let failed = failing(&rules, block, group, nodes);
@@ -134,6 +138,11 @@ impl Erosion {
                 }
             }
         }
+    }
+
+    /// Mass of the stand-in of a block's elements.
+    fn stand_in_mass(&self, block: &ElementBlock) -> f64 {
+        block.density * self.edge * self.edge * self.edge
     }
 
     /// Whether a node of the mesh goes on when it has lost its elements.

@@ -16,6 +16,7 @@ mod health;
 mod loads;
 pub mod nodes;
 mod silent;
+mod state;
 mod stop;
 mod totals;
 
@@ -43,6 +44,8 @@ pub struct Solver {
     pub step: u64,
     /// Time of the present state.
     pub time: f64,
+    /// Time of the state before; that of the first one is its own.
+    pub previous_time: f64,
     /// Step that leads from the present state to the next.
     pub time_step: f64,
     /// Largest stable step of the present state.
@@ -98,6 +101,7 @@ impl Solver {
             clock: Clock::default(),
             step: 0,
             time: 0.0,
+            previous_time: 0.0,
             time_step: 0.0,
             stable_step: 0.0,
             initial_energy,
@@ -158,6 +162,7 @@ impl Solver {
         self.domain.nodes.integrate(self.kick, self.time_step);
         self.clock.stop(Section::Integration);
         self.book_work();
+        self.previous_time = self.time;
         self.time += self.time_step;
         self.step += 1;
     }

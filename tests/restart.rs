@@ -1,0 +1,104 @@
+//! A run that is continued from a restart has the same bits as one that never stopped, on any number of ranks.
+
+mod support;
+
+use support::continued::{Case, Part, assert_same};
+use support::meshes::recipe;
+
+/// Numbers of ranks that write and read.
+const RANKS: [usize; 3] = [1, 2, 5];
+
+const PLATE: &str = "YOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nYIELD STRESS = 400.E6\nHARDENING MODULUS = 1.E9\n";
+
+/// A small rod that goes through a clamped plate: contact of faces and edges with friction, erosion with free nodes,
+/// plasticity, a rigid floor, and every load there is.
+fn punch() -> Case {
+    let mesh = recipe(
+        "TITLE\n punch\nTOLERANCE, 1.E-6\n\
+         BOX, 1, -0.012, -0.012, -0.002, 0.024, 0.024, 0.002, 12, 12, 2\n\
+         BOX, 2, -0.004, -0.004, 1.E-5, 0.008, 0.008, 0.012, 4, 4, 4\nROTATE, 2, Z, 20.\n\
+         NODE SET FACE, 1, 1, LEFT\nNODE SET FACE, 2, 2, TOP\nNODE SET FACE, 3, 1, RIGHT\n\
+         SIDE SET FACE, 100, 1, BOTTOM\nSIDE SET FACE, 200, 2, TOP\nSIDE SET FACE, 300, 1, FRONT\n",
+    );
+    let material = |block: usize| format!("MATERIAL, {block}, ELASTIC PLASTIC, 7850.\n{PLATE}BETA = 0.5\nEND\n");
+    let deck = format!(
+        "TITLE\n punch\nTERMINATION TIME, 1.E-3\nPLOT TIME, 1.E-5\n\
+         PLOT NODAL, VELOCITY, ACCELERATION, REACTION, CONTACT\nPLOT ELEMENT, STRESS, STRAIN, ENERGY\nPLOT STATE, EQPS\n\
+         {}{}FUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+         INITIAL VELOCITY MATERIAL, 2, 10., 0., -300.\nPRESCRIBED VELOCITY, Z, 2, 1, -300.\n\
+         NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n\
+         PRESCRIBED FORCE, Y, 3, 1, 100.\nPRESCRIBED FORCE, Y, 3, 1, 50.\n\
+         PRESSURE, 200, 1, 1.E7\nPRESSURE, 100, 1, 1.E6\nPRESSURE, 100, 1, 2.E6\n\
+         GRAVITY, 0., 0., -9.81, 1\nSILENT BC, 300\n\
+         RIGID SURFACE, 100, 0., 0., -0.004, 0., 0., 1., 0.2\n\
+         CONTACT MATERIAL\nCONTACT DATA, 1, 2, 0.2\nCONTACT DATA, 1, 1, 0.2\n\
+         DEATH, 1, EQPS, MAX, 0.25\nDEATH, 1, VOLUME, MIN, 0.2\nDEATH, 2, EQPS, MAX, 0.2, DROP\nEXIT\n",
+        material(1),
+        material(2)
+    );
+    Case::new(&deck, mesh)
+}
+
+/// Two cubes that meet on crossing edges, and are pressed together.
+fn crossing_edges() -> Case {
+    let half = 0.01 / 2f64.sqrt();
+    let cube = |block: usize, axis: &str, z: f64| {
+        format!(
+            "BOX, {block}, -0.005, -0.005, -0.005, 0.01, 0.01, 0.01, 3, 3, 3\nROTATE, {block}, {axis}, 45.\n\
+             TRANSLATE, {block}, 0., 0., {z}\nNODE SET BLOCK, {block}, {block}\n"
+        )
+    };
+    let mesh = recipe(&format!("TITLE\n cubes\n{}{}", cube(1, "X", -half - 1e-6), cube(2, "Y", half + 1e-6)));
+    let material = |block: usize| format!("MATERIAL, {block}, ELASTIC PLASTIC, 7850.\n{PLATE}END\n");
+    let deck = format!(
+        "TITLE\n cubes\nTERMINATION TIME, 1.E-3\nPLOT TIME, 1.E-5\nPLOT NODAL, VELOCITY, CONTACT\n{}{}\
+         FUNCTION, 1\n0., 1.\n1., 1.\nEND\nPRESCRIBED FORCE, Z, 1, 1, 100.\nPRESCRIBED FORCE, Z, 2, 1, -100.\n\
+         INITIAL VELOCITY MATERIAL, 1, 3., 0., 20.\nCONTACT MATERIAL\nCONTACT DATA, 1, 2, 0.3\nEXIT\n",
+        material(1),
+        material(2)
+    );
+    Case::new(&deck, mesh)
+}
+
+/// Rows of a list at the end of a part.
+fn rows(part: &Part, name: &str) -> usize {
+    part.end.lists.iter().find(|list| list.name == name).map_or(0, |list| list.values.len() / list.width)
+}
+
+/// Writes after some steps on some numbers of ranks and reads on others; `lists` is what there must be to write.
+fn matrix(case: &Case, steps: [usize; 2], lists: &[&str]) {
+    let whole = case.part(1, None, steps[0] + steps[1]);
+    for writing in RANKS {
+        let first = case.part(writing, None, steps[0]);
+        for name in lists {
+            assert!(rows(&first, name) > 0, "{name}: the case is meant to have some");
+        }
+        for reading in RANKS {
+            let second = case.part(reading, Some(&first.end), steps[1]);
+            assert_same(&format!("written by {writing} ranks, read by {reading}"), &whole, &second);
+        }
+    }
+}
+
+#[test]
+fn contact_erosion_and_all_loads_on_any_number_of_ranks() {
+    let lists = [
+        "DEAD",
+        "DEADE",
+        "CONTTOUCH",
+        "CONTFREE",
+        "CONTWORK",
+        "CONTLOST",
+        "PRESSUREW",
+        "FORCEW",
+        "MOTIONW",
+        "GRAVITYW",
+        "SILENTW",
+    ];
+    matrix(&punch(), [91, 66], &lists);
+}
+
+#[test]
+fn edges_that_touch_on_any_number_of_ranks() {
+    matrix(&crossing_edges(), [60, 40], &["CONTEDGES"]);
+}
