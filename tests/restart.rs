@@ -2,8 +2,10 @@
 
 mod support;
 
+use std::path::{Path, PathBuf};
 use support::continued::{Case, Part, assert_same};
 use support::meshes::recipe;
+use urto::material::MATERIALS;
 
 /// Numbers of ranks that write and read.
 const RANKS: [usize; 3] = [1, 2, 5];
@@ -102,3 +104,63 @@ fn contact_erosion_and_all_loads_on_any_number_of_ranks() {
 fn edges_that_touch_on_any_number_of_ranks() {
     matrix(&crossing_edges(), [60, 40], &["CONTEDGES"]);
 }
+
+/// Every deck of the project, as far as some steps go: written on 2 ranks, read on 3, against one rank that never stopped.
+#[test]
+fn every_deck_goes_on_to_the_bit() {
+    /// Elements times steps that a deck may take.
+    const WORK: usize = 1_000_000;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let decks = std::fs::read_dir(folder.join("decks")).expect("the decks");
+    let mut decks: Vec<PathBuf> = decks.map(|entry| entry.expect("an entry").path()).collect();
+    decks.retain(|path| path.extension().is_some_and(|suffix| suffix == "i"));
+    decks.sort();
+    let mut done = 0;
+    for deck in &decks {
+        let name = deck.file_stem().expect("a name").to_string_lossy().into_owned();
+        let mesh = recipe(&std::fs::read_to_string(folder.join(format!("meshes/{name}.mesh"))).expect("a recipe"));
+        let steps = (WORK / mesh.element_count()).min(300);
+        if steps < 10 {
+            println!("{name}: {} elements are too many", mesh.element_count());
+            continue;
+        }
+        let begun = std::time::Instant::now();
+        let case = Case::new(&std::fs::read_to_string(deck).expect("a deck"), mesh);
+        let whole = case.part(1, None, steps);
+        let first = case.part(2, None, steps / 2);
+        let second = case.part(3, Some(&first.end), steps - steps / 2);
+        assert_same(&name, &whole, &second);
+        done += 1;
+        println!("{name}: {steps} steps, {:.1} s", begun.elapsed().as_secs_f64());
+    }
+    assert!(done > 15, "{done}");
+}
+/// Every law, with all that it stores at work but the drop of stress in a torn element, which is stored like the rest.
+#[test]
+fn every_material_on_any_number_of_ranks() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = |path: &str| std::fs::read_to_string(folder.join(path)).expect("a file");
+    let case = Case::new(&text("decks/materials.i"), recipe(&text("meshes/materials.mesh")));
+    let laws: Vec<&str> = case.model.materials.iter().map(|material| material.law.entry().name).collect();
+    assert!(
+        MATERIALS.iter().filter(|entry| !OTHER_DECKS.contains(&entry.name)).all(|entry| laws.contains(&entry.name))
+    );
+    // Rates of strain vanish later, tearing comes later.
+    for (before, resting) in [(400, "TEARING"), (800, "EQPSDOT")] {
+        let whole = case.part(1, None, before + 100);
+        let idle = ["AXIS12", "AXIS13", "AXIS21", "AXIS23", "AXIS31", "AXIS32", "DECAY", resting];
+        for writing in RANKS {
+            let first = case.part(writing, None, before);
+            let zero = |(_, values): &&(String, Vec<f64>)| values.iter().all(|value| *value == 0.0);
+            let zeros: Vec<&str> = first.end.element.iter().filter(zero).map(|(name, _)| name.as_str()).collect();
+            assert!(zeros.iter().all(|name| idle.contains(name)), "{zeros:?} are not at work");
+            for reading in RANKS {
+                let second = case.part(reading, Some(&first.end), 100);
+                assert_same(&format!("written by {writing} ranks, read by {reading}"), &whole, &second);
+            }
+        }
+    }
+}
+
+/// Laws that are at work in other decks.
+const OTHER_DECKS: [&str; 0] = [];

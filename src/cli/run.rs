@@ -3,11 +3,11 @@
 use super::input::Given;
 use super::signals::Wishes;
 use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, date, display, options};
+use super::{DONE, FAILED, Failure, date, display, options, restart};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::scientific;
 use crate::partition::Decomposition;
-use crate::run::{self, Display, Ended, Files, Job, Quiet, RunError};
+use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -27,6 +27,7 @@ struct Prepared {
     body: Body,
     ranks: usize,
     files: Files,
+    continuation: Option<Continuation>,
     banner: Vec<String>,
     qa: [String; 4],
     clock: [Instant; 2],
@@ -39,6 +40,9 @@ impl Prepared {
         let clock = [begun, Instant::now()];
         let body = Body::new(&given.mesh, &given.problem.model);
         let base = base(options.output.as_deref(), &given.deck);
+        let found = restart::find(options, &given, &body, &base)?;
+        let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
+        let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
         let (day, date, time) = date::now();
         let banner = vec![
             format!("urto {}   {}", env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_DESCRIPTION")),
@@ -50,7 +54,7 @@ impl Prepared {
             format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
-        Ok(Prepared { given, body, ranks, files: Files::of(&base), banner, qa, clock })
+        Ok(Prepared { given, body, ranks, files, continuation, banner, qa, clock })
     }
 
     /// Makes room for the results: their folder, and the old print log out of the way.
@@ -118,6 +122,7 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         qa: prepared.qa.clone(),
         files: &prepared.files,
         body: &prepared.body,
+        continuation: prepared.continuation.as_ref(),
         decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
         wish,
     })
@@ -241,6 +246,9 @@ fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
         ));
         let (plot, print) = (prepared.files.plot.display(), prepared.files.print.display());
         say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        if ended.restart {
+            say(format_args!("to go on from here: {}", prepared.files.restart.display()));
+        }
     }
     match ended.by {
         Request::Continue | Request::Shutdown => DONE,

@@ -13,10 +13,12 @@ mod material;
 mod output;
 mod problem;
 mod properties;
+mod restart;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
 pub use problem::{Problem, examine, from_deck};
+pub use restart::{ReadRestart, Restarts, WriteRestart};
 
 use crate::material::Law;
 
@@ -65,6 +67,8 @@ pub struct Model {
     pub plot_requests: PlotRequests,
     /// Points of the undeformed mesh whose elements have their histories written.
     pub material_points: Vec<[f64; 3]>,
+    /// Restarts to write and to go on from.
+    pub restarts: Restarts,
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.

@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl,
-    boundary, check, contact, control, function, initial, material, output,
+    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
+    TimeStepControl, boundary, check, contact, control, function, initial, material, output, restart,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -34,6 +34,7 @@ const FAMILIES: &[&[Setter]] = &[
     initial::COMMANDS,
     contact::COMMANDS,
     output::COMMANDS,
+    restart::COMMANDS,
 ];
 
 /// A model in the making.
@@ -125,6 +126,7 @@ impl Default for Model {
             deaths: Vec::new(),
             plot_requests: PlotRequests::default(),
             material_points: Vec::new(),
+            restarts: Restarts::default(),
         }
     }
 }

@@ -50,6 +50,9 @@ impl Snapshot {
 /// Name of the time among the numbers.
 pub const TIME: &str = "TIME";
 
+/// Name of the interval at which states were to be written, among the numbers of a file.
+pub const INTERVAL: &str = "WRITEINTERVAL";
+
 /// What a part of the solver tells its state to, or gets it from. All ranks visit the same things in the same order.
 ///
 /// When loading, every call replaces what it is given; when saving, it leaves it alone.

@@ -1,22 +1,29 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
 mod files;
+mod identity;
 mod memory;
 mod report;
+mod restart;
 
 pub use files::{Files, keep_old_print_files};
+pub use identity::{differences, told};
 pub use report::{Display, Quiet};
+pub use restart::states_beside;
 
 use crate::comm::Communicator;
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
-use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
+use crate::output::{self, Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
 use crate::partition::Decomposition;
+use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
+use restart::RestartFiles;
 use std::path::PathBuf;
+use std::sync::RwLock;
 use std::time::Instant;
 
 /// Everything that all ranks know.
@@ -43,8 +50,42 @@ pub struct Job<'a> {
     pub body: &'a Body,
     /// Which rank computes what.
     pub decomposition: &'a Decomposition<'a>,
+    /// The state that the run goes on from, if it does.
+    pub continuation: Option<&'a Continuation>,
     /// What the outside world wants of the run: signals, a shutdown file.
     pub wish: &'a (dyn Fn() -> Request + Sync),
+}
+
+/// A state to go on from; it has been found to fit the problem.
+#[derive(Debug)]
+pub struct Continuation {
+    /// The file that it comes from.
+    pub path: PathBuf,
+    step: f64,
+    time: f64,
+    /// The state, until all ranks of this process have taken their shares.
+    state: RwLock<Option<Snapshot>>,
+}
+
+impl Continuation {
+    /// From the state of a file.
+    pub fn new(path: PathBuf, snapshot: Snapshot) -> Continuation {
+        let step = snapshot.number("NSTEPS").unwrap_or(0.0);
+        Continuation { path, step, time: snapshot.time(), state: RwLock::new(Some(snapshot)) }
+    }
+
+    /// Puts a rank's solver into the state; all ranks call it once.
+    fn restore(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        let outcome = match self.state.read().as_deref() {
+            Ok(Some(snapshot)) => solver.restore(snapshot, comm).map_err(RunError::Incomplete),
+            _ => Err(RunError::Elsewhere),
+        };
+        comm.barrier();
+        if let Ok(mut state) = self.state.write() {
+            state.take();
+        }
+        outcome
+    }
 }
 
 /// How a run ended that did not fail.
@@ -58,6 +99,8 @@ pub struct Ended {
     pub time: f64,
     /// Plot states written.
     pub states: usize,
+    /// Whether a restart state was written.
+    pub restart: bool,
     /// Relative error of the energy balance at the end.
     pub energy_error: f64,
     /// Wall-clock seconds per element and cycle.
@@ -92,6 +135,9 @@ pub enum RunError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The state to go on from lacks something.
+    #[error("the restart file lacks {}", .0.join(", "))]
+    Incomplete(Vec<String>),
     /// Rank 0 could not write; the others leave with it.
     #[error("rank 0 could not write its files")]
     Elsewhere,
@@ -103,12 +149,15 @@ pub enum RunError {
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
     let mut solver = Solver::new(job.mesh, job.model, job.body, &job.decomposition.share(comm.rank()), comm);
+    if let Some(continuation) = job.continuation {
+        continuation.restore(&mut solver, comm)?;
+    }
     let mut writer = Writer::new(job, &solver, comm)?;
     writer.start(job, comm)?;
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
     display.finish();
-    writer.finish(&mut solver, comm, begun.elapsed().as_secs_f64(), outcome)
+    writer.finish(&mut solver, comm, begun, outcome)
 }
 
 /// The step loop. Ends with what stopped the run, or with the reason why it cannot go on.
@@ -122,6 +171,10 @@ fn steps(
     let model = job.model;
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut lines = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
+    if job.continuation.is_some() {
+        plots.pass(solver.previous_time, solver.time_step);
+        lines.pass(solver.previous_time, solver.time_step);
+    }
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
@@ -147,6 +200,9 @@ fn steps(
             return Ok(agreed);
         }
         solver.advance();
+        if writer.restarts.as_mut().is_some_and(|restarts| restarts.due(solver)) {
+            writer.restart(solver, comm)?;
+        }
     }
 }
 
@@ -171,8 +227,11 @@ struct Writer<'a> {
     log: Option<PrintLog>,
     watched: HistoryPlan,
     histories: Option<ResultsWriter>,
+    restarts: Option<RestartFiles<'a>>,
     files: &'a Files,
     elements: usize,
+    first_step: u64,
+    last_restart: Option<u64>,
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
@@ -194,10 +253,13 @@ impl<'a> Writer<'a> {
             log: None,
             watched: HistoryPlan::new(job.mesh, job.model),
             histories: None,
+            restarts: RestartFiles::new(job, solver),
             files: job.files,
             elements,
+            first_step: solver.step,
+            last_restart: None,
             termination_time: job.model.termination_time,
-            last_line: (Instant::now(), 0, 0.0),
+            last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
         })
     }
@@ -235,7 +297,8 @@ impl<'a> Writer<'a> {
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
-        let front = print::problem(&echo) + &print::step_header();
+        let from = job.continuation.map_or(String::new(), |from| print::continued(&from.path, from.step, from.time));
+        let front = print::problem(&echo) + &from + &print::step_header();
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
@@ -342,38 +405,48 @@ impl<'a> Writer<'a> {
         outcome
     }
 
+    /// Writes the state between two steps.
+    fn restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        solver.clock.start();
+        let snapshot = output::snapshot(solver, &self.collector, comm);
+        let outcome = match (&mut self.restarts, snapshot) {
+            (Some(restarts), Some(snapshot)) => restarts.write(snapshot).map_err(RunError::from),
+            _ => Ok(()),
+        };
+        self.last_restart = Some(solver.step);
+        let outcome = together(outcome, comm).and_then(|()| self.print(&print::restart_written(solver)));
+        solver.clock.stop(Section::Output);
+        together(outcome, comm)
+    }
+
+    /// Leaves the state to go on from at the end of a run, unless it has just been written: that after the step that
+    /// follows.
+    fn last_restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        if self.restarts.is_none() || self.last_restart == Some(solver.step) {
+            return Ok(());
+        }
+        solver.advance();
+        self.restart(solver, comm)
+    }
+
     /// Closes the log and says how the run ended.
     fn finish(
         mut self,
         solver: &mut Solver,
         comm: &mut dyn Communicator,
-        wall: f64,
+        begun: Instant,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
-        let table = time_table(solver, comm, wall, self.elements);
-        let totals = solver.totals(comm);
-        let words = match &outcome {
-            Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
-            Ok(by) => format!(
-                "STOPPED {} AT STEP {}, TIME {:.6e}; THE LAST STATE IS WRITTEN",
-                reason(*by),
-                solver.step,
-                solver.time
-            ),
-            Err(RunError::Stopped { stop, .. }) => format!(
-                "***** ERROR: AT STEP {}, TIME {:.6e}, TIME STEP {:.6e}: {stop}\n  advice: {}",
-                solver.step,
-                solver.time,
-                solver.time_step,
-                stop.advice()
-            ),
-            Err(error) => format!("***** ERROR: {error}"),
-        };
+        let (step, time, time_step, totals) = (solver.step, solver.time, solver.time_step, solver.totals(comm));
+        let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
+        let wall = begun.elapsed().as_secs_f64();
+        let cycles = (step - self.first_step) as f64 * self.elements as f64;
+        let table = time_table(solver, comm, wall, cycles);
         let states = self.results.as_ref().map_or(0, ResultsWriter::states);
         let initial_energy = solver.initial_energy;
         let ending = Ending {
-            outcome: &words,
-            steps: solver.step,
+            outcome: &in_words(&outcome, step, time, time_step),
+            steps: step,
             states,
             totals: &totals,
             initial_energy,
@@ -385,13 +458,29 @@ impl<'a> Writer<'a> {
         together(printed, comm)?;
         Ok(Ended {
             by,
-            steps: solver.step,
-            time: solver.time,
+            steps: step,
+            time,
             states,
+            restart: self.restarts.is_some(),
             energy_error: totals.relative_error(initial_energy),
             grind: table.grind(),
             wall,
         })
+    }
+}
+
+/// How a run ended, for the log.
+fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step: f64) -> String {
+    match outcome {
+        Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
+        Ok(by) => {
+            format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by))
+        }
+        Err(RunError::Stopped { stop, .. }) => format!(
+            "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
+            stop.advice()
+        ),
+        Err(error) => format!("***** ERROR: {error}"),
     }
 }
 
@@ -414,7 +503,7 @@ fn together(outcome: Result<(), RunError>, comm: &mut dyn Communicator) -> Resul
     }
 }
 
-fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, elements: usize) -> TimeTable {
+fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, element_cycles: f64) -> TimeTable {
     let mut sections = Vec::new();
     for (section, name) in Section::ALL {
         let mine = solver.clock.spent(section).as_secs_f64();
@@ -433,7 +522,7 @@ fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, elements:
         wall,
         ranks: comm.size(),
         elements_of_a_rank: [extremes[0] as u64, -extremes[1] as u64],
-        element_cycles: solver.step as f64 * elements as f64,
+        element_cycles,
         memory: memory::resident().map(|(_, most)| most),
     }
 }

@@ -36,7 +36,7 @@ impl Contact {
             locator,
             skin,
             // Made anew by `take_up`, from the surface as it is.
-            layout: _,
+            layout,
             here: _,
             holder: _,
             gather: _,
@@ -59,11 +59,14 @@ impl Contact {
             mean_size: _,
             limits: _,
         } = self;
-        archive.count("CONTSTEPS", steps);
-        archive.count("CONTPASSES", passes);
-        archive.count("CONTCAPPED", capped);
-        archive.number("CONTLEFT", left);
-        archive.count("CONTSEARCHES", &mut locator.searches);
+        // Of planes alone each rank knows its own, and the log tells nothing.
+        if !layout.interfaces.is_empty() {
+            archive.count("CONTSTEPS", steps);
+            archive.count("CONTPASSES", passes);
+            archive.count("CONTCAPPED", capped);
+            archive.number("CONTLEFT", left);
+            archive.count("CONTSEARCHES", &mut locator.searches);
+        }
         // Every rank knows all free nodes.
         let first = archive.comm().rank() == 0;
         let mut free: Vec<f64> = Vec::new();
