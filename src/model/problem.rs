@@ -82,6 +82,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
     output::finish(&mut draft);
+    restart::finish(&mut draft);
     function::report_unused(&mut draft);
     let Draft { model, found, .. } = draft;
     Problem { model, deck, diagnostics: found }

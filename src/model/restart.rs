@@ -1,7 +1,7 @@
 //! Restarts: writing them and going on from them.
 
 use super::problem::{Draft, Setter};
-use crate::deck::Card;
+use crate::deck::{Card, Diagnostic};
 
 pub(super) const COMMANDS: &[Setter] = &[("WRITE RESTART", write_restart), ("READ RESTART", read_restart)];
 
@@ -36,4 +36,14 @@ fn write_restart(card: &Card, draft: &mut Draft) {
 
 fn read_restart(card: &Card, draft: &mut Draft) {
     draft.model.restarts.read = Some(ReadRestart { time: card.maybe_number("t") });
+}
+
+/// A run must end after the state that it goes on from.
+pub(super) fn finish(draft: &mut Draft) {
+    let end = draft.model.termination_time;
+    let Some(time) = draft.model.restarts.read.and_then(|read| read.time).filter(|time| *time >= end) else { return };
+    let Some(card) = draft.deck.cards_of("READ RESTART").last() else { return };
+    let message = format!("READ RESTART: the run ends at {end}, before the state at {time} that it is to go on from");
+    let diagnostic = Diagnostic::error(message).at(card.place("t"), "must be before the end");
+    draft.report(diagnostic.help("a later TERMINATION TIME lets the run go on"));
 }
