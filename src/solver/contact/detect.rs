@@ -49,10 +49,14 @@ pub struct Past {
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
     pub allowed: f64,
+    /// Normal force on the point in the last step.
+    pub push: f64,
+    /// Friction force on it.
+    pub drag: [f64; 3],
 }
 
 /// Of a point that touches nothing.
-pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0 }; TOUCHES];
+pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0, push: 0.0, drag: [0.0; 3] }; TOUCHES];
 
 /// A point on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::detect::{Check, UNTOUCHED};
-use super::enforce::{Enforcer, Limits};
+use super::enforce::{Alone, Enforcer, Limits};
 use super::locate::{Locator, Near, Reach};
 use super::points::Points;
 use super::search::SearchKind;
@@ -47,10 +47,11 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         if constraints.is_empty() {
             break;
         }
-        enforcer.solve(&mut constraints, &points, &still, Limits { passes: 100, tolerance: 0.1 * NOTHING });
+        let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
+        enforcer.solve(&mut constraints, &points, &still, limits, &mut Alone);
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
-            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point));
+            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point, &points, still.kick));
         }
     }
     moved(mesh, body, &layout)
