@@ -212,13 +212,16 @@ impl Check<'_> {
             let old = touches[i];
             let middle = face::centre(&self.faces.end(old.face, self.points));
             for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
-                if touches.iter().any(|touch| touch.face == face) {
+                let corners = self.faces.end(face, self.points);
+                let hollow = dot(subtract(face::centre(&corners), middle), old.stand.normal) > 0.0;
+                if !hollow
+                    || face::is_in_front(&corners, self.points.end[point as usize])
+                    || touches.iter().any(|touch| touch.face == face)
+                {
                     continue;
                 }
-                let Some(stand) = self.stand_at_end(point, face) else { continue };
-                let other = face::centre(&self.faces.end(face, self.points));
-                let hollow = dot(subtract(other, middle), old.stand.normal) > 0.0;
-                if hollow && stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
+                let Some(stand) = face::stand(&corners, self.points.end[point as usize]) else { continue };
+                if stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
                     touches.push(self.held(face, stand, 0.0));
                 }
             }
@@ -237,7 +240,11 @@ impl Check<'_> {
 
     /// A point that this face has not seen before.
     fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
-        let end = self.stand_at_end(point, face).filter(|stand| stand.gap < 0.0)?;
+        let corners = self.faces.end(face, self.points);
+        if face::is_in_front(&corners, self.points.end[point as usize]) {
+            return None;
+        }
+        let end = face::stand(&corners, self.points.end[point as usize]).filter(|stand| stand.gap < 0.0)?;
         let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {

@@ -1,5 +1,6 @@
 //! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
 
+use super::bounds::Bounds;
 use super::detect::{Past, TOUCHES};
 use super::edges::{self, Edge};
 use super::faces::Faces;
@@ -62,22 +63,17 @@ pub struct Locator {
     /// Faces that are candidates, ascending.
     active: Vec<u32>,
     /// Box of every active face over the present step.
-    boxes: Vec<Box3>,
+    boxes: Vec<Bounds>,
     found: Vec<Candidates>,
     edge_pairs: Vec<[u32; 2]>,
     /// Number of searches so far.
     pub searches: u64,
 }
 
-/// Box around the way of a point over the step.
-fn way(points: &Points, point: u32) -> Box3 {
-    Box3::around(&[points.start[point as usize], points.end[point as usize]])
-}
-
 /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
-fn capture_box(faces: &Faces, face: u32, points: &Points, margin: f64) -> Box3 {
-    let [a, b, c, d] = faces.corners[face as usize].map(|corner| way(points, corner));
-    a.joined(&b).joined(&c).joined(&d).grown(margin * faces.depth[face as usize])
+fn capture_box(faces: &Faces, face: u32, points: &Points, margin: f64) -> Bounds {
+    let corners = faces.corners[face as usize].map(|corner| &points.way[corner as usize]);
+    Bounds::joined(corners, (margin * faces.depth[face as usize]) as f32)
 }
 
 impl Locator {
@@ -189,7 +185,7 @@ impl Locator {
         self.first.push(self.near.len() as u32);
         self.active.clear();
         self.active.extend((0..faces.len() as u32).filter(|&face| is_active[face as usize]));
-        self.boxes.resize(faces.len(), Box3::empty());
+        self.boxes.resize(faces.len(), Bounds::EVERYTHING);
     }
 
     /// Pairs of edges that may cross, ascending.
@@ -229,11 +225,11 @@ impl Locator {
 
     /// Candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that have
     /// held it before.
-    pub fn near<'a>(&'a self, i: usize, points: &Points, past: &'a [Past; TOUCHES]) -> impl Iterator<Item = Near> + 'a {
-        let own = way(points, self.watched[i]);
+    pub fn near<'a>(&'a self, i: usize, points: &'a Points, past: &'a [Past; TOUCHES]) -> impl Iterator<Item = Near> + 'a {
+        let own = &points.way[self.watched[i] as usize];
         let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
         let held = |near: &Near| past.iter().any(|past| past.face == near.face);
-        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].overlaps(&own) || held(near))
+        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].meets(own) || held(near))
     }
 
     /// Numbers of watched points and of candidate pairs.

@@ -4,6 +4,7 @@
 //! works on [`points::Points`], the nodes of the surface in the order of the mesh. Every rank holds all of them and
 //! comes to the same forces; nothing depends on the decomposition.
 
+mod bounds;
 mod cubic;
 pub mod detect;
 mod edges;
