@@ -83,8 +83,9 @@ struct Extent {
 /// ones, and NaN as the lowest.
 ///
 /// It is the algorithm of Attaway et al. 1996, figure 7, except that points stay where they are until all cuts are
-/// known, and that a round tries many places at once. The number of collective calls is two per level of the tree
-/// while points hardly change their order, and a few more per level otherwise.
+/// known, and that a round tries many places at once. It takes one collective call for the beginning and, for each
+/// level of the tree, one for boxes and one per round: one round where the point at the previous cut still is the
+/// point at the cut, whatever its motion, and about five otherwise.
 pub fn balance(
     points: &[[f64; 3]],
     ids: &[u32],
@@ -308,7 +309,7 @@ impl Extent {
 
 /// Trials on either side of the expected cut for so many searches at once: what all of them send stays small.
 fn closer_trials(searches: usize) -> usize {
-    (512 / searches.max(1)).clamp(3, 10)
+    (512 / searches.max(1)).clamp(3, 8)
 }
 
 /// Brings the points for which `before` holds to the front and returns their number.

@@ -99,7 +99,7 @@ impl Bisection {
     }
 
     /// The lower and upper sides of a rank's region, infinite where nothing was cut. Points of a side belong to this
-    /// region or to its neighbour, by id.
+    /// region or to its neighbour, by id. Where there were no points to cut between, `low` is +∞: nothing is inside.
     pub fn region(&self, rank: usize) -> ([f64; 3], [f64; 3]) {
         let (mut low, mut high) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
         let mut ranks = self.all();
@@ -107,10 +107,10 @@ impl Bisection {
             let cut = &self.cuts[ranks.cut()];
             let [left, right] = ranks.halves();
             if rank < right.first {
-                high[cut.axis] = cut.end.coordinate();
+                high[cut.axis] = high[cut.axis].min(cut.end.coordinate());
                 ranks = left;
             } else {
-                low[cut.axis] = cut.end.coordinate();
+                low[cut.axis] = low[cut.axis].max(cut.end.coordinate());
                 ranks = right;
             }
         }

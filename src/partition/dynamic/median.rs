@@ -17,7 +17,7 @@ const EVEN: usize = 8;
 const HALVES: u128 = 4;
 
 /// The ratio of the distances of successive trials from where the cut is thought to be.
-const CLOSER: f64 = 1.0 / 3.0;
+const CLOSER: f64 = 0.25;
 
 /// Sums over the points of a bin.
 #[derive(Debug, Clone, Copy, Default)]
@@ -155,7 +155,7 @@ impl Median {
         median
     }
 
-    /// Sets the bins of the next round: trials about the expected cut, `closer` on either side, and even ones.
+    /// Sets the bins of the next round: trials about where the cut is expected, `closer` on either side, and even ones.
     pub fn choose_trials(&mut self, closer: usize) {
         let trials = self.expected().into_iter().chain(self.spread(closer));
         self.starts.clear();
@@ -177,15 +177,17 @@ impl Median {
         places
     }
 
-    /// Trials around the expected cut and all over the bracket.
+    /// Trials about where the cut is expected and where points crowd, and all over the bracket.
     fn spread(&self, closer: usize) -> Vec<Place> {
-        let centre = self.guess.map_or_else(|| self.fraction_wanted(), |guess| self.fraction_at(guess));
-        let distances = std::iter::successors(Some(CLOSER), |distance| Some(distance * CLOSER)).take(closer);
-        let about = distances.flat_map(|distance| [centre - distance, centre + distance]);
+        let expected = self.guess.map_or_else(|| self.fraction_wanted(), |guess| self.fraction_at(guess));
+        let crowd = self.mean.map(|mean| self.fraction_at(mean));
+        let distances = || std::iter::successors(Some(CLOSER), |distance| Some(distance * CLOSER)).take(closer);
+        let about = |centre| distances().flat_map(move |distance| [centre - distance, centre + distance]);
         let even = (1..EVEN).map(|i| i as f64 / EVEN as f64);
+        let fractions = about(expected).chain([expected]).chain(crowd.into_iter().flat_map(about)).chain(even);
         let width = self.high.since(self.low);
         let halves = (1..HALVES).map(|i| self.low.plus(width * i / HALVES));
-        about.chain([centre]).chain(even).map(|fraction| self.at_fraction(fraction)).chain(halves).collect()
+        fractions.map(|fraction| self.at_fraction(fraction)).chain(halves).collect()
     }
 
     /// The part of the bracket's weight that should be left of the cut.
