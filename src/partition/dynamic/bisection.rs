@@ -76,7 +76,8 @@ impl Bisection {
     /// its axis, and a box with a `low` above its `high` nothing.
     pub fn ranks_meeting(&self, low: [f64; 3], high: [f64; 3], out: &mut Vec<u32>) {
         out.clear();
-        if (0..3).all(|axis| !(low[axis] > high[axis])) {
+        let nothing = (0..3).any(|axis| low[axis] > high[axis]);
+        if !nothing {
             let finite = |x: f64| x.clamp(f64::MIN, f64::MAX);
             self.descend(self.all(), &low.map(finite), &high.map(finite), out);
         }
@@ -89,11 +90,12 @@ impl Bisection {
         }
         let cut = &self.cuts[ranks.cut()];
         let (at, [left, right]) = (cut.end.coordinate(), ranks.halves());
-        // Comparisons that hold for NaN too.
-        if !(low[cut.axis] > at) {
+        // Neither holds for NaN, which so reaches both sides.
+        let (right_only, left_only) = (low[cut.axis] > at, high[cut.axis] < at);
+        if !right_only {
             self.descend(left, low, high, out);
         }
-        if !(high[cut.axis] < at) {
+        if !left_only {
             self.descend(right, low, high, out);
         }
     }

@@ -225,8 +225,8 @@ fn few_calls_find_the_cuts() {
     }
 }
 
-/// Coordinates that double from point to point, and pairs at the smallest distances, are the worst for trials that are
-/// even: a fourth of the remaining 96 bits of places is the least that a round gains.
+/// Coordinates that double from point to point are the worst for even trials. Each round leaves at most a fourth of the
+/// places, so that the 2⁹⁶ that there are take at most 48 rounds.
 #[test]
 fn crowded_coordinates_end_within_the_bound() {
     let crowded = |i: u32| [f64::from_bits(1u64 << (i % 63)), 0.0, 0.0];
