@@ -313,10 +313,10 @@ impl Contact {
             points, layout, pairings, locator, history, constraints, near, near_faces, strict, touches, ..
         } = self;
         let check = Check { points, faces: &layout.faces };
-        for (i, &point) in locator.watched().iter().enumerate() {
-            near.clear();
+        for i in 0..locator.watched().len() {
+            let point = locator.watched()[i];
             let past = &mut history[point as usize];
-            near.extend(locator.near(i, points, past));
+            locator.near(i, points, &layout.faces, past, near);
             if near.is_empty() {
                 *past = UNTOUCHED;
                 continue;

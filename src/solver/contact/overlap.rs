@@ -79,8 +79,10 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super:
     locator.locate(points, &layout.faces, &layout.interfaces, &[]);
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
-    for (i, &point) in locator.watched().iter().enumerate() {
-        let near: Vec<Near> = locator.near(i, points, &UNTOUCHED).collect();
+    let mut near: Vec<Near> = Vec::new();
+    for i in 0..locator.watched().len() {
+        let point = locator.watched()[i];
+        locator.near(i, points, &layout.faces, &UNTOUCHED, &mut near);
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
         check.point(point, &faces, &vec![true; faces.len()], &UNTOUCHED, &mut touches);
         for touch in &mut touches {

@@ -1,6 +1,5 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
-use super::bounds::Bounds;
 use crate::solver::nodes::{add, scaled};
 
 /// Contact points, structure of arrays, in the order of the mesh's nodes.
@@ -14,15 +13,13 @@ pub struct Points {
     pub end: Vec<[f64; 3]>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
-    /// Around the way of the step.
-    pub way: Vec<Bounds>,
 }
 
 impl Points {
     /// So many points at the origin.
     pub fn new(count: usize) -> Points {
         let zero = vec![[0.0; 3]; count];
-        Points { start: zero.clone(), velocity: zero.clone(), end: zero.clone(), inverse_mass: zero, way: vec![Bounds::EVERYTHING; count] }
+        Points { start: zero.clone(), velocity: zero.clone(), end: zero.clone(), inverse_mass: zero }
     }
 
     /// Number of points.
@@ -40,9 +37,7 @@ impl Points {
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], drift: f64) {
         self.start[point] = start;
         self.velocity[point] = velocity;
-        let end = add(start, scaled(velocity, drift));
-        self.end[point] = end;
-        self.way[point] = Bounds::around(start, end);
+        self.end[point] = add(start, scaled(velocity, drift));
     }
 
     /// How far a point goes.
