@@ -117,7 +117,7 @@ fn every_deck_goes_on_to_the_bit() {
     let mut decks: Vec<PathBuf> = decks.map(|entry| entry.expect("an entry").path()).collect();
     decks.retain(|path| path.extension().is_some_and(|suffix| suffix == "i"));
     decks.sort();
-    let mut done = 0;
+    let (mut done, mut listed) = (0, Vec::new());
     for deck in &decks {
         let name = deck.file_stem().expect("a name").to_string_lossy().into_owned();
         let source = Source::open(&folder.join(format!("meshes/{name}.mesh"))).expect("a recipe");
@@ -133,10 +133,12 @@ fn every_deck_goes_on_to_the_bit() {
         let first = case.part(2, None, steps / 2);
         let second = case.part(3, Some(&first.end), steps - steps / 2);
         assert_same(&name, &whole, &second);
+        listed.extend(first.end.lists.into_iter().map(|list| list.name));
         done += 1;
         println!("{name}: {steps} steps, {:.1} s", begun.elapsed().as_secs_f64());
     }
     assert!(done > 15, "{done}");
+    assert!(["CONTTOUCH", "CONTEDGES", "CONTPLANE"].iter().all(|name| listed.contains(&name.to_string())));
 }
 /// Every law, with all that it stores at work but the drop of stress in a torn element, which is stored like the rest.
 #[test]

@@ -7,6 +7,7 @@
 use super::detect::{NONE, Past, UNTOUCHED};
 use super::edges::PastPair;
 use super::enforce::Enforcer;
+use super::planes::PlanePoint;
 use super::points::Points;
 use super::setup::{ABSENT, Layout};
 use super::{Contact, Tally};
@@ -14,10 +15,12 @@ use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;
 use crate::solver::nodes::Nodes;
 
-/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap.
-const TOUCH: usize = 5;
-/// Columns of a pair of edges: the nodes of both, sense, tolerated overlap.
-const PAIR: usize = 6;
+/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, force.
+const TOUCH: usize = 9;
+/// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, force.
+const PAIR: usize = 10;
+/// Columns of a point that a plane pushes: node, number of the plane, force.
+const PLANE: usize = 6;
 /// Columns of a point's work: node, work of normal forces, work of friction.
 const WORK: usize = 3;
 
@@ -29,6 +32,7 @@ impl Contact {
             // Visited below.
             history: _,
             edge_history: _,
+            plane_points: _,
             normal_work: _,
             friction_work: _,
             lost_work: _,
@@ -41,7 +45,6 @@ impl Contact {
             holder: _,
             gather: _,
             edges: _,
-            plane_points: _,
             points: _,
             enforcer: _,
             // Of the step.
@@ -80,6 +83,7 @@ impl Contact {
         }
         self.visit_touches(archive, nodes);
         self.visit_pairs(archive, nodes);
+        self.visit_planes(archive, nodes);
         self.visit_works(archive, nodes);
     }
 
@@ -113,9 +117,11 @@ impl Contact {
     fn visit_touches(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
         let mut rows = Vec::new();
         for (point, pasts) in self.history.iter().enumerate().filter(|(point, _)| self.answers_for(*point, nodes)) {
-            for (slot, Past { face, allowed }) in pasts.iter().enumerate().filter(|(_, past)| past.face != NONE) {
+            for (slot, Past { face, allowed, push, drag }) in
+                pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
+            {
                 let node = f64::from(self.layout.nodes[point]);
-                rows.extend([[node, slot as f64].as_slice(), &self.face_key(*face), &[*allowed]].concat());
+                rows.extend([[node, slot as f64].as_slice(), &self.face_key(*face), &[*allowed, *push], drag].concat());
             }
         }
         archive.list("CONTTOUCH", TOUCH, &mut rows);
@@ -132,7 +138,7 @@ impl Contact {
             if let (Ok(face), Some(pasts)) = (face, self.history.get_mut(point))
                 && let Some(past) = pasts.get_mut(row[1] as usize)
             {
-                *past = Past { face: faces[face].1, allowed: row[4] };
+                *past = Past { face: faces[face].1, allowed: row[4], push: row[5], drag: [row[6], row[7], row[8]] };
             }
         }
     }
@@ -145,11 +151,12 @@ impl Contact {
 
     fn visit_pairs(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
         let mut rows = Vec::new();
-        for PastPair { pair, sense, allowed } in &self.edge_history {
+        for PastPair { pair, sense, allowed, push, drag } in &self.edge_history {
             let [[a, b], [c, d]] = pair.map(|edge| self.edges[edge as usize].ends);
             if self.answers_for(a as usize, nodes) {
                 rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
-                rows.extend([*sense, *allowed]);
+                rows.extend([*sense, *allowed, *push]);
+                rows.extend(drag);
             }
         }
         archive.list("CONTEDGES", PAIR, &mut rows);
@@ -162,11 +169,34 @@ impl Contact {
         };
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
-            Some(PastPair { pair, sense: row[4], allowed: row[5] })
+            Some(PastPair { pair, sense: row[4], allowed: row[5], push: row[6], drag: [row[7], row[8], row[9]] })
         });
         let mut pairs: Vec<PastPair> = pairs.collect();
         pairs.sort_by_key(|past| past.pair);
         self.edge_history = pairs;
+    }
+
+    fn visit_planes(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
+        let mut rows = Vec::new();
+        for PlanePoint { point, plane, allowed: _, push, drag } in &self.plane_points {
+            let idle = *push == 0.0 && *drag == [0.0; 3];
+            if !idle && self.answers_for(*point as usize, nodes) {
+                rows.extend([f64::from(self.layout.nodes[*point as usize]), f64::from(*plane), *push]);
+                rows.extend(drag);
+            }
+        }
+        archive.list("CONTPLANE", PLANE, &mut rows);
+        if !archive.loading() {
+            return;
+        }
+        let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
+        for watch in &mut self.plane_points {
+            let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
+            match rows.binary_search_by(|row| compare_rows(&row[..2], &key)) {
+                Ok(i) => watch.remember(rows[i][2], [rows[i][3], rows[i][4], rows[i][5]]),
+                Err(_) => watch.remember(0.0, [0.0; 3]),
+            }
+        }
     }
 
     fn visit_works(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
