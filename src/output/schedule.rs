@@ -45,7 +45,7 @@ impl Schedule {
     /// Number of the first time beyond `reach`, which is not before the start. It is computed, not counted up to:
     /// intervals may be far below the time step, or below the resolution of time itself.
     fn first_beyond(&self, reach: f64) -> f64 {
-        let number = ((reach - self.start) / self.interval).floor().min(f64::MAX).max(0.0);
+        let number = ((reach - self.start) / self.interval).floor().min(f64::MAX);
         // The quotient may be rounded across a whole number; who has served what must not hang on that.
         if self.time_of(number) > reach {
             number.max(1.0)

@@ -9,7 +9,7 @@ mod restart;
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, told};
 pub use report::{Display, Quiet};
-pub use restart::states_beside;
+pub use restart::{Continuation, states_beside};
 
 use crate::comm::Communicator;
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
@@ -18,12 +18,10 @@ use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
 use crate::output::{self, Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
 use crate::partition::Decomposition;
-use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
 use restart::RestartFiles;
 use std::path::PathBuf;
-use std::sync::RwLock;
 use std::time::Instant;
 
 /// Everything that all ranks know.
@@ -54,38 +52,6 @@ pub struct Job<'a> {
     pub continuation: Option<&'a Continuation>,
     /// What the outside world wants of the run: signals, a shutdown file.
     pub wish: &'a (dyn Fn() -> Request + Sync),
-}
-
-/// A state to go on from; it has been found to fit the problem.
-#[derive(Debug)]
-pub struct Continuation {
-    /// The file that it comes from.
-    pub path: PathBuf,
-    step: f64,
-    time: f64,
-    /// The state, until all ranks of this process have taken their shares.
-    state: RwLock<Option<Snapshot>>,
-}
-
-impl Continuation {
-    /// From the state of a file.
-    pub fn new(path: PathBuf, snapshot: Snapshot) -> Continuation {
-        let step = snapshot.number("NSTEPS").unwrap_or(0.0);
-        Continuation { path, step, time: snapshot.time(), state: RwLock::new(Some(snapshot)) }
-    }
-
-    /// Puts a rank's solver into the state; all ranks call it once.
-    fn restore(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        let outcome = match self.state.read().as_deref() {
-            Ok(Some(snapshot)) => solver.restore(snapshot, comm).map_err(RunError::Incomplete),
-            _ => Err(RunError::Elsewhere),
-        };
-        comm.barrier();
-        if let Ok(mut state) = self.state.write() {
-            state.take();
-        }
-        outcome
-    }
 }
 
 /// How a run ended that did not fail.
@@ -297,7 +263,7 @@ impl<'a> Writer<'a> {
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
-        let from = job.continuation.map_or(String::new(), |from| print::continued(&from.path, from.step, from.time));
+        let from = job.continuation.map_or(String::new(), |from| from.in_words());
         let front = print::problem(&echo) + &from + &print::step_header();
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);

@@ -1,17 +1,56 @@
-//! Restart files of a run: when they are due, and how many are kept.
+//! Restart files of a run: the one that it goes on from, when others are due, and how many are kept.
 //!
 //! `BASE.rsout` is always the newest state, `BASE.rsout.1` the one before, and so on. A state gets its name when all of it
 //! is on the disk, so that at any instant the newest good one is there.
 
-use super::Job;
 use super::files::with_suffix;
 use super::identity::identity;
+use super::{Job, RunError};
+use crate::comm::Communicator;
 use crate::exodus::{RestartHeader, ResultsError, write_restart};
-use crate::output::Schedule;
+use crate::output::{Schedule, print};
 use crate::restart::{INTERVAL, Snapshot};
 use crate::solver::Solver;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::RwLock;
+
+/// A state to go on from; it has been found to fit the problem.
+#[derive(Debug)]
+pub struct Continuation {
+    /// The file that it comes from.
+    pub path: PathBuf,
+    step: f64,
+    time: f64,
+    /// The state, until all ranks of this process have taken their shares.
+    state: RwLock<Option<Snapshot>>,
+}
+
+impl Continuation {
+    /// From the state of a file.
+    pub fn new(path: PathBuf, snapshot: Snapshot) -> Continuation {
+        let step = snapshot.number("NSTEPS").unwrap_or(0.0);
+        Continuation { path, step, time: snapshot.time(), state: RwLock::new(Some(snapshot)) }
+    }
+
+    /// Puts a rank's solver into the state; all ranks call it once.
+    pub(super) fn restore(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        let outcome = match self.state.read().as_deref() {
+            Ok(Some(snapshot)) => solver.restore(snapshot, comm).map_err(RunError::Incomplete),
+            _ => Err(RunError::Elsewhere),
+        };
+        comm.barrier();
+        if let Ok(mut state) = self.state.write() {
+            state.take();
+        }
+        outcome
+    }
+
+    /// Where the run goes on, for the log.
+    pub(super) fn in_words(&self) -> String {
+        print::continued(&self.path, self.step, self.time)
+    }
+}
 
 /// The restart files that a run writes.
 pub(super) struct RestartFiles<'a> {
