@@ -8,6 +8,7 @@ use support::meshes::recipe;
 use urto::deck::Source;
 use urto::material::MATERIALS;
 use urto::mesher::make_with_warnings;
+use urto::model::Deletion;
 
 /// Numbers of ranks that write and read.
 const RANKS: [usize; 3] = [1, 2, 5];
@@ -41,6 +42,13 @@ fn punch() -> Case {
         material(2)
     );
     Case::new(&deck, mesh)
+}
+
+/// The same, and a block that is deleted in the middle of it, with the debris that it has left.
+fn punch_with_deletion(time: f64) -> Case {
+    let Case { mesh, mut model, body } = punch();
+    model.deletions.push(Deletion { block: 1, time });
+    Case { mesh, model, body }
 }
 
 /// Two cubes that meet on crossing edges, and are pressed together.
@@ -100,6 +108,13 @@ fn contact_erosion_and_all_loads_on_any_number_of_ranks() {
         "SILENTW",
     ];
     matrix(&punch(), [91, 66], &lists);
+}
+
+#[test]
+fn a_block_that_is_deleted_before_or_after_the_restart() {
+    let time = |steps: usize| punch().part(1, None, steps).end.time();
+    matrix(&punch_with_deletion(time(110)), [91, 60], &["CONTFREE"]);
+    matrix(&punch_with_deletion(time(80)), [91, 30], &["DELETED", "DEAD"]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod boundary;
 mod check;
 mod contact;
 mod control;
+mod deletion;
 mod function;
 mod initial;
 mod material;
@@ -17,6 +18,7 @@ mod restart;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
+pub use deletion::Deletion;
 pub use problem::{Problem, examine, from_deck};
 pub use restart::{ReadRestart, Restarts, WriteRestart};
 
@@ -63,6 +65,8 @@ pub struct Model {
     pub contact: Contact,
     /// When elements are taken away.
     pub deaths: Vec<Death>,
+    /// Blocks that are taken away at a time.
+    pub deletions: Vec<Deletion>,
     /// What the plot file holds.
     pub plot_requests: PlotRequests,
     /// Points of the undeformed mesh whose elements have their histories written.

@@ -2,7 +2,7 @@
 
 use super::{
     BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
-    TimeStepControl, boundary, check, contact, control, function, initial, material, output, restart,
+    TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -33,6 +33,7 @@ const FAMILIES: &[&[Setter]] = &[
     boundary::COMMANDS,
     initial::COMMANDS,
     contact::COMMANDS,
+    deletion::COMMANDS,
     output::COMMANDS,
     restart::COMMANDS,
 ];
@@ -125,6 +126,7 @@ impl Default for Model {
             rigid_surfaces: Vec::new(),
             contact: Contact::default(),
             deaths: Vec::new(),
+            deletions: Vec::new(),
             plot_requests: PlotRequests::default(),
             material_points: Vec::new(),
             restarts: Restarts::default(),

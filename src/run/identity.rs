@@ -51,8 +51,8 @@ pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -
     let now = identity(model);
     found.extend(texts(&restart.identity, &now));
     let dead = restart.snapshot.lists.iter().find(|list| list.name == "DEAD").map_or(0, |list| list.values.len());
-    if dead > 0 && model.deaths.is_empty() {
-        found.push(format!("{dead} elements had been taken away by DEATH, the deck has no DEATH now"));
+    if dead > 0 && model.deaths.is_empty() && model.deletions.is_empty() {
+        found.push(format!("{dead} elements had been taken away, the deck has neither DEATH nor DELETE MATERIAL now"));
     }
     if found.is_empty() {
         found.extend(masses(restart, mesh, body));

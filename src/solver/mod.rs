@@ -224,14 +224,11 @@ impl Solver {
         let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, .. } = &mut self.domain;
         let Some(erosion) = erosion else { return };
         self.clock.start();
-        let dead = erosion.advance(blocks, element_canonical, nodes, self.time_step, comm);
-        if !dead.is_empty() {
+        if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
             pressure_faces.iter_mut().for_each(|face| face.gone |= dead.binary_search(&face.element).is_ok());
-        }
-        if let Some(contact) = contact
-            && !dead.is_empty()
-        {
-            contact.erode(&dead, erosion, nodes, comm);
+            if let Some(contact) = contact {
+                contact.erode(&dead, erosion, nodes, comm);
+            }
         }
         self.clock.stop(Section::Erosion);
     }

@@ -20,16 +20,27 @@ impl Erosion {
             energy,
             gone,
             element_order,
+            deletions,
+            keeps,
+            element_nodes,
             // Of the problem, or counted anew by `take_away`.
             rules: _,
-            element_nodes: _,
             local: _,
-            keeps: _,
             left: _,
             stand_in: _,
             edge: _,
         } = self;
         archive.heap("DEADE", energy);
+        let mut deleted: Vec<f64> = Vec::new();
+        if archive.comm().rank() == 0 {
+            deleted.extend(deletions.gone.iter().map(|&block| block as f64));
+        }
+        archive.list("DELETED", 1, &mut deleted);
+        if archive.loading() {
+            deletions.gone = deleted.iter().map(|&block| block as i64).collect();
+            deletions.to_come.retain(|one| deletions.gone.binary_search(&one.block).is_err());
+            *keeps = deletions.keeps(element_nodes, keeps.len());
+        }
         let groups = blocks.iter().flat_map(|block| block.groups());
         let mut dead: Vec<f64> = groups
             .flat_map(|group| (0..group.len()).filter(|&i| !group.is_alive(i)).map(|i| group.places[i]))
