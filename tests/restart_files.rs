@@ -3,7 +3,7 @@
 
 mod program;
 
-use program::{Desk, Left, bar_deck, box_mesh, commands_mesh, project, put_bar, wait_for};
+use program::{Desk, Left, URTO, bar_deck, box_mesh, commands_mesh, mpiexec, project, put_bar, wait_for};
 use std::path::Path;
 use std::time::Duration;
 use urto::exodus::{Restart, Results, read_restart};
@@ -110,6 +110,13 @@ fn continued_files_end_with_the_bits_of_a_run_that_never_stopped() {
             assert!(lines.len() > 20 && expected.ends_with(&lines), "{base}: {lines:#?}");
             assert_eq!(state(&desk.path("whole.rsout")), state(&desk.path(&format!("{base}.rsout"))), "{base}");
         }
+    }
+    if let Some(mut mpi) = mpiexec(3) {
+        // What threads wrote goes on as MPI processes, and these write as threads do.
+        let arguments = ["again.i", "-m", "case.g", "-q", "-o", "mpi", "--restart", "whole.rsout"];
+        Left::of(mpi.arg(URTO).args(arguments).current_dir(desk.path(".")).output().expect("mpiexec starts")).with(0);
+        assert_tail(&desk.path("whole.e"), &desk.path("mpi.e"));
+        assert_eq!(state(&desk.path("whole.rsout")), state(&desk.path("mpi.rsout")));
     }
 }
 
@@ -320,7 +327,11 @@ fn a_time_that_has_no_state_is_refused() {
     // Half an interval away is near enough: this is the state at 40 microseconds.
     with("READ RESTART, 31.E-6");
     run(&desk, "case.i", &["--restart", "case.rsout", "-o", "near"]).with(0);
-    assert!(desk.text("near.o").contains("case.rsout.1 READ: THE RUN GOES ON AT STEP 101"), "{}", desk.text("near.o"));
+    assert!(
+        desk.text("near.o").contains("case.rsout.1 is read: the run goes on at step 101"),
+        "{}",
+        desk.text("near.o")
+    );
     with("READ RESTART");
     for name in ["case.rsout", "case.rsout.1"] {
         std::fs::rename(desk.path(name), desk.path(&name.replace("case", "other"))).expect("renamed");

@@ -82,6 +82,9 @@ impl Prepared {
             self.given.problem.model.title.trim(),
             ranks_in_words(self.ranks)
         ));
+        if let Some(continuation) = &self.continuation {
+            say(continuation.in_words());
+        }
     }
 }
 

@@ -263,7 +263,7 @@ impl<'a> Writer<'a> {
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
-        let from = job.continuation.map_or(String::new(), |from| from.in_words());
+        let from = job.continuation.map_or(String::new(), |from| print::continued(&from.in_words()));
         let front = print::problem(&echo) + &from + &print::step_header();
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);

@@ -8,7 +8,8 @@ use super::identity::identity;
 use super::{Job, RunError};
 use crate::comm::Communicator;
 use crate::exodus::{RestartHeader, ResultsError, write_restart};
-use crate::output::{Schedule, print};
+use crate::output::Schedule;
+use crate::output::print::scientific;
 use crate::restart::{INTERVAL, Snapshot};
 use crate::solver::Solver;
 use std::io;
@@ -46,9 +47,14 @@ impl Continuation {
         outcome
     }
 
-    /// Where the run goes on, for the log.
-    pub(super) fn in_words(&self) -> String {
-        print::continued(&self.path, self.step, self.time)
+    /// Where the run goes on.
+    pub fn in_words(&self) -> String {
+        format!(
+            "{} is read: the run goes on at step {}, time {}",
+            self.path.display(),
+            self.step,
+            scientific(self.time, 6)
+        )
     }
 }
 

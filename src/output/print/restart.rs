@@ -2,15 +2,10 @@
 
 use super::scientific;
 use crate::solver::Solver;
-use std::path::Path;
 
-/// Where a run goes on.
-pub fn continued(path: &Path, step: f64, time: f64) -> String {
-    format!(
-        "\n     RESTART FILE {} READ: THE RUN GOES ON AT STEP {step}, TIME {}\n",
-        path.display(),
-        scientific(time, 6)
-    )
+/// Where a run goes on, told in words.
+pub fn continued(words: &str) -> String {
+    format!("\n     RESTART FILE {words}\n")
 }
 
 /// That a state was written.
