@@ -101,7 +101,8 @@ impl Domain {
         }
         let held = domain.set_constraints(mesh, model, &local);
         domain.set_forces(mesh, model, &local);
-        domain.contact = Contact::new(mesh, model, body, &domain.nodes, held, &local, comm);
+        domain.contact =
+            Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
         domain
     }

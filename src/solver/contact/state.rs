@@ -1,15 +1,13 @@
 //! What contact carries from step to step: which faces hold which points, which edges touch, works, and the surface.
 //!
 //! Points are told by their node in the mesh file, faces by element and side there, edges by their two nodes, so that
-//! neither erosion nor the decomposition has a say. Every rank may hold more than it answers for; what it saves is what
-//! belongs to nodes that it owns, and every rank loads all.
+//! neither erosion nor the decomposition has a say. What touches is saved by the rank that computes it, works by the rank
+//! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
 
+use super::arena::History;
 use super::detect::{NONE, Past, UNTOUCHED};
 use super::edges::PastPair;
-use super::enforce::Enforcer;
-use super::planes::PlanePoint;
-use super::points::Points;
-use super::setup::{ABSENT, Layout};
+use super::setup::Layout;
 use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;
@@ -30,34 +28,25 @@ impl Contact {
     pub fn visit_state(&mut self, archive: &mut dyn Archive, dead: &[u32], erosion: Option<&Erosion>, nodes: &Nodes) {
         let Contact {
             // Visited below.
-            history: _,
-            edge_history: _,
-            plane_points: _,
-            normal_work: _,
-            friction_work: _,
+            arena: _,
+            carried: _,
+            sites: _,
+            watches: _,
             lost_work: _,
             tally: Tally { steps, passes, capped, left },
-            locator,
+            searches,
             skin,
             // Made anew by `take_up`, from the surface as it is.
             layout,
-            here: _,
-            holder: _,
-            gather: _,
-            edges: _,
-            points: _,
-            enforcer: _,
-            // Of the step.
-            constraints: _,
-            pushed: _,
-            near: _,
-            near_faces: _,
-            strict: _,
-            touches: _,
+            remote: _,
+            // Of the last search.
+            counts: _,
+            search: _,
             // Of the problem.
             pairings: _,
             held: _,
-            edges_wanted: _,
+            elements: _,
+            reach: _,
             planes: _,
             mean_size: _,
             limits: _,
@@ -68,7 +57,7 @@ impl Contact {
             archive.count("CONTPASSES", passes);
             archive.count("CONTCAPPED", capped);
             archive.number("CONTLEFT", left);
-            archive.count("CONTSEARCHES", &mut locator.searches);
+            archive.count("CONTSEARCHES", searches);
         }
         // Every rank knows all free nodes.
         let first = archive.comm().rank() == 0;
@@ -81,10 +70,8 @@ impl Contact {
             self.skin.free = free.chunks_exact(2).map(|row| (row[0] as u32, row[1] as u32)).collect();
             self.take_up(dead, erosion, nodes, archive);
         }
-        self.visit_touches(archive, nodes);
-        self.visit_pairs(archive, nodes);
-        self.visit_planes(archive, nodes);
-        self.visit_works(archive, nodes);
+        self.visit_history(archive);
+        self.visit_works(archive);
     }
 
     /// Makes the surface that is left when elements have gone before.
@@ -95,52 +82,62 @@ impl Contact {
         self.skin.free = free;
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
         let new = &self.layout;
-        let count = new.nodes.len();
-        self.plane_points.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
-        self.here = new.nodes.iter().map(|&node| erosion.local()[node as usize]).collect();
-        self.holder =
-            self.here.iter().map(|&n| if n == ABSENT { [ABSENT; 3] } else { self.held[n as usize] }).collect();
-        self.history = vec![UNTOUCHED; count];
-        (self.normal_work, self.friction_work) = (vec![0.0; count], vec![0.0; count]);
-        (self.points, self.enforcer) = (Points::new(count), Enforcer::new(count));
-        self.forget();
-        self.locator.forget();
-        self.meet(nodes, archive.comm());
+        self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
+        self.meet(|node| erosion.local()[node as usize], nodes, archive.comm());
     }
 
-    /// Whether this rank answers for a point.
-    fn answers_for(&self, point: usize, nodes: &Nodes) -> bool {
-        let node = self.here[point];
-        node != ABSENT && nodes.owned[node as usize]
+    /// What touches, in the arena or on its way to the next.
+    fn visit_history(&mut self, archive: &mut dyn Archive) {
+        let now = self.carried.clone().unwrap_or_else(|| self.arena.history());
+        let mut come = History {
+            points: self.visit_touches(archive, &now),
+            edges: self.visit_pairs(archive, &now),
+            planes: self.visit_planes(archive, &now),
+        };
+        if !archive.loading() {
+            return;
+        }
+        if self.layout.interfaces.is_empty() {
+            return self.arena.restore(come);
+        }
+        let mine = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
+        come.points.retain(|(point, _)| mine(*point));
+        come.edges.retain(|past| mine(self.layout.edges[past.pair[0] as usize].ends[0]));
+        come.planes.retain(|(number, ..)| mine(self.watches[*number as usize].point));
+        self.carried = Some(come);
     }
 
-    fn visit_touches(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
+    fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [Past; 3])> {
         let mut rows = Vec::new();
-        for (point, pasts) in self.history.iter().enumerate().filter(|(point, _)| self.answers_for(*point, nodes)) {
+        for (point, pasts) in &now.points {
             for (slot, Past { face, allowed, push, drag }) in
                 pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
             {
-                let node = f64::from(self.layout.nodes[point]);
+                let node = f64::from(self.layout.nodes[*point as usize]);
                 rows.extend([[node, slot as f64].as_slice(), &self.face_key(*face), &[*allowed, *push], drag].concat());
             }
         }
         archive.list("CONTTOUCH", TOUCH, &mut rows);
         if !archive.loading() {
-            return;
+            return Vec::new();
         }
         let mut faces: Vec<([f64; 2], u32)> =
             (0..self.layout.faces.len() as u32).map(|face| (self.face_key(face), face)).collect();
         faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
-        self.history.fill(UNTOUCHED);
+        let mut points: Vec<(u32, [Past; 3])> = Vec::new();
+        // Rows are sorted by their nodes.
         for row in rows.chunks_exact(TOUCH) {
+            let point = self.layout.point(row[0] as u32);
+            if points.last().is_none_or(|(last, _)| *last != point) {
+                points.push((point, UNTOUCHED));
+            }
             let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
-            let point = self.layout.point(row[0] as u32) as usize;
-            if let (Ok(face), Some(pasts)) = (face, self.history.get_mut(point))
-                && let Some(past) = pasts.get_mut(row[1] as usize)
-            {
+            let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
+            if let (Ok(face), Some(past)) = (face, pasts) {
                 *past = Past { face: faces[face].1, allowed: row[4], push: row[5], drag: [row[6], row[7], row[8]] };
             }
         }
+        points
     }
 
     /// A face by the place of its element in the mesh file and its side.
@@ -149,62 +146,59 @@ impl Contact {
         [self.skin.file_number(number), f64::from(number % 6)]
     }
 
-    fn visit_pairs(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
+    fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<PastPair> {
         let mut rows = Vec::new();
-        for PastPair { pair, sense, allowed, push, drag } in &self.edge_history {
-            let [[a, b], [c, d]] = pair.map(|edge| self.edges[edge as usize].ends);
-            if self.answers_for(a as usize, nodes) {
-                rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
-                rows.extend([*sense, *allowed, *push]);
-                rows.extend(drag);
-            }
+        for PastPair { pair, sense, allowed, push, drag } in &now.edges {
+            let [[a, b], [c, d]] = pair.map(|edge| self.layout.edges[edge as usize].ends);
+            rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
+            rows.extend([*sense, *allowed, *push]);
+            rows.extend(drag);
         }
         archive.list("CONTEDGES", PAIR, &mut rows);
         if !archive.loading() {
-            return;
+            return Vec::new();
         }
         let edge = |ends: [f64; 2]| {
             let ends = ends.map(|node| self.layout.point(node as u32));
-            self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
+            self.layout.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
         };
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
             Some(PastPair { pair, sense: row[4], allowed: row[5], push: row[6], drag: [row[7], row[8], row[9]] })
         });
-        let mut pairs: Vec<PastPair> = pairs.collect();
-        pairs.sort_by_key(|past| past.pair);
-        self.edge_history = pairs;
+        pairs.collect()
     }
 
-    fn visit_planes(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
+    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, f64, [f64; 3])> {
+        // Planes alone are with every rank that has the node.
+        let alone = self.layout.interfaces.is_empty();
+        let answers = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
         let mut rows = Vec::new();
-        for PlanePoint { point, plane, allowed: _, push, drag } in &self.plane_points {
-            let idle = *push == 0.0 && *drag == [0.0; 3];
-            if !idle && self.answers_for(*point as usize, nodes) {
-                rows.extend([f64::from(self.layout.nodes[*point as usize]), f64::from(*plane), *push]);
+        for (number, push, drag) in &now.planes {
+            let watch = &self.watches[*number as usize];
+            if !alone || answers(watch.point) {
+                rows.extend([f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane), *push]);
                 rows.extend(drag);
             }
         }
         archive.list("CONTPLANE", PLANE, &mut rows);
         if !archive.loading() {
-            return;
+            return Vec::new();
         }
         let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
-        for watch in &mut self.plane_points {
+        let force = |watch: &super::PlanePoint| {
             let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
-            match rows.binary_search_by(|row| compare_rows(&row[..2], &key)) {
-                Ok(i) => watch.remember(rows[i][2], [rows[i][3], rows[i][4], rows[i][5]]),
-                Err(_) => watch.remember(0.0, [0.0; 3]),
-            }
-        }
+            let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
+            Some((watch.number, row[2], [row[3], row[4], row[5]]))
+        };
+        self.watches.iter().filter_map(force).collect()
     }
 
-    fn visit_works(&mut self, archive: &mut dyn Archive, nodes: &Nodes) {
+    fn visit_works(&mut self, archive: &mut dyn Archive) {
         let mut rows = Vec::new();
-        for point in (0..self.here.len()).filter(|&point| self.answers_for(point, nodes)) {
-            let works = [self.normal_work[point], self.friction_work[point]];
-            if works != [0.0; 2] {
-                rows.extend([f64::from(self.layout.nodes[point]), works[0], works[1]]);
+        for (site, work) in self.sites.list.iter().zip(&self.sites.works) {
+            if site.owned && *work != [0.0; 2] {
+                rows.extend([f64::from(self.layout.nodes[site.point as usize]), work[0], work[1]]);
             }
         }
         archive.list("CONTWORK", WORK, &mut rows);
@@ -213,13 +207,10 @@ impl Contact {
         if !archive.loading() {
             return;
         }
-        self.normal_work.fill(0.0);
-        self.friction_work.fill(0.0);
+        self.sites.works.fill([0.0; 2]);
         for row in rows.chunks_exact(WORK) {
-            let point = self.layout.point(row[0] as u32) as usize;
-            if let (Some(normal), Some(friction)) = (self.normal_work.get_mut(point), self.friction_work.get_mut(point))
-            {
-                (*normal, *friction) = (row[1], row[2]);
+            if let Some(site) = self.sites.of(self.layout.point(row[0] as u32)) {
+                self.sites.works[site] = [row[1], row[2]];
             }
         }
         // Sums do not depend on which rank keeps these.
