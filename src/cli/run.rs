@@ -27,6 +27,7 @@ struct Prepared {
     body: Body,
     ranks: usize,
     files: Files,
+    split: bool,
     banner: Vec<String>,
     qa: [String; 4],
     clock: [Instant; 2],
@@ -50,7 +51,7 @@ impl Prepared {
             format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
-        Ok(Prepared { given, body, ranks, files: Files::of(&base), banner, qa, clock })
+        Ok(Prepared { given, body, ranks, files: Files::of(&base), split: options.split, banner, qa, clock })
     }
 
     /// Makes room for the results: their folder, and the old print log out of the way.
@@ -119,6 +120,7 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         files: &prepared.files,
         body: &prepared.body,
         decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
+        split: prepared.split,
         wish,
     })
 }
@@ -240,7 +242,15 @@ fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
             scientific(ended.energy_error, 1)
         ));
         let (plot, print) = (prepared.files.plot.display(), prepared.files.print.display());
-        say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        if prepared.split {
+            let ranks = prepared.ranks;
+            say(format_args!(
+                "{} plot states: {plot}.{ranks}.*, which urto join {plot} joins   log: {print}",
+                ended.states
+            ));
+        } else {
+            say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        }
     }
     match ended.by {
         Request::Continue | Request::Shutdown => DONE,

@@ -95,13 +95,18 @@ impl Arrays {
     /// A variable of characters as trimmed texts, one per row of its last dimension.
     /// Missing or strange ones give nothing: texts are never needed to compute.
     pub fn texts(&self, name: &str) -> Vec<String> {
+        self.whole_texts(name).iter().map(|text| text.trim().to_owned()).collect()
+    }
+
+    /// The same with the blanks around them.
+    pub fn whole_texts(&self, name: &str) -> Vec<String> {
         let Some(variable) = self.file.variable(name) else { return Vec::new() };
         let width = shape(&variable).last().copied().unwrap_or(0);
         if variable.vartype() != NcVariableType::Char || width == 0 {
             return Vec::new();
         }
         let characters: Vec<Character> = self.get(&variable, name, &(..).into()).unwrap_or_default();
-        characters.chunks(width).map(trimmed).collect()
+        characters.chunks(width).map(text).collect()
     }
 
     fn get<T: NcTypeDescriptor + Copy>(
@@ -139,9 +144,9 @@ fn as_text(value: AttributeValue) -> Option<String> {
 }
 
 /// Names are padded with NULs or with blanks.
-fn trimmed(characters: &[Character]) -> String {
+fn text(characters: &[Character]) -> String {
     let bytes: Vec<u8> = characters.iter().map(|c| c.0).take_while(|&b| b != 0).collect();
-    String::from_utf8_lossy(&bytes).trim().to_owned()
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn kind(variable_type: &NcVariableType) -> &'static str {

@@ -1,5 +1,5 @@
-//! EXODUS II files, and meshes of EXODUS I: meshes read and written, results appended, read and compared. Bytes become arrays here; nothing
-//! here knows mechanics.
+//! EXODUS II files, and meshes of EXODUS I: meshes read and written, results appended, read, compared and joined from
+//! pieces. Bytes become arrays here; nothing here knows mechanics.
 //!
 //! A mesh is read in two steps: the file's arrays as they stand ([`tables`]), then, after every check, a
 //! [`Mesh`](crate::mesh::Mesh). The netCDF library serialises all calls in a process, so one rank should read and
@@ -11,6 +11,7 @@ pub mod container;
 mod error;
 mod genesis;
 mod names;
+pub mod pieces;
 mod read;
 mod results;
 mod results_writer;

@@ -37,8 +37,17 @@ pub(super) fn read_mesh_unchecked(path: &Path) -> Result<Mesh, MeshError> {
 
 /// The mesh of a file that is open already.
 pub(super) fn assemble(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+    assemble_whole_or_part(path, arrays, false)
+}
+
+/// The part of a mesh that a piece holds; it may be without nodes and elements.
+pub(super) fn assemble_part(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+    assemble_whole_or_part(path, arrays, true)
+}
+
+fn assemble_whole_or_part(path: &Path, arrays: &Arrays, is_part: bool) -> Result<Mesh, MeshError> {
     let mut problems = Problems::default();
-    let tables = Reader { arrays, problems: &mut problems }.tables();
+    let tables = Reader { arrays, problems: &mut problems, is_part }.tables();
     // Arrays that are missing would be missed again by all that refers to them, so they are told alone.
     let assembled = if problems.is_empty() { tables.assemble() } else { Err(problems) };
     assembled.map_err(|problems| MeshError { path: path.to_owned(), problems })
@@ -99,6 +108,7 @@ pub(super) fn node_count(arrays: &Arrays) -> usize {
 struct Reader<'a> {
     arrays: &'a Arrays,
     problems: &'a mut Problems,
+    is_part: bool,
 }
 
 impl Reader<'_> {
@@ -107,6 +117,7 @@ impl Reader<'_> {
         Tables {
             title: self.arrays.text(names::TITLE).unwrap_or_default(),
             dimensions,
+            is_part: self.is_part,
             // A flat mesh is refused for being flat, not for its missing z.
             coordinates: if dimensions == 3 { self.coordinates() } else { Default::default() },
             node_count: self.arrays.dimension(names::NUM_NODES),
@@ -143,6 +154,9 @@ impl Reader<'_> {
     }
 
     fn coordinates(&mut self) -> [Vec<f64>; 3] {
+        if self.is_part && self.arrays.dimension(names::NUM_NODES).is_none() {
+            return Default::default();
+        }
         if let Some(shape) = self.arrays.shape(names::PACKED_COORDINATES) {
             return self.packed_coordinates(&shape);
         }

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::container::{Container, Layout, inspect};
 use super::error::ResultsError;
+use super::pieces::Piece;
 use super::write::{Contents, LINE_WIDTH, cut, write_file};
 use crate::mesh::Mesh;
 
@@ -55,6 +56,18 @@ impl ResultsWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn create(path: &Path, header: &ResultsHeader) -> Result<Self, ResultsError> {
+        Self::create_file(path, header, None)
+    }
+
+    /// The same for a piece of the results, whose mesh is that of `piece`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create_piece(path: &Path, header: &ResultsHeader, piece: &Piece) -> Result<Self, ResultsError> {
+        Self::create_file(path, &ResultsHeader { mesh: &piece.part.mesh, ..header.clone() }, Some(piece))
+    }
+
+    fn create_file(path: &Path, header: &ResultsHeader, piece: Option<&Piece>) -> Result<Self, ResultsError> {
         let mesh = header.mesh;
         let mut qa = mesh.qa.clone();
         qa.push(header.qa.clone());
@@ -66,6 +79,7 @@ impl ResultsWriter {
             global: &header.global,
             nodal: &header.nodal,
             element: &header.element,
+            piece,
         };
         write_file(path, mesh, &contents)?;
         let layout = match inspect(path).map_err(ResultsError::io("read", path))? {

@@ -18,6 +18,8 @@ pub struct Tables {
     pub title: String,
     /// Number of spatial dimensions, 3 if the file does not say.
     pub dimensions: usize,
+    /// A part of a mesh may be without nodes and elements.
+    pub is_part: bool,
     /// x, y and z of every node.
     pub coordinates: [Vec<f64>; 3],
     /// What the dimension `num_nodes` says, if it is there.
@@ -133,7 +135,7 @@ impl Tables {
                 });
             }
         }
-        if nodes == 0 {
+        if nodes == 0 && !self.is_part {
             problems.add(|| Problem::new("the mesh has no nodes", "write the mesh again with its nodes and blocks"));
         }
         too_many("nodes", nodes, problems);
@@ -145,7 +147,7 @@ impl Tables {
         let elements = self.blocks.iter().map(BlockTable::len).sum();
         if self.blocks.is_empty() {
             problems.add(|| Problem::new("the mesh has no element blocks", "put the elements into at least one block"));
-        } else if elements == 0 {
+        } else if elements == 0 && !self.is_part {
             problems
                 .add(|| Problem::new("the mesh has no elements", "all its blocks are empty; export the elements too"));
         }

@@ -5,8 +5,10 @@ mod fields;
 mod history;
 pub mod print;
 mod schedule;
+mod split;
 
 pub use collect::Collector;
 pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
 pub use history::HistoryPlan;
 pub use schedule::Schedule;
+pub use split::Split;
