@@ -101,7 +101,7 @@ The deck, see
 .BR urto\-deck (5).
 .TP
 .B BASE.g
-The mesh: GENESIS with eight\-node hexahedra, EXODUS II in any netCDF format, or EXODUS I.
+The mesh: GENESIS with hexahedra (HEX8), wedges (WEDGE6) and pyramids (PYRAMID5), EXODUS II in any netCDF format, or EXODUS I.
 .TP
 .B BASE.mesh
 A recipe, from which

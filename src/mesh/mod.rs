@@ -7,6 +7,7 @@
 pub mod check;
 pub mod locate;
 mod part;
+pub mod shape;
 
 pub use part::{Part, Places};
 
