@@ -7,7 +7,7 @@ mod launch;
 pub mod mpi;
 #[cfg(feature = "mpi")]
 mod pending;
-mod reduce;
+pub(crate) mod reduce;
 mod serial;
 mod threads;
 mod wait;

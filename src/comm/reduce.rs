@@ -2,7 +2,7 @@
 
 /// An integer that sorts as the number does: −∞ < … < −0 < +0 < … < +∞, and every NaN below them all. The minimum
 /// of keys is exact and the same in any order, which `f64::min` and `MPI_MIN` do not promise for NaN and zeros.
-pub(super) fn key(value: f64) -> u64 {
+pub(crate) fn key(value: f64) -> u64 {
     if value.is_nan() {
         return 0;
     }
@@ -11,7 +11,7 @@ pub(super) fn key(value: f64) -> u64 {
 }
 
 /// The number of a [`key`]; all NaNs come back as one.
-pub(super) fn number(key: u64) -> f64 {
+pub(crate) fn number(key: u64) -> f64 {
     match key {
         0 => f64::NAN,
         key if key >> 63 == 1 => f64::from_bits(key & !(1 << 63)),

@@ -49,10 +49,14 @@ pub struct Past {
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
     pub allowed: f64,
+    /// Normal force on the point in the last step.
+    pub push: f64,
+    /// Friction force on it.
+    pub drag: [f64; 3],
 }
 
 /// Of a point that touches nothing.
-pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0 }; TOUCHES];
+pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0, push: 0.0, drag: [0.0; 3] }; TOUCHES];
 
 /// A point on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -208,13 +212,16 @@ impl Check<'_> {
             let old = touches[i];
             let middle = face::centre(&self.faces.end(old.face, self.points));
             for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
-                if touches.iter().any(|touch| touch.face == face) {
+                let corners = self.faces.end(face, self.points);
+                let hollow = dot(subtract(face::centre(&corners), middle), old.stand.normal) > 0.0;
+                if !hollow
+                    || face::is_in_front(&corners, self.points.end[point as usize])
+                    || touches.iter().any(|touch| touch.face == face)
+                {
                     continue;
                 }
-                let Some(stand) = self.stand_at_end(point, face) else { continue };
-                let other = face::centre(&self.faces.end(face, self.points));
-                let hollow = dot(subtract(other, middle), old.stand.normal) > 0.0;
-                if hollow && stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
+                let Some(stand) = face::stand(&corners, self.points.end[point as usize]) else { continue };
+                if stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
                     touches.push(self.held(face, stand, 0.0));
                 }
             }
@@ -233,7 +240,11 @@ impl Check<'_> {
 
     /// A point that this face has not seen before.
     fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
-        let end = self.stand_at_end(point, face).filter(|stand| stand.gap < 0.0)?;
+        let corners = self.faces.end(face, self.points);
+        if face::is_in_front(&corners, self.points.end[point as usize]) {
+            return None;
+        }
+        let end = face::stand(&corners, self.points.end[point as usize]).filter(|stand| stand.gap < 0.0)?;
         let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {

@@ -6,7 +6,7 @@
 
 use super::cubic;
 use super::detect::FADE;
-use super::enforce::{Constraint, MEMBERS};
+use super::enforce::{Constraint, MEMBERS, Origin};
 use super::face::{area_normal, centre};
 use super::faces::Faces;
 use super::points::Points;
@@ -44,6 +44,10 @@ pub struct PastPair {
     pub sense: f64,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
     pub allowed: f64,
+    /// Normal force on the first edge in the last step.
+    pub push: f64,
+    /// Friction force on it.
+    pub drag: [f64; 3],
 }
 
 /// Edges of some faces that stand out, in ascending order of their ends.
@@ -169,7 +173,7 @@ impl EdgeCheck<'_> {
             sense * dot(normal, out(pair[0])) < 0.0 && sense * dot(normal, out(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
-        let here = |allowed| Some(PastPair { pair, sense, allowed });
+        let here = |allowed| Some(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] });
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
             return self.meets(pair).then_some(here(0.0)?);
         }
@@ -177,7 +181,7 @@ impl EdgeCheck<'_> {
         let depth = start.gap.abs();
         let sense = -sense;
         (outwards(sense, start.normal) && depth < KEEP * start.shorter() && start.between_ends(depth))
-            .then_some(PastPair { pair, sense, allowed: -depth })
+            .then_some(here(-depth)?)
     }
 
     /// Whether the edges come into one plane within the step, and there between their ends.
@@ -214,8 +218,9 @@ impl EdgeCheck<'_> {
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,
-            push: 0.0,
-            drag: [0.0; 3],
+            push: now.push,
+            drag: now.drag,
+            origin: Origin::Edges(pair[0], pair[1]),
         }
     }
 }

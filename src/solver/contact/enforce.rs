@@ -10,6 +10,10 @@
 //! Voroshilov 2012); the shares add up to the whole, so passes cannot overshoot. For points of equal overlap on a flat
 //! face this is the partitioned kinematic method of Attaway et al. (1996), eqs. 15–27, with eq. 25 solved for the
 //! acceleration of the face: λ = m_s δ/Δτ · m_I/(m_I + Σ N m_s), and one pass closes the gap.
+//!
+//! Passes begin with the forces of the last step, and each goes on a little in the direction of the one before
+//! (Nesterov 1983, the sequence of Beck and Teboulle 2009), but not where a force would turn back (O'Donoghue and
+//! Candès 2015, for each force by itself).
 
 use super::points::Points;
 use crate::model::Friction;
@@ -38,10 +42,23 @@ pub struct Constraint {
     pub share: f64,
     /// Coulomb friction.
     pub friction: Friction,
-    /// Normal force λ, found by [`Enforcer::solve`].
+    /// Normal force λ: that of the last step, until [`Enforcer::solve`] finds the new one.
     pub push: f64,
-    /// Friction force on the first member.
+    /// Friction force on the first member, likewise.
     pub drag: [f64; 3],
+    /// What has made it. Constraints are in the order of their origins.
+    pub origin: Origin,
+}
+
+/// What a constraint comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// A point and the place among the faces that it touches.
+    Face(u32, u32),
+    /// Two edges.
+    Edges(u32, u32),
+    /// One of the points that rigid planes watch.
+    Plane(u32),
 }
 
 impl Constraint {
@@ -70,23 +87,67 @@ pub struct Limits {
 pub struct Outcome {
     /// Passes made.
     pub passes: u32,
-    /// Largest overlap left, as a part of the face's size.
+    /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
     pub left: f64,
 }
 
-/// Buffers of the passes, one entry per point.
+/// What ranks tell each other in the course of the passes; nothing on one rank.
+pub trait Others {
+    /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
+    fn share(&mut self, moved: &mut [Moved]);
+    /// The largest of all ranks' values.
+    fn largest(&mut self, value: f64) -> f64;
+}
+
+/// There are no others.
+pub struct Alone;
+
+impl Others for Alone {
+    fn share(&mut self, _: &mut [Moved]) {}
+
+    fn largest(&mut self, value: f64) -> f64 {
+        value
+    }
+}
+
+/// A point in the course of the passes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moved {
+    /// Change of velocity that the forces make.
+    pub change: [f64; 3],
+    /// Sum of what the active constraints weigh at the point.
+    pub load: f64,
+}
+
+/// A constraint in the course of the passes.
+#[derive(Debug, Clone, Copy, Default)]
+struct State {
+    /// Reduced mass of the constraint alone, times its share; 0 where nothing can be moved.
+    strength: f64,
+    /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
+    softness: [[f64; 2]; MEMBERS],
+    /// Normal and friction force of the last pass.
+    last: (f64, [f64; 3]),
+    /// Velocity of sliding without contact forces.
+    slip: [f64; 3],
+    /// Whether it pushes or overlaps.
+    active: bool,
+}
+
+/// Buffers of the passes, kept from step to step.
 #[derive(Debug, Clone, Default)]
 pub struct Enforcer {
     /// Normal forces on the points.
     pub normal_force: Vec<[f64; 3]>,
     /// Friction forces on the points.
     pub friction_force: Vec<[f64; 3]>,
-    /// Change of velocity that the forces make.
-    change: Vec<[f64; 3]>,
-    /// Sum of what the constraints at a point weigh there.
-    load: Vec<f64>,
-    /// Reduced mass of each constraint alone, times its share.
-    strength: Vec<f64>,
+    moved: Vec<Moved>,
+    /// Forces and loads while they are summed.
+    sums: Vec<Moved>,
+    states: Vec<State>,
+    /// Points of the constraints, ascending.
+    members: Vec<u32>,
+    is_member: Vec<bool>,
 }
 
 /// 1/m along a direction.
@@ -94,16 +155,24 @@ fn along(inverse_mass: [f64; 3], n: [f64; 3]) -> f64 {
     inverse_mass[0] * n[0] * n[0] + inverse_mass[1] * n[1] * n[1] + inverse_mass[2] * n[2] * n[2]
 }
 
+/// Times that turn velocities into ways and forces into velocities.
+#[derive(Clone, Copy)]
+struct Times {
+    drift: f64,
+    kick: f64,
+    both: f64,
+}
+
 impl Enforcer {
     /// Buffers for so many points.
     pub fn new(points: usize) -> Enforcer {
-        let zero = vec![[0.0; 3]; points];
         Enforcer {
-            normal_force: zero.clone(),
-            friction_force: zero.clone(),
-            change: zero,
-            load: vec![0.0; points],
-            strength: Vec::new(),
+            normal_force: vec![[0.0; 3]; points],
+            friction_force: vec![[0.0; 3]; points],
+            moved: vec![Moved::default(); points],
+            sums: vec![Moved::default(); points],
+            is_member: vec![false; points],
+            ..Default::default()
         }
     }
 
@@ -115,104 +184,115 @@ impl Enforcer {
         points: &Points,
         step: &StepTimes,
         limits: Limits,
+        others: &mut dyn Others,
     ) -> Outcome {
-        self.clear(constraints);
-        self.strength.clear();
-        self.strength.extend(constraints.iter().map(|constraint| {
-            let inverse: f64 =
-                constraint.parts().map(|(point, w)| w * w * along(points.inverse_mass[point], constraint.normal)).sum();
-            // Where all members are held there is nothing to move.
-            if inverse > 0.0 { constraint.share / inverse } else { 0.0 }
-        }));
+        let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
+        self.prepare(constraints, points);
         let mut outcome = Outcome::default();
+        // Where nothing overlaps and nothing was pushed there is nothing to do. One pass is made for the smallest overlap:
+        // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
+        // out as a row of blows instead of a steady force.
+        let wanted = constraints.iter().any(|c| c.gap < 0.0);
+        if others.largest(f64::from(u8::from(wanted))) == 0.0 {
+            constraints.iter_mut().for_each(|c| (c.push, c.drag) = (0.0, [0.0; 3]));
+            self.sum_forces(constraints);
+            return outcome;
+        }
+        let mut momentum = Momentum::new();
+        self.scatter(constraints, points, times, others);
         loop {
-            outcome.left = self.overlap(constraints, step);
-            // One pass is made for the smallest overlap. Under small loads a step's overlap is far below any tolerance;
-            // left alone until it has grown, it would come out as a row of blows instead of a steady force.
-            let enough = outcome.left <= limits.tolerance && (outcome.passes > 0 || outcome.left <= 0.0);
-            if enough || outcome.passes == limits.passes {
-                return outcome;
+            let ahead = momentum.next();
+            let mut worst: f64 = 0.0;
+            for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
+                worst = worst.max(correct(c, state, &self.moved, times, ahead));
             }
-            self.pass(constraints, points, step);
+            outcome.left = others.largest(worst);
             outcome.passes += 1;
+            if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
+                break;
+            }
+            self.scatter(constraints, points, times, others);
+        }
+        for (c, state) in constraints.iter_mut().zip(&self.states) {
+            (c.push, c.drag) = state.last;
+        }
+        self.sum_forces(constraints);
+        outcome
+    }
+
+    /// Change of velocity that the forces make at a point.
+    pub fn change(&self, point: usize, points: &Points, kick: f64) -> [f64; 3] {
+        let (force, m) = (add(self.normal_force[point], self.friction_force[point]), points.inverse_mass[point]);
+        [0, 1, 2].map(|i| kick * (force[i] * m[i]))
+    }
+
+    /// Finds what does not change in the passes, and the friction of the last step in the new planes.
+    fn prepare(&mut self, constraints: &mut [Constraint], points: &Points) {
+        self.list_members(constraints);
+        self.states.clear();
+        for c in constraints {
+            let mut state = State::default();
+            let mut inverse = 0.0;
+            for (i, (point, w)) in c.parts().enumerate() {
+                let m = points.inverse_mass[point];
+                let one = along(m, c.normal);
+                inverse += w * w * one;
+                state.softness[i] = [w.abs() * one, w.abs() * m[0].max(m[1]).max(m[2])];
+            }
+            // Where all members are held there is nothing to move.
+            if inverse > 0.0 {
+                state.strength = c.share / inverse;
+            } else {
+                (c.push, c.drag) = (0.0, [0.0; 3]);
+            }
+            if c.friction.is_some() {
+                let velocity = c.relative(&points.velocity);
+                state.slip = tangential(velocity, c.normal);
+                c.drag = tangential(c.drag, c.normal);
+            } else {
+                c.drag = [0.0; 3];
+            }
+            state.last = (c.push, c.drag);
+            state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
+            self.states.push(state);
         }
     }
 
-    /// Change of velocity that the forces make at a point of the last constraints.
-    pub fn change(&self, point: usize) -> [f64; 3] {
-        self.change[point]
-    }
-
-    /// Forgets the forces of the last step at the points of these constraints.
-    fn clear(&mut self, constraints: &mut [Constraint]) {
-        for constraint in constraints {
-            (constraint.push, constraint.drag) = (0.0, [0.0; 3]);
-            for &point in &constraint.members[..constraint.count] {
-                self.change[point as usize] = [0.0; 3];
+    fn list_members(&mut self, constraints: &[Constraint]) {
+        self.members.clear();
+        for c in constraints {
+            for &point in &c.members[..c.count] {
+                if !std::mem::replace(&mut self.is_member[point as usize], true) {
+                    self.members.push(point);
+                }
             }
         }
+        self.members.iter().for_each(|&point| self.is_member[point as usize] = false);
     }
 
-    /// The gap at the end of the step with the forces found so far.
-    fn gap(&self, constraint: &Constraint, step: &StepTimes) -> f64 {
-        constraint.gap + step.drift * dot(constraint.relative(&self.change), constraint.normal)
-    }
-
-    /// Largest overlap in units of the faces' sizes.
-    fn overlap(&self, constraints: &[Constraint], step: &StepTimes) -> f64 {
-        constraints
-            .iter()
-            .zip(&self.strength)
-            .filter(|(_, strength)| **strength > 0.0)
-            .fold(0.0, |worst, (c, _)| f64::max(worst, -self.gap(c, step) / c.size))
-    }
-
-    /// One pass: shares, forces, sums.
-    fn pass(&mut self, constraints: &mut [Constraint], points: &Points, step: &StepTimes) {
-        for constraint in constraints.iter() {
-            constraint.parts().for_each(|(point, _)| self.load[point] = 0.0);
-        }
-        for i in 0..constraints.len() {
-            let c = &constraints[i];
-            if c.push > 0.0 || self.gap(c, step) < 0.0 {
-                c.parts().for_each(|(point, w)| self.load[point] += w.abs() * self.strength[i]);
+    /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move.
+    fn scatter(&mut self, constraints: &[Constraint], points: &Points, times: Times, others: &mut dyn Others) {
+        for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
+            let force = add(scaled(c.normal, c.push), c.drag);
+            for (point, w) in c.parts() {
+                let sum = &mut self.sums[point];
+                sum.change = add(sum.change, scaled(force, w));
+                sum.load += w.abs() * state.strength;
             }
         }
-        for i in 0..constraints.len() {
-            if self.strength[i] > 0.0 {
-                self.correct(&mut constraints[i], self.strength[i], points, step);
-            }
+        for &point in &self.members {
+            let p = point as usize;
+            let (sum, m) = (std::mem::take(&mut self.sums[p]), points.inverse_mass[p]);
+            let change = [0, 1, 2].map(|i| times.kick * (sum.change[i] * m[i]));
+            self.moved[p] = Moved { change, load: sum.load };
         }
-        self.gather(constraints, points, step);
+        others.share(&mut self.moved);
     }
 
-    /// Closes the gap of one constraint as if it were alone with its shares of the masses.
-    fn correct(&self, c: &mut Constraint, strength: f64, points: &Points, step: &StepTimes) {
-        let gap = self.gap(c, step);
-        if c.push == 0.0 && gap >= 0.0 {
-            return;
-        }
-        let (mut inverse, mut sliding) = (0.0, 0.0);
-        for (point, w) in c.parts() {
-            let share = w.abs() * self.load[point] / strength;
-            let m = points.inverse_mass[point];
-            inverse += share * along(m, c.normal);
-            sliding += share * m[0].max(m[1]).max(m[2]);
-        }
-        c.push = (c.push - gap / (step.drift * step.kick * inverse)).max(0.0);
-        if c.friction.is_some() {
-            let velocity = add(c.relative(&points.velocity), c.relative(&self.change));
-            let slip = subtract(velocity, scaled(c.normal, dot(velocity, c.normal)));
-            let wanted = subtract(c.drag, scaled(slip, 1.0 / (step.kick * sliding)));
-            let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * c.push);
-            c.drag = if size > most { scaled(wanted, most / size) } else { wanted };
-        }
-    }
-
-    /// Sums the forces at the points, in the order of the constraints.
-    fn gather(&mut self, constraints: &[Constraint], points: &Points, step: &StepTimes) {
-        for (point, _) in constraints.iter().flat_map(|c| c.parts()) {
-            (self.normal_force[point], self.friction_force[point]) = ([0.0; 3], [0.0; 3]);
+    /// Sums the forces that were found, in the order of the constraints.
+    fn sum_forces(&mut self, constraints: &[Constraint]) {
+        for &point in &self.members {
+            (self.normal_force[point as usize], self.friction_force[point as usize]) = ([0.0; 3], [0.0; 3]);
         }
         for c in constraints.iter().filter(|c| c.push > 0.0) {
             for (point, w) in c.parts() {
@@ -220,10 +300,64 @@ impl Enforcer {
                 self.friction_force[point] = add(self.friction_force[point], scaled(c.drag, w));
             }
         }
-        for (point, _) in constraints.iter().flat_map(|c| c.parts()) {
-            let force = add(self.normal_force[point], self.friction_force[point]);
-            let m = points.inverse_mass[point];
-            self.change[point] = [0, 1, 2].map(|i| step.kick * (force[i] * m[i]));
-        }
     }
+}
+
+/// How far the next pass goes on in the direction of the one before.
+struct Momentum(f64);
+
+impl Momentum {
+    fn new() -> Momentum {
+        Momentum(1.0)
+    }
+
+    fn next(&mut self) -> f64 {
+        let before = self.0;
+        self.0 = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
+        (before - 1.0) / self.0
+    }
+}
+
+fn tangential(v: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
+    subtract(v, scaled(normal, dot(v, normal)))
+}
+
+/// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
+/// part `ahead`. How much it moves, as a part of the face's size.
+fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times, ahead: f64) -> f64 {
+    let change = c.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)));
+    let gap = c.gap + times.drift * dot(change, c.normal);
+    if c.push == 0.0 && gap >= 0.0 {
+        (state.last, state.active) = ((0.0, [0.0; 3]), false);
+        return 0.0;
+    }
+    let (mut inverse, mut sliding) = (0.0, 0.0);
+    for ((point, w), softness) in c.parts().zip(&state.softness) {
+        // A constraint that has just become active is not yet in the load.
+        let own = if state.active { 0.0 } else { w.abs() };
+        let share = moved[point].load / state.strength + own;
+        inverse += share * softness[0];
+        sliding += share * softness[1];
+    }
+    let push = (c.push - gap / (times.both * inverse)).max(0.0);
+    let mut way = (push - c.push).abs() * times.both * inverse;
+    let push_ahead = further(c.push, push, state.last.0, ahead).max(0.0);
+    if c.friction.is_some() {
+        let slip = add(state.slip, tangential(change, c.normal));
+        let wanted = subtract(c.drag, scaled(slip, 1.0 / (times.kick * sliding)));
+        let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * push);
+        let drag = if size > most { scaled(wanted, most / size) } else { wanted };
+        let turn = subtract(drag, c.drag);
+        way = way.max(dot(turn, turn).sqrt() * times.both * sliding);
+        c.drag = [0, 1, 2].map(|i| further(c.drag[i], drag[i], state.last.1[i], ahead));
+        state.last.1 = drag;
+    }
+    (c.push, state.last.0, state.active) = (push_ahead, push, true);
+    way / c.size
+}
+
+/// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.
+fn further(tried: f64, new: f64, last: f64, ahead: f64) -> f64 {
+    let turns_back = (tried - new) * (new - last) > 0.0;
+    if turns_back { new } else { new + ahead * (new - last) }
 }

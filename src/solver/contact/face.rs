@@ -46,6 +46,15 @@ pub fn area_normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
     scaled(cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1])), 0.5)
 }
 
+/// Whether a point is surely in front of a face: above the plane of its middle by more than the corners are. Cheap, for
+/// the many that are.
+pub fn is_in_front(corners: &[[f64; 3]; 4], point: [f64; 3]) -> bool {
+    let (middle, normal) = (centre(corners), area_normal(corners));
+    // The diagonals are parallel to that plane, so the corners are above it and below by the same height.
+    let warp = dot(subtract(corners[0], middle), normal).abs();
+    dot(subtract(point, middle), normal) > warp * (1.0 + BORDER)
+}
+
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
 pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
     let middle = centre(corners);

@@ -1,6 +1,7 @@
 //! Location: which points come near which faces. The search is repeated only when a point has used up its reach.
 
-use super::detect::{Past, TOUCHES};
+use super::bounds::Bounds;
+use super::detect::{NONE, Past, TOUCHES};
 use super::edges::{self, Edge};
 use super::faces::Faces;
 use super::points::Points;
@@ -59,25 +60,58 @@ pub struct Locator {
     watched: Vec<u32>,
     first: Vec<u32>,
     near: Vec<Near>,
-    /// Faces that are candidates, ascending.
-    active: Vec<u32>,
-    /// Box of every active face over the present step.
-    boxes: Vec<Box3>,
+    /// For each watched point, how far things must have gone in all until one of its candidates may be near.
+    due: Vec<f64>,
+    /// How far things have gone in all, counted as if the fastest point of each step were always the same.
+    gone: f64,
+    /// How much of that in the present step.
+    last_way: f64,
+    /// Points that are watched or corners of candidates, and where each was at the last step.
+    moving: Vec<(u32, [f64; 3])>,
+    ways: Ways,
     found: Vec<Candidates>,
     edge_pairs: Vec<[u32; 2]>,
     /// Number of searches so far.
     pub searches: u64,
 }
 
-/// Box around the way of a point over the step.
-fn way(points: &Points, point: u32) -> Box3 {
-    Box3::around(&[points.start[point as usize], points.end[point as usize]])
+/// Boxes around the ways of the present step, made when they are first asked for.
+#[derive(Default)]
+struct Ways {
+    step: u32,
+    points: Vec<(u32, Bounds)>,
+    faces: Vec<(u32, Bounds)>,
 }
 
-/// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
-fn capture_box(faces: &Faces, face: u32, points: &Points, margin: f64) -> Box3 {
-    let [a, b, c, d] = faces.corners[face as usize].map(|corner| way(points, corner));
-    a.joined(&b).joined(&c).joined(&d).grown(margin * faces.depth[face as usize])
+impl Ways {
+    fn next_step(&mut self, points: usize, faces: usize) {
+        self.step = self.step.wrapping_add(1);
+        if self.step == 1 || self.points.len() != points || self.faces.len() != faces {
+            self.step = 1;
+            self.points.clear();
+            self.points.resize(points, (0, Bounds::EVERYTHING));
+            self.faces.clear();
+            self.faces.resize(faces, (0, Bounds::EVERYTHING));
+        }
+    }
+
+    fn point(&mut self, points: &Points, point: u32) -> Bounds {
+        let (step, bounds) = &mut self.points[point as usize];
+        if std::mem::replace(step, self.step) != self.step {
+            *bounds = Bounds::around(points.start[point as usize], points.end[point as usize]);
+        }
+        *bounds
+    }
+
+    /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
+    fn face(&mut self, points: &Points, faces: &Faces, face: u32, margin: f64) -> Bounds {
+        if self.faces[face as usize].0 != self.step {
+            let corners = faces.corners[face as usize].map(|corner| self.point(points, corner));
+            let bounds = Bounds::joined(&corners, (margin * faces.depth[face as usize]) as f32);
+            self.faces[face as usize] = (self.step, bounds);
+        }
+        self.faces[face as usize].1
+    }
 }
 
 impl Locator {
@@ -91,8 +125,11 @@ impl Locator {
             watched: Vec::new(),
             first: Vec::new(),
             near: Vec::new(),
-            active: Vec::new(),
-            boxes: Vec::new(),
+            due: Vec::new(),
+            gone: 0.0,
+            last_way: 0.0,
+            moving: Vec::new(),
+            ways: Ways::default(),
             found: Vec::new(),
             edge_pairs: Vec::new(),
             searches: 0,
@@ -112,9 +149,18 @@ impl Locator {
             self.search(points, faces, interfaces);
             self.search_edges(points, faces, edges);
         }
-        for &face in &self.active {
-            self.boxes[face as usize] = capture_box(faces, face, points, self.reach.depth);
+        self.ways.next_step(points.len(), faces.len());
+        let mut farthest: f64 = 0.0;
+        for (point, before) in &mut self.moving {
+            let (start, end) = (points.start[*point as usize], points.end[*point as usize]);
+            for i in 0..3 {
+                farthest = farthest.max((start[i] - before[i]).abs()).max((end[i] - start[i]).abs());
+            }
+            *before = start;
         }
+        // A way that is not a number leaves nobody at rest.
+        self.last_way = if farthest.is_finite() { farthest } else { f64::INFINITY };
+        self.gone += self.last_way;
         expired
     }
 
@@ -151,16 +197,16 @@ impl Locator {
             let corners: Vec<[u32; 4]> = interface.faces.iter().map(|&f| faces.corners[f as usize]).collect();
             self.search.find(&nodes, &boxes, &corners, found);
         }
-        self.collect(points.len(), faces, interfaces);
+        self.collect(points, faces, interfaces);
     }
 
     /// Puts the candidates of all interfaces together, point by point, faces ascending.
-    fn collect(&mut self, points: usize, faces: &Faces, interfaces: &[Interface]) {
+    fn collect(&mut self, points: &Points, faces: &Faces, interfaces: &[Interface]) {
         self.watched.clear();
         self.first.clear();
         self.near.clear();
-        let mut is_active = vec![false; faces.len()];
-        for point in 0..points as u32 {
+        let mut is_moving = vec![false; points.len()];
+        for point in 0..points.len() as u32 {
             let begin = self.near.len();
             for (number, (interface, found)) in interfaces.iter().zip(&self.found).enumerate() {
                 for &place in found.of(point as usize) {
@@ -183,13 +229,18 @@ impl Locator {
                 self.near.truncate(kept);
                 self.watched.push(point);
                 self.first.push(begin as u32);
-                self.near[begin..].iter().for_each(|near| is_active[near.face as usize] = true);
+                is_moving[point as usize] = true;
+                let corners = self.near[begin..].iter().flat_map(|near| faces.corners[near.face as usize]);
+                corners.for_each(|corner| is_moving[corner as usize] = true);
             }
         }
         self.first.push(self.near.len() as u32);
-        self.active.clear();
-        self.active.extend((0..faces.len() as u32).filter(|&face| is_active[face as usize]));
-        self.boxes.resize(faces.len(), Box3::empty());
+        let moving = (0..points.len() as u32).filter(|&point| is_moving[point as usize]);
+        self.moving.clear();
+        self.moving.extend(moving.map(|point| (point, points.start[point as usize])));
+        self.gone = 0.0;
+        self.due.clear();
+        self.due.resize(self.watched.len(), 0.0);
     }
 
     /// Pairs of edges that may cross, ascending.
@@ -227,13 +278,27 @@ impl Locator {
         &self.watched
     }
 
-    /// Candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that have
-    /// held it before.
-    pub fn near<'a>(&'a self, i: usize, points: &Points, past: &'a [Past; TOUCHES]) -> impl Iterator<Item = Near> + 'a {
-        let own = way(points, self.watched[i]);
-        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
-        let held = |near: &Near| past.iter().any(|past| past.face == near.face);
-        candidates.iter().copied().filter(move |near| self.boxes[near.face as usize].overlaps(&own) || held(near))
+    /// Finds the candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that
+    /// have held it before.
+    pub fn near(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES], near: &mut Vec<Near>) {
+        near.clear();
+        let held = past[0].face != NONE;
+        if !held && self.gone < self.due[i] {
+            return;
+        }
+        let own = self.ways.point(points, self.watched[i]);
+        let mut nearest = f32::INFINITY;
+        for candidate in &self.near[self.first[i] as usize..self.first[i + 1] as usize] {
+            let way = self.ways.face(points, faces, candidate.face, self.reach.depth);
+            let distance = own.distance(&way);
+            if distance <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
+                near.push(*candidate);
+            }
+            nearest = nearest.min(distance);
+        }
+        // Each side may come nearer by the way of this step, which boxes of the next do not begin with, and of all the others.
+        let rest = 0.5 * f64::from(nearest.max(0.0));
+        self.due[i] = self.gone - self.last_way + rest;
     }
 
     /// Numbers of watched points and of candidate pairs.

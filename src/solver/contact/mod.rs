@@ -4,6 +4,7 @@
 //! works on [`points::Points`], the nodes of the surface in the order of the mesh. Every rank holds all of them and
 //! comes to the same forces; nothing depends on the decomposition.
 
+mod bounds;
 mod cubic;
 pub mod detect;
 mod edges;
@@ -29,9 +30,10 @@ use crate::mesh::Mesh;
 use crate::model::{ContactSearch, Model, RigidSurface};
 use detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
 use edges::{Edge, EdgeCheck, PastPair};
-use enforce::{Constraint, Enforcer, Limits, MEMBERS, Outcome};
+use enforce::{Alone, Constraint, Enforcer, Limits, MEMBERS, Origin, Outcome};
 use gather::Gather;
 use locate::{Locator, Near, Reach, Rule};
+use faces::Faces;
 use planes::PlanePoint;
 use points::Points;
 use search::SearchKind;
@@ -275,8 +277,9 @@ impl Contact {
             self.check_edges();
         }
         let always = !self.layout.interfaces.is_empty();
-        for watch in &self.plane_points {
-            self.constraints.extend(watch.constraint(&self.planes, &self.points, self.mean_size, always));
+        for (number, watch) in self.plane_points.iter_mut().enumerate() {
+            let number = number as u32;
+            self.constraints.extend(watch.constraint(number, &self.planes, &self.points, self.mean_size, always));
         }
         self.enforce(step);
         self.hand_over(nodes, held);
@@ -310,10 +313,10 @@ impl Contact {
             points, layout, pairings, locator, history, constraints, near, near_faces, strict, touches, ..
         } = self;
         let check = Check { points, faces: &layout.faces };
-        for (i, &point) in locator.watched().iter().enumerate() {
-            near.clear();
+        for i in 0..locator.watched().len() {
+            let point = locator.watched()[i];
             let past = &mut history[point as usize];
-            near.extend(locator.near(i, points, past));
+            locator.near(i, points, &layout.faces, past, near);
             if near.is_empty() {
                 *past = UNTOUCHED;
                 continue;
@@ -323,11 +326,15 @@ impl Contact {
             strict.clear();
             strict.extend(near.iter().map(|near| layout.interfaces[near.interface as usize].rule == Rule::Blocks));
             check.point(point, near_faces, strict, past, touches);
-            *past = UNTOUCHED;
-            for (past, touch) in past.iter_mut().zip(touches.iter()) {
-                *past = Past { face: touch.face, allowed: touch.allowed };
+            let before = std::mem::replace(past, UNTOUCHED);
+            for (place, touch) in touches.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
-                constraints.extend(constraint(layout, pairings, point, touch, interface));
+                if let Some(mut constraint) = constraint(layout, pairings, point, touch, interface) {
+                    (constraint.push, constraint.drag) = push_before(&layout.faces, &before, touches, touch);
+                    constraint.origin = Origin::Face(point, place as u32);
+                    constraints.push(constraint);
+                }
+                past[place] = Past { face: touch.face, allowed: touch.allowed, ..UNTOUCHED[0] };
             }
         }
     }
@@ -351,15 +358,31 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes) {
-        if self.constraints.iter().all(|constraint| constraint.gap >= 0.0) {
-            self.constraints.clear();
-            return;
-        }
-        let Outcome { passes, left } = self.enforcer.solve(&mut self.constraints, &self.points, step, self.limits);
+        let Outcome { passes, left } =
+            self.enforcer.solve(&mut self.constraints, &self.points, step, self.limits, &mut Alone);
+        self.remember();
         self.tally.steps += u64::from(passes > 0);
         self.tally.passes += u64::from(passes);
         self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
+    }
+
+    /// Keeps the forces: the passes of the next step begin with them.
+    fn remember(&mut self) {
+        for c in &self.constraints {
+            match c.origin {
+                Origin::Face(point, place) => {
+                    let past = &mut self.history[point as usize][place as usize];
+                    (past.push, past.drag) = (c.push, c.drag);
+                }
+                Origin::Edges(first, second) => {
+                    if let Ok(i) = self.edge_history.binary_search_by(|past| past.pair.cmp(&[first, second])) {
+                        (self.edge_history[i].push, self.edge_history[i].drag) = (c.push, c.drag);
+                    }
+                }
+                Origin::Plane(watch) => self.plane_points[watch as usize].remember(c.push, c.drag),
+            }
+        }
     }
 
     /// Adds the forces to the nodes that are here.
@@ -457,6 +480,14 @@ impl Contact {
     }
 }
 
+/// The force of the last step at a touch. A point that has slid on to the next face takes the force along.
+fn push_before(faces: &Faces, before: &[Past; TOUCHES], touches: &[Touch], touch: &Touch) -> (f64, [f64; 3]) {
+    let same = before.iter().find(|past| past.face == touch.face);
+    let left = |past: &&Past| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
+    let beside = || before.iter().filter(left).find(|past| faces.touch(past.face, touch.face));
+    same.or_else(beside).map_or((0.0, [0.0; 3]), |past| (past.push, past.drag))
+}
+
 /// Pasts with the faces that are left first.
 fn tidy(mut pasts: [Past; TOUCHES]) -> [Past; TOUCHES] {
     pasts.sort_by_key(|past| past.face == NONE);
@@ -531,6 +562,7 @@ fn constraint(layout: &Layout, pairings: &Pairings, point: u32, touch: &Touch, i
         friction: pairing.friction,
         push: 0.0,
         drag: [0.0; 3],
+        origin: Origin::Face(point, 0),
     };
     constraint.members[1..].copy_from_slice(&faces.corners[face]);
     for (weight, n) in constraint.weights[1..].iter_mut().zip(touch.stand.weights) {

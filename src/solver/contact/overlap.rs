@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::detect::{Check, UNTOUCHED};
-use super::enforce::{Enforcer, Limits};
+use super::enforce::{Alone, Enforcer, Limits};
 use super::locate::{Locator, Near, Reach};
 use super::points::Points;
 use super::search::SearchKind;
@@ -47,10 +47,11 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         if constraints.is_empty() {
             break;
         }
-        enforcer.solve(&mut constraints, &points, &still, Limits { passes: 100, tolerance: 0.1 * NOTHING });
+        let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
+        enforcer.solve(&mut constraints, &points, &still, limits, &mut Alone);
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
-            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point));
+            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point, &points, still.kick));
         }
     }
     moved(mesh, body, &layout)
@@ -78,8 +79,10 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super:
     locator.locate(points, &layout.faces, &layout.interfaces, &[]);
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
-    for (i, &point) in locator.watched().iter().enumerate() {
-        let near: Vec<Near> = locator.near(i, points, &UNTOUCHED).collect();
+    let mut near: Vec<Near> = Vec::new();
+    for i in 0..locator.watched().len() {
+        let point = locator.watched()[i];
+        locator.near(i, points, &layout.faces, &UNTOUCHED, &mut near);
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
         check.point(point, &faces, &vec![true; faces.len()], &UNTOUCHED, &mut touches);
         for touch in &mut touches {

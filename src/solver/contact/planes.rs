@@ -1,6 +1,6 @@
 //! Fixed rigid planes: constraints on single points.
 
-use super::enforce::{Constraint, MEMBERS};
+use super::enforce::{Constraint, MEMBERS, Origin};
 use super::points::Points;
 use crate::model::{Friction, RigidSurface};
 use crate::solver::nodes::{dot, subtract};
@@ -15,6 +15,8 @@ pub struct PlanePoint {
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
     allowed: f64,
+    push: f64,
+    drag: [f64; 3],
 }
 
 fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
@@ -24,16 +26,35 @@ fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
 impl PlanePoint {
     /// A point at its initial position.
     pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlanePoint {
-        PlanePoint { point, plane: number as u32, allowed: gap(plane, position).min(0.0) }
+        PlanePoint {
+            point,
+            plane: number as u32,
+            allowed: gap(plane, position).min(0.0),
+            push: 0.0,
+            drag: [0.0; 3],
+        }
+    }
+
+    /// Keeps the force of a step.
+    pub fn remember(&mut self, push: f64, drag: [f64; 3]) {
+        (self.push, self.drag) = (push, drag);
     }
 
     /// The constraint that keeps the point from crossing, when it would or when `always`; overlaps are measured in units of
     /// `size`.
-    pub fn constraint(&self, planes: &[RigidSurface], points: &Points, size: f64, always: bool) -> Option<Constraint> {
+    pub fn constraint(
+        &mut self,
+        number: u32,
+        planes: &[RigidSurface],
+        points: &Points,
+        size: f64,
+        always: bool,
+    ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
         let end = points.end[self.point as usize];
         let gap = gap(plane, end) - self.allowed;
         if gap >= 0.0 && !always {
+            self.remember(0.0, [0.0; 3]);
             return None;
         }
         let mut constraint = Constraint {
@@ -45,8 +66,9 @@ impl PlanePoint {
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),
-            push: 0.0,
-            drag: [0.0; 3],
+            push: self.push,
+            drag: self.drag,
+            origin: Origin::Plane(number),
         };
         (constraint.members[0], constraint.weights[0]) = (self.point, 1.0);
         Some(constraint)

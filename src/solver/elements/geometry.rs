@@ -77,11 +77,16 @@ pub fn dot<V: Lanes>(a: &Modes<V>, g: &[V; 6]) -> V {
     (a[0] * g[0] + a[1] * g[1] + a[2] * g[2]) + (a[3] * g[3] + a[4] * g[4] + a[5] * g[5])
 }
 
+/// Sum of six squares. A function, not a closure: those are not always inlined, and then know no vector instructions.
+#[inline(always)]
+fn square<V: Lanes>(g: &[V; 6]) -> V {
+    (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) + (g[3] * g[3] + g[4] * g[4] + g[5] * g[5])
+}
+
 impl<V: Lanes> Gradient<V> {
     /// B_iI B_iI, summed over directions and corners, times 4608.
     #[inline(always)]
     pub fn square4608(&self) -> V {
-        let square = |g: &[V; 6]| (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) + (g[3] * g[3] + g[4] * g[4] + g[5] * g[5]);
         square(&self.g24[0]) + square(&self.g24[1]) + square(&self.g24[2])
     }
 

@@ -1,0 +1,85 @@
+//! Records on their way to other ranks.
+
+use crate::comm::Communicator;
+use std::ops::Range;
+
+/// Records, each an id and `width` numbers, packed for the ranks they go to.
+#[derive(Debug, Clone)]
+pub struct Parcels {
+    width: usize,
+    /// One message per rank.
+    messages: Vec<Vec<u8>>,
+}
+
+/// Records that have come.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Records {
+    /// Numbers per record.
+    pub width: usize,
+    /// The id of each record.
+    pub ids: Vec<u32>,
+    /// The numbers of each record, one record after the other.
+    pub values: Vec<f64>,
+    /// Ranks that sent any, ascending, and which records they sent.
+    pub senders: Vec<(usize, Range<usize>)>,
+}
+
+impl Parcels {
+    /// Empty parcels for `size` ranks and records of `width` numbers.
+    pub fn new(size: usize, width: usize) -> Parcels {
+        Parcels { width, messages: vec![Vec::new(); size] }
+    }
+
+    /// Adds a record of `width` numbers for `rank`, which may be this one.
+    pub fn add(&mut self, rank: u32, id: u32, values: &[f64]) {
+        debug_assert_eq!(values.len(), self.width, "a record of another width");
+        let message = &mut self.messages[rank as usize];
+        message.extend_from_slice(&id.to_le_bytes());
+        values.iter().for_each(|value| message.extend_from_slice(&value.to_le_bytes()));
+    }
+
+    /// Sends all records and returns those for this rank, by ascending sender and then in the order in which they
+    /// were added; every rank calls it, with the same width. One sparse exchange.
+    pub fn exchange(self, comm: &mut dyn Communicator) -> Records {
+        let outgoing = self.messages.into_iter().enumerate().filter(|(_, message)| !message.is_empty()).collect();
+        let mut records = Records { width: self.width, ..Records::default() };
+        for (sender, message) in comm.sparse_exchange(outgoing) {
+            let first = records.ids.len();
+            message.chunks_exact(4 + 8 * self.width).for_each(|record| records.unpack(record));
+            records.senders.push((sender, first..records.ids.len()));
+        }
+        records
+    }
+}
+
+impl Records {
+    /// Number of records.
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// The numbers of a record.
+    pub fn values(&self, record: usize) -> &[f64] {
+        &self.values[record * self.width..][..self.width]
+    }
+
+    /// The records by ascending id, those of one id by sender: an order that does not depend on which rank sent
+    /// them, if ids are distinct.
+    pub fn by_id(&self) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.len() as u32).collect();
+        order.sort_by_key(|record| self.ids[*record as usize]);
+        order
+    }
+
+    fn unpack(&mut self, record: &[u8]) {
+        let (words, doubles) = record.split_at(4);
+        self.ids.extend(words.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
+        let number = |b: &[u8]| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]);
+        self.values.extend(doubles.chunks_exact(8).map(number));
+    }
+}

@@ -1,0 +1,294 @@
+use super::*;
+use crate::comm::{Communicator, run_threads};
+use crate::partition::rcb;
+use proptest::prelude::*;
+
+/// A point: where it is, its id and its weight.
+type Point = ([f64; 3], u32, u32);
+
+/// Runs [`balance`] on `size` ranks, the points dealt out by `rank_of`; the cuts, the owner of each id and the number
+/// of collective calls, after checking that all ranks agree.
+fn balanced(
+    points: &[Point],
+    size: usize,
+    rank_of: impl Fn(usize) -> usize + Sync,
+    axes: Axes,
+    previous: Option<&Bisection>,
+) -> (Bisection, Vec<(u32, u32)>, u32) {
+    let body = |comm: &mut dyn Communicator| {
+        let rank = comm.rank();
+        let own: Vec<Point> = (0..points.len()).filter(|i| rank_of(*i) % size == rank).map(|i| points[i]).collect();
+        let positions: Vec<_> = own.iter().map(|point| point.0).collect();
+        let ids: Vec<_> = own.iter().map(|point| point.1).collect();
+        let weights: Vec<_> = own.iter().map(|point| point.2).collect();
+        let found = balance(&positions, &ids, &weights, axes, previous, comm);
+        for (at, (id, owner)) in positions.iter().zip(ids.iter().zip(&found.owners)) {
+            assert_eq!(found.bisection.owner(*at, *id), *owner);
+        }
+        Ok::<_, ()>((found.bisection, ids.into_iter().zip(found.owners).collect::<Vec<_>>(), found.collectives))
+    };
+    let results = run_threads(size, body).unwrap_or_else(|_| panic!("a rank failed"));
+    let (bisection, _, collectives) = results[0].clone();
+    assert!(results.iter().all(|result| result.0 == bisection && result.2 == collectives));
+    let mut owners: Vec<_> = results.into_iter().flat_map(|result| result.1).collect();
+    owners.sort_unstable();
+    (bisection, owners, collectives)
+}
+
+/// The same on one list: `partition::rcb` with points in the order of their ids.
+fn serial(points: &[Point], size: usize) -> Vec<(u32, u32)> {
+    let mut sorted = points.to_vec();
+    sorted.sort_unstable_by_key(|point| point.1);
+    let positions: Vec<_> = sorted.iter().map(|point| point.0.map(|x| x + 0.0)).collect();
+    // rcb scales weights to a largest one of 2^31: as it is a power of two here, it changes nothing.
+    let weights: Vec<_> = sorted.iter().map(|point| f64::from(point.2)).collect();
+    sorted.iter().map(|point| point.1).zip(rcb(&positions, &weights, size)).collect()
+}
+
+fn sizes(owners: &[(u32, u32)], size: usize) -> Vec<usize> {
+    let mut sizes = vec![0; size];
+    owners.iter().for_each(|(_, rank)| sizes[*rank as usize] += 1);
+    sizes
+}
+
+fn evenly_shared(owners: &[(u32, u32)], size: usize) -> bool {
+    let (least, most) = (owners.len() / size, owners.len().div_ceil(size));
+    sizes(owners, size).iter().all(|count| (least..=most).contains(count))
+}
+
+/// Coordinates with many ties, zeros of both signs, and clusters of all scales.
+fn coordinate() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        (-4i32..4).prop_map(f64::from),
+        Just(-0.0),
+        -1e3..1e3,
+        (-300i32..300).prop_map(|power| 10f64.powi(power)),
+        (0.0..1e-12).prop_map(|x| 1.0 + x),
+    ]
+}
+
+fn points(weight: impl Strategy<Value = u32>, count: std::ops::Range<usize>) -> impl Strategy<Value = Vec<Point>> {
+    let point = ([coordinate(), coordinate(), coordinate()], weight);
+    (prop::collection::vec(point, count), any::<u32>()).prop_map(|(points, salt)| {
+        // Distinct ids in no order: an odd factor permutes the integers.
+        let id = |i: u32| (i ^ salt).wrapping_mul(0x9e37_79b1);
+        points.into_iter().zip(0..).map(|((at, weight), i)| (at, id(i), weight)).collect()
+    })
+}
+
+fn size() -> impl Strategy<Value = usize> {
+    prop_oneof![4 => 1usize..12, 1 => 12usize..=64]
+}
+
+/// A brick of `n` nodes, 1/32 apart, along each side, and what a step of some `amount` makes of it: a turn, a stretch, a flight.
+fn brick(n: u32, amount: f64) -> Vec<Point> {
+    let place = |i: u32| [i % n, i / n % n, i / (n * n)].map(|k| f64::from(k) / 32.0);
+    let moved = |[x, y, z]: [f64; 3]| [x + amount * (1.0 - y), y + amount * x, z + amount * (z + 3.0)];
+    (0..n * n * n).map(|i| (moved(place(i)), i, 1)).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn equal_weights_balance_within_one_and_as_on_one_list(points in points(Just(7u32), 0..200), size in size()) {
+        let (_, owners, _) = balanced(&points, size, |i| i * 7919, Axes::Longest, None);
+        prop_assert!(evenly_shared(&owners, size), "{:?}", sizes(&owners, size));
+        let equal: Vec<Point> = points.iter().map(|point| (point.0, point.1, 1)).collect();
+        prop_assert_eq!(owners, serial(&equal, size));
+    }
+
+    #[test]
+    fn weighted_points_fall_as_on_one_list(
+        points in points(prop_oneof![Just(0u32), 0u32..9, Just(1 << 31)], 1..150), size in size(),
+    ) {
+        let mut points = points;
+        points[0].2 = 1 << 31;
+        let (_, owners, _) = balanced(&points, size, |i| i / 3, Axes::Longest, None);
+        prop_assert_eq!(owners, serial(&points, size));
+    }
+
+    #[test]
+    fn only_the_points_matter(
+        points in points(0u32..5, 0..150), size in size(), deal in any::<usize>(), shift in coordinate(),
+        axes in prop_oneof![Just(Axes::Longest), Just(Axes::One)],
+    ) {
+        let one = balanced(&points, size, |_| 0, axes, None);
+        let mut other = points.clone();
+        other.reverse();
+        other.iter_mut().for_each(|point| point.0 = point.0.map(|x| x * 0.5 + shift));
+        let previous = balanced(&other, size, |i| i, axes, None).0;
+        other.iter_mut().zip(points.iter().rev()).for_each(|(point, original)| point.0 = original.0);
+        let dealt = balanced(&other, size, |i| (i + 1).wrapping_mul(deal | 1) >> 7, axes, Some(&previous));
+        prop_assert_eq!((&one.0, &one.1), (&dealt.0, &dealt.1));
+        let warm = balanced(&points, size, |i| i, axes, Some(&one.0));
+        prop_assert_eq!((&one.0, &one.1), (&warm.0, &warm.1));
+    }
+
+    #[test]
+    fn a_box_meets_the_owners_of_its_points(
+        points in points(Just(1u32), 0..100), size in size(), low in [coordinate(), coordinate(), coordinate()],
+        side in [coordinate(), coordinate(), coordinate()],
+    ) {
+        let (bisection, owners, _) = balanced(&points, size, |i| i, Axes::Longest, None);
+        let high = [0, 1, 2].map(|axis| low[axis] + f64::abs(side[axis]));
+        let inside = |at: &[f64; 3], low: &[f64; 3], high: &[f64; 3]| (0..3).all(|k| low[k] <= at[k] && at[k] <= high[k]);
+        let mut meeting = Vec::new();
+        bisection.ranks_meeting(low, high, &mut meeting);
+        prop_assert!(meeting.windows(2).all(|pair| pair[0] < pair[1]));
+        for (at, id, _) in &points {
+            let owner = owners[owners.partition_point(|(other, _)| other < id)].1;
+            prop_assert!(!inside(at, &low, &high) || meeting.contains(&owner));
+            let (region_low, region_high) = bisection.region(owner as usize);
+            prop_assert!(inside(at, &region_low, &region_high));
+        }
+        // A rank is met exactly if its region, its surface included, has a point in common with the box.
+        let meets = |rank: &u32| {
+            let (region_low, region_high) = bisection.region(*rank as usize);
+            (0..3).all(|axis| region_low[axis] <= high[axis] && low[axis] <= region_high[axis])
+        };
+        prop_assert_eq!(meeting, (0..size as u32).filter(meets).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn any_numbers_have_an_owner(
+        raw in prop::collection::vec([any::<u64>(), any::<u64>(), any::<u64>()], 0..60), size in size(), at in any::<u64>(),
+    ) {
+        // Bit patterns of all kinds: NaN, infinities, subnormal numbers.
+        let special = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        let points: Vec<Point> = (raw.iter().zip(0..))
+            .map(|([x, y, z], i)| ([f64::from_bits(*x), special[(*y % 3) as usize], f64::from_bits(*z)], i, 1))
+            .collect();
+        let (bisection, owners, _) = balanced(&points, size, |i| i, Axes::Longest, None);
+        prop_assert!(evenly_shared(&owners, size));
+        let mut meeting = Vec::new();
+        for at in points.iter().map(|point| point.0).chain([[f64::from_bits(at); 3]]) {
+            bisection.ranks_meeting(at, at, &mut meeting);
+            prop_assert!(meeting.contains(&bisection.owner(at, 7)));
+        }
+    }
+}
+
+#[test]
+fn degenerate_points_are_shared_out_evenly() {
+    let equal: Vec<Point> = (0..501).map(|i| ([0.3; 3], i * 1000, 2)).collect();
+    let line: Vec<Point> = (0..501).map(|i| ([0.0, f64::from(i % 5), 0.0], i, 2)).collect();
+    let weightless: Vec<Point> = line.iter().map(|point| (point.0, point.1, 0)).collect();
+    let few: Vec<Point> = equal[..5].to_vec();
+    for points in [&equal, &line, &weightless, &few, &Vec::new()] {
+        for size in [1, 2, 3, 7, 16, 31, 64] {
+            for axes in [Axes::Longest, Axes::One] {
+                let (_, owners, _) = balanced(points, size, |i| i * i, axes, None);
+                assert!(evenly_shared(&owners, size), "{size}: {:?}", sizes(&owners, size));
+            }
+        }
+    }
+}
+
+#[test]
+fn an_id_on_many_points_does_no_harm() {
+    let points: Vec<Point> = (0..300).map(|i| ([1.0, 0.0, f64::from(i / 100)], 5, 1)).collect();
+    let (bisection, owners, _) = balanced(&points, 6, |i| i, Axes::Longest, None);
+    assert_eq!(owners.len(), 300);
+    assert_eq!(bisection, balanced(&points, 6, |i| i / 9, Axes::Longest, Some(&bisection)).0);
+}
+
+#[test]
+fn slices_have_cuts_along_one_axis() {
+    let points: Vec<Point> = (0..2000).map(|i| ([f64::from(i % 10), f64::from(i / 10), 0.0], i, 1)).collect();
+    let (slices, owners, _) = balanced(&points, 8, |i| i, Axes::One, None);
+    assert!(owners.iter().all(|(id, rank)| *rank == id / 250));
+    for rank in 0..8 {
+        let (low, high) = slices.region(rank);
+        assert!([0, 2].iter().all(|axis| low[*axis] == f64::NEG_INFINITY && high[*axis] == f64::INFINITY));
+    }
+    let (compact, ..) = balanced(&points, 64, |i| i, Axes::Longest, None);
+    assert!((0..64).any(|rank| compact.region(rank).0[0].is_finite()));
+}
+
+/// Trials put the point of a cut into a bin of its own within a few rounds. While points keep their order the cuts are
+/// known beforehand: a call for the beginning, and two for each level.
+#[test]
+fn few_calls_find_the_cuts() {
+    for (size, levels) in [(2, 1), (5, 3), (16, 4), (64, 6)] {
+        let still = brick(22, 0.0);
+        let (cuts, _, fresh) = balanced(&still, size, |i| i, Axes::Longest, None);
+        let (_, _, again) = balanced(&still, size, |i| i, Axes::Longest, Some(&cuts));
+        let shifted: Vec<Point> = still.iter().map(|(at, id, _)| (at.map(|x| 1.25 * x + 7.0), *id, 1)).collect();
+        let (_, _, carried) = balanced(&shifted, size, |i| i, Axes::Longest, Some(&cuts));
+        assert!(fresh <= 1 + 8 * levels, "{fresh}");
+        assert_eq!((again, carried), (1 + 2 * levels, 1 + 2 * levels));
+        for amount in [1e-9, 1e-6, 1e-4, 1e-2] {
+            let (_, _, moved) = balanced(&brick(22, amount), size, |i| i, Axes::Longest, Some(&cuts));
+            assert!(moved <= 1 + 8 * levels, "{moved}");
+        }
+    }
+}
+
+/// Coordinates that double from point to point are the worst for even trials. Each round leaves at most a fourth of the
+/// places, so that the 2⁹⁶ that there are take at most 48 rounds.
+#[test]
+fn crowded_coordinates_end_within_the_bound() {
+    let crowded = |i: u32| [f64::from_bits(1u64 << (i % 63)), 0.0, 0.0];
+    let points: Vec<Point> = (0..1000).map(|i| (crowded(i), i.wrapping_mul(0x9e37_79b1), 1)).collect();
+    let (_, owners, calls) = balanced(&points, 32, |i| i, Axes::Longest, None);
+    assert!(evenly_shared(&owners, 32));
+    assert!(calls <= 1 + 5 * 49, "{calls}");
+}
+
+#[test]
+fn boxes_meet_where_they_touch() {
+    let regions = run_threads(4, |comm| {
+        let x = comm.rank() as f64;
+        let (low, high) = match comm.rank() {
+            2 => ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]),
+            3 => ([x, f64::NAN, 0.0], [x + 1.0, 0.0, f64::NAN]),
+            _ => ([x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]),
+        };
+        Ok::<_, ()>(Regions::Boxes(Boxes::gather(low, high, comm)))
+    });
+    let regions = regions.unwrap_or_else(|_| panic!("a rank failed"));
+    assert!(regions.iter().all(|other| *other == regions[0]) && regions[0].size() == 4);
+    let meeting = |low, high| {
+        let mut out = vec![9];
+        regions[0].ranks_meeting(low, high, &mut out);
+        out
+    };
+    assert_eq!(meeting([0.5; 3], [0.6; 3]), [0]);
+    assert_eq!(meeting([1.0; 3], [1.0; 3]), [0, 1]);
+    assert_eq!(meeting([-9.0; 3], [9.0; 3]), [0, 1, 3]);
+    assert_eq!(meeting([3.5, -1e9, 1e9], [3.5, -1e9, 1e9]), [3]);
+    assert_eq!(meeting([f64::NAN, 0.0, 0.0], [f64::NAN, 0.0, 0.0]), [0, 1, 3]);
+    assert_eq!(meeting([0.5; 3], [0.4; 3]), [0u32; 0]);
+    assert_eq!(regions[0].region(1), ([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
+}
+
+/// Points travel to their owners, and each rank then holds just its share.
+#[test]
+fn parcels_bring_points_to_their_owners() {
+    let all = brick(9, 1e-3);
+    let results = run_threads(5, |comm| {
+        let own: Vec<Point> = all.iter().skip(comm.rank()).step_by(5).copied().collect();
+        let (positions, ids): (Vec<_>, Vec<_>) = own.iter().map(|point| (point.0, point.1)).unzip();
+        let found = balance(&positions, &ids, &[], Axes::Longest, None, comm);
+        let mut parcels = Parcels::new(comm.size(), 3);
+        for (i, owner) in found.owners.iter().enumerate() {
+            parcels.add(*owner, ids[i], &positions[i]);
+        }
+        let records = parcels.exchange(comm);
+        assert!(
+            records
+                .senders
+                .iter()
+                .all(|(from, range)| records.ids[range.clone()].iter().all(|id| *id as usize % 5 == *from))
+        );
+        let arrived =
+            records.by_id().into_iter().map(|r| (records.ids[r as usize], records.values(r as usize).to_vec()));
+        Ok::<_, ()>((found.bisection, arrived.collect::<Vec<_>>()))
+    });
+    let results = results.unwrap_or_else(|_| panic!("a rank failed"));
+    for (rank, (bisection, arrived)) in results.iter().enumerate() {
+        let expected = all.iter().filter(|point| bisection.owner(point.0, point.1) as usize == rank);
+        assert_eq!(*arrived, expected.map(|point| (point.1, point.0.to_vec())).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,93 @@
+//! Boxes in single precision, rounded outwards: quick to compare, and never too small.
+
+/// Part by which a coordinate is moved outwards: more than what rounding to single precision and one sum can take away.
+const OUTWARDS: f32 = 4e-7;
+
+/// A box along the axes: its low corner, then its high corner with the sign changed, so that joining is a minimum and
+/// growing a difference in all places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds([f32; 8]);
+
+/// The smaller of two numbers, without a say for those that are none: half the instructions of `f32::min`.
+fn smaller(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
+impl Bounds {
+    /// The box that every other touches.
+    pub const EVERYTHING: Bounds = Bounds([f32::NEG_INFINITY; 8]);
+
+    /// A box around the way from one place to another.
+    #[inline]
+    pub fn around(start: [f64; 3], end: [f64; 3]) -> Bounds {
+        let outwards = |x: f64| {
+            let x = x as f32;
+            x - x.abs() * OUTWARDS - f32::MIN_POSITIVE
+        };
+        let mut bounds = [f32::NEG_INFINITY; 8];
+        for i in 0..3 {
+            let (low, high) = if end[i] < start[i] { (end[i], start[i]) } else { (start[i], end[i]) };
+            (bounds[i], bounds[4 + i]) = (outwards(low), outwards(-high));
+        }
+        Bounds(bounds)
+    }
+
+    /// The box around four others, grown by a margin.
+    #[inline]
+    pub fn joined([a, b, c, d]: &[Bounds; 4], margin: f32) -> Bounds {
+        let margin = margin * (1.0 + OUTWARDS);
+        Bounds(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
+    }
+
+    /// How far two boxes are apart along the axis where they are farthest; not above zero where they have a point in
+    /// common. What is not a number in single precision, coordinates beyond 1e38 among them, is apart from nothing.
+    #[inline]
+    pub fn distance(&self, other: &Bounds) -> f32 {
+        // Without short cuts, so that it is a few instructions on vectors.
+        let apart: [f32; 8] = std::array::from_fn(|i| self.0[i] + other.0[(i + 4) % 8]);
+        let larger = |a: f32, b: f32| if b > a { b } else { a };
+        let four: [f32; 4] = std::array::from_fn(|i| larger(larger(f32::NEG_INFINITY, apart[i]), apart[i + 4]));
+        larger(larger(four[0], four[1]), larger(four[2], four[3]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    impl Bounds {
+        fn meets(&self, other: &Bounds) -> bool {
+            self.distance(other) <= 0.0
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_touches_is_never_missed(
+            a in prop::array::uniform3(-1e3..1e3), b in prop::array::uniform3(-1e3..1e3), margin in 0.0f32..10.0,
+        ) {
+            let place = Bounds::around(a, a);
+            prop_assert!(place.meets(&Bounds::around(a, b)) && Bounds::around(b, a).meets(&place));
+            // A face with one corner exactly the margin away.
+            let away = Bounds::around([a[0] + f64::from(margin), a[1], a[2]], [a[0] + f64::from(margin), a[1], a[2]]);
+            prop_assert!(Bounds::joined(&[away; 4], margin).meets(&place));
+        }
+
+        #[test]
+        fn what_is_apart_does_not_meet(a in prop::array::uniform3(-1.0..1.0), axis in 0usize..3, gap in 1e-5..10.0) {
+            let mut b = a;
+            b[axis] += gap;
+            let distance = f64::from(Bounds::around(a, a).distance(&Bounds::around(b, b)));
+            prop_assert!(distance > 0.0 && distance <= gap && distance > gap - 2e-5);
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_meets_everything() {
+        let nowhere = Bounds::around([f64::NAN; 3], [f64::NAN; 3]);
+        assert!(nowhere.meets(&Bounds::around([0.0; 3], [1.0; 3])) && nowhere.meets(&nowhere));
+        assert!(Bounds::around([1e300; 3], [0.0; 3]).meets(&Bounds::around([1e40; 3], [1e50; 3])));
+        assert!(Bounds::around([1.0; 3], [1.0; 3]).meets(&Bounds::EVERYTHING));
+    }
+}
