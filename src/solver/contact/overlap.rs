@@ -51,7 +51,8 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         enforcer.solve(&mut constraints, &points, &still, limits, &mut Alone);
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
-            positions[layout.nodes[point] as usize] = add(points.start[point], enforcer.change(point, &points, still.kick));
+            positions[layout.nodes[point] as usize] =
+                add(points.start[point], enforcer.change(point, &points, still.kick));
         }
     }
     moved(mesh, body, &layout)

@@ -26,13 +26,7 @@ fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
 impl PlanePoint {
     /// A point at its initial position.
     pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlanePoint {
-        PlanePoint {
-            point,
-            plane: number as u32,
-            allowed: gap(plane, position).min(0.0),
-            push: 0.0,
-            drag: [0.0; 3],
-        }
+        PlanePoint { point, plane: number as u32, allowed: gap(plane, position).min(0.0), push: 0.0, drag: [0.0; 3] }
     }
 
     /// Keeps the force of a step.
