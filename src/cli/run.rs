@@ -34,9 +34,14 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn new(options: &options::Run, ranks: usize, transport: &str) -> Result<Prepared, Failure> {
+    fn new(
+        options: &options::Run,
+        ranks: usize,
+        transport: &str,
+        read: impl FnOnce(&options::Input) -> Result<Given, Failure>,
+    ) -> Result<Prepared, Failure> {
         let begun = Instant::now();
-        let given = Given::read(&options.input)?;
+        let given = read(&options.input)?;
         let clock = [begun, Instant::now()];
         let body = Body::new(&given.mesh, &given.problem.model);
         let base = base(options.output.as_deref(), &given.deck);
@@ -138,7 +143,7 @@ fn screen(prepared: &Prepared, quiet: bool) -> Box<dyn Display + Send> {
 fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let ranks = options.ranks.map_or(cores, |n| n as usize);
-    let prepared = Prepared::new(options, ranks, "threads")?;
+    let prepared = Prepared::new(options, ranks, "threads", Given::read)?;
     prepared.make_room()?;
     prepared.announce(options.quiet);
     let wishes = listen(&prepared)?;
@@ -159,6 +164,29 @@ fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     }
 }
 
+/// The processes of a job, as readers of one file.
+#[cfg(feature = "mpi")]
+struct Processes<'a>(&'a mut comm::mpi::World);
+
+#[cfg(feature = "mpi")]
+impl crate::exodus::Together for Processes<'_> {
+    fn place(&self) -> (usize, usize) {
+        use crate::comm::Communicator;
+        (self.0.rank(), self.0.size())
+    }
+
+    /// Through the first process, one slab after the other, so that no process holds more than one beside its own.
+    fn all(&mut self, own: Vec<u8>, take: &mut dyn FnMut(&[u8])) {
+        use crate::comm::Communicator;
+        let mut slabs = self.0.gather(own).unwrap_or_default().into_iter();
+        for _ in 0..self.0.size() {
+            let mut slab = slabs.next().unwrap_or_default();
+            self.0.broadcast(&mut slab);
+            take(&slab);
+        }
+    }
+}
+
 #[cfg(feature = "mpi")]
 fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     use crate::comm::Communicator;
@@ -171,7 +199,8 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
             Failure::input("error: under mpiexec the number of ranks is that of its processes; leave --ranks out"),
         );
     }
-    let prepared = Prepared::new(options, ranks, "MPI processes").and_then(|prepared| {
+    let read = |input: &options::Input| Given::read_together(input, &mut Processes(&mut world));
+    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|prepared| {
         if rank == 0 {
             prepared.make_room()?;
             prepared.announce(options.quiet);

@@ -1,7 +1,8 @@
 //! The netCDF library seen as named arrays: what the EXODUS readers ask of a file, with errors that name the array.
 
 use netcdf::types::{FloatType, IntType, NcTypeDescriptor, NcVariableType};
-use netcdf::{AttributeValue, Extents, Variable};
+use netcdf::{AttributeValue, Extent, Extents, Variable};
+use std::ops::Range;
 use std::path::Path;
 
 /// A netCDF file opened for reading.
@@ -75,6 +76,21 @@ impl Arrays {
         }
     }
 
+    /// The rows of a variable of integers from one to another.
+    pub fn rows_of_integers(&self, name: &str, rows: Range<usize>) -> Result<Vec<i64>, Reason> {
+        let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
+        match variable.vartype() {
+            NcVariableType::Int(_) => self.get(&variable, name, &part(&variable, rows)),
+            other => Err(format!("{name} holds {}, integers belong there", kind(&other))),
+        }
+    }
+
+    /// The rows of a variable of numbers from one to another.
+    pub fn rows_of_reals(&self, name: &str, rows: Range<usize>) -> Result<Vec<f64>, Reason> {
+        let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
+        self.part_of_reals(name, &part(&variable, rows))
+    }
+
     /// A whole variable of numbers of any precision; `None` if it does not exist.
     pub fn reals(&self, name: &str) -> Result<Option<Vec<f64>>, Reason> {
         if !self.has(name) {
@@ -129,6 +145,14 @@ fn silence_hdf5() {
     // SAFETY: sets a property of this thread's default error stack under the lock that guards all calls to HDF5;
     // without a callback no pointer is kept.
     unsafe { hdf5_metno_sys::h5e::H5Eset_auto2(hdf5_metno_sys::h5e::H5E_DEFAULT, None, std::ptr::null_mut()) };
+}
+
+/// Some rows of a variable.
+fn part(variable: &Variable, rows: Range<usize>) -> Extents {
+    let first = Extent::SliceCount { start: rows.start, count: rows.len(), stride: 1 };
+    let all = Extent::Slice { start: 0, stride: 1 };
+    let rest = variable.dimensions().len().saturating_sub(1);
+    Extents::from([first].into_iter().chain(std::iter::repeat_n(all, rest)).collect::<Vec<_>>())
 }
 
 fn shape(variable: &Variable) -> Vec<usize> {

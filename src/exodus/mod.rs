@@ -15,12 +15,14 @@ pub mod pieces;
 mod read;
 mod results;
 mod results_writer;
+mod slabs;
 pub mod tables;
 mod write;
 
 pub use compare::{Comparison, Difference, Place, Tolerance, compare};
 pub use error::{MeshError, ResultsError};
-pub use read::read_mesh;
+pub use read::{read_mesh, read_mesh_together};
 pub use results::Results;
 pub use results_writer::{ResultsHeader, ResultsWriter};
+pub use slabs::Together;
 pub use write::write_mesh;
