@@ -388,10 +388,10 @@ impl Default for ContactControl {
     fn default() -> ContactControl {
         ContactControl {
             passes: 20,
-            tolerance: 1e-6,
+            tolerance: 1e-5,
             search: ContactSearch::Grid,
-            reach: 30.0,
-            margin: 0.05,
+            reach: 45.0,
+            margin: 0.1,
             edges: true,
         }
     }

@@ -173,15 +173,15 @@ impl EdgeCheck<'_> {
             sense * dot(normal, out(pair[0])) < 0.0 && sense * dot(normal, out(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
-        let here = |allowed| Some(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] });
+        let touch = |sense, allowed| PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] };
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
-            return self.meets(pair).then_some(here(0.0)?);
+            return self.meets(pair).then_some(touch(sense, 0.0));
         }
         // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
         let depth = start.gap.abs();
         let sense = -sense;
         (outwards(sense, start.normal) && depth < KEEP * start.shorter() && start.between_ends(depth))
-            .then_some(here(-depth)?)
+            .then_some(touch(sense, -depth))
     }
 
     /// Whether the edges come into one plane within the step, and there between their ends.

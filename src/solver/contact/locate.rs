@@ -150,18 +150,27 @@ impl Locator {
             self.search_edges(points, faces, edges);
         }
         self.ways.next_step(points.len(), faces.len());
-        let mut farthest: f64 = 0.0;
-        for (point, before) in &mut self.moving {
-            let (start, end) = (points.start[*point as usize], points.end[*point as usize]);
-            for i in 0..3 {
-                farthest = farthest.max((start[i] - before[i]).abs()).max((end[i] - start[i]).abs());
-            }
-            *before = start;
-        }
-        // A way that is not a number leaves nobody at rest.
-        self.last_way = if farthest.is_finite() { farthest } else { f64::INFINITY };
+        self.last_way = self.longest_way(points);
         self.gone += self.last_way;
         expired
+    }
+
+    /// The farthest that a point which matters has gone since the last step or will go in this one, along an axis.
+    fn longest_way(&mut self, points: &Points) -> f64 {
+        let mut farthest = [0.0; 3];
+        let mut sound = true;
+        for (point, before) in &mut self.moving {
+            let (start, end) = (&points.start[*point as usize], &points.end[*point as usize]);
+            for i in 0..3 {
+                let (last, next) = ((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
+                let way = if last > next { last } else { next };
+                sound &= way <= f64::MAX;
+                farthest[i] = if way > farthest[i] { way } else { farthest[i] };
+            }
+            *before = *start;
+        }
+        // A way that is not a number leaves nobody at rest.
+        if sound { farthest[0].max(farthest[1]).max(farthest[2]) } else { f64::INFINITY }
     }
 
     /// Whether a point has left the box that the last search gave it.
@@ -171,9 +180,11 @@ impl Locator {
         }
         let positions = points.start.iter().zip(&points.end);
         self.reference.iter().zip(&self.allowance).zip(positions).any(|((reference, allowance), (start, end))| {
-            let away = |i: usize| (start[i] - reference[i]).abs().max((end[i] - reference[i]).abs());
             // A position that is not a number is not away.
-            away(0).max(away(1)).max(away(2)) > *allowance
+            let away = |i: usize| {
+                ((start[i] - reference[i]).abs() > *allowance) | ((end[i] - reference[i]).abs() > *allowance)
+            };
+            away(0) | away(1) | away(2)
         })
     }
 
