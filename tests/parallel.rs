@@ -3,8 +3,7 @@
 
 mod program;
 
-use program::{Desk, Left, URTO, project};
-use std::process::Command;
+use program::{Desk, Left, URTO, mpiexec, project};
 use urto::exodus::{self, Tolerance};
 use urto::mesher;
 
@@ -119,21 +118,6 @@ fn over_mpi(desk: &Desk, ranks: usize, arguments: &[&str]) -> Option<Left> {
     let mut command = mpiexec(ranks)?;
     command.arg(URTO).args(arguments).current_dir(desk.path("."));
     Some(Left::of(command.output().expect("mpiexec starts")))
-}
-
-fn mpiexec(ranks: usize) -> Option<Command> {
-    if !cfg!(feature = "mpi") || Command::new("mpiexec").arg("--version").output().is_err() {
-        return None;
-    }
-    let mut command = Command::new("mpiexec");
-    command.args(["-n", &ranks.to_string()]);
-    // Open MPI refuses root and more ranks than cores otherwise; other libraries ignore these.
-    for permission in ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"]
-    {
-        command.env(permission, "1");
-    }
-    command.env("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe");
-    Some(command)
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod display;
 mod input;
 mod manual;
 mod options;
+mod restart;
 mod run;
 mod signals;
 mod terminal;

@@ -62,7 +62,8 @@ pub struct Input {
 ///
 /// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2
 /// and so on. Results are the same to the bit on any number of ranks. To stop a run in good order, create a file
-/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves.
+/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves. With WRITE RESTART in the deck
+/// it also leaves x.rsout, from which --restart or READ RESTART goes on.
 #[derive(Debug, Args)]
 pub struct Run {
     /// Where deck and mesh are.
@@ -78,6 +79,9 @@ pub struct Run {
     /// Each rank writes its piece of the plot states, x.e.4.0 to x.e.4.3 on four ranks; `urto join` joins them
     #[arg(long)]
     pub split: bool,
+    /// The restart file to go on from; else, when the deck has READ RESTART, x.rsin or x.rsout
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
     /// Nothing on the terminal but errors
     #[arg(short, long)]
     pub quiet: bool,

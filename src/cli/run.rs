@@ -3,11 +3,11 @@
 use super::input::Given;
 use super::signals::Wishes;
 use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, date, display, options};
+use super::{DONE, FAILED, Failure, date, display, options, restart};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::scientific;
 use crate::partition::Decomposition;
-use crate::run::{self, Display, Ended, Files, Job, Quiet, RunError};
+use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -28,6 +28,7 @@ struct Prepared {
     ranks: usize,
     files: Files,
     split: bool,
+    continuation: Option<Continuation>,
     banner: Vec<String>,
     qa: [String; 4],
     clock: [Instant; 2],
@@ -45,6 +46,9 @@ impl Prepared {
         let clock = [begun, Instant::now()];
         let body = Body::new(&given.mesh, &given.problem.model);
         let base = base(options.output.as_deref(), &given.deck);
+        let found = restart::find(options, &given, &body, &base)?;
+        let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
+        let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
         let (day, date, time) = date::now();
         let banner = vec![
             format!("urto {}   {}", env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_DESCRIPTION")),
@@ -56,7 +60,8 @@ impl Prepared {
             format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
-        Ok(Prepared { given, body, ranks, files: Files::of(&base), split: options.split, banner, qa, clock })
+        let split = options.split;
+        Ok(Prepared { given, body, ranks, files, split, continuation, banner, qa, clock })
     }
 
     /// Makes room for the results: their folder, and the old print log out of the way.
@@ -84,6 +89,9 @@ impl Prepared {
             self.given.problem.model.title.trim(),
             ranks_in_words(self.ranks)
         ));
+        if let Some(continuation) = &self.continuation {
+            say(continuation.in_words());
+        }
     }
 }
 
@@ -124,6 +132,7 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         qa: prepared.qa.clone(),
         files: &prepared.files,
         body: &prepared.body,
+        continuation: prepared.continuation.as_ref(),
         decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
         split: prepared.split,
         wish,
@@ -279,6 +288,9 @@ fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
             ));
         } else {
             say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        }
+        if ended.restart {
+            say(format_args!("to go on from here: {}", prepared.files.restart.display()));
         }
     }
     match ended.by {

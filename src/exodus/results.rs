@@ -53,7 +53,7 @@ impl Results {
         &self.path
     }
 
-    /// The arrays behind it.
+    /// The file's arrays, for what EXODUS knows nothing of.
     pub(super) fn arrays(&self) -> &Arrays {
         &self.arrays
     }

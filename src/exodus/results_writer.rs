@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use super::container::{Container, Layout, inspect};
 use super::error::ResultsError;
 use super::pieces::Piece;
+use super::restart::Extra;
 use super::write::{Contents, LINE_WIDTH, cut, write_file};
 use crate::mesh::Mesh;
 
@@ -56,7 +57,7 @@ impl ResultsWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn create(path: &Path, header: &ResultsHeader) -> Result<Self, ResultsError> {
-        Self::create_file(path, header, None)
+        Self::create_with(path, header, &Extra::default())
     }
 
     /// The same for a piece of the results, whose mesh is that of `piece`.
@@ -64,10 +65,12 @@ impl ResultsWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn create_piece(path: &Path, header: &ResultsHeader, piece: &Piece) -> Result<Self, ResultsError> {
-        Self::create_file(path, &ResultsHeader { mesh: &piece.part.mesh, ..header.clone() }, Some(piece))
+        let header = ResultsHeader { mesh: &piece.part.mesh, ..header.clone() };
+        Self::create_with(path, &header, &Extra { piece: Some(piece), ..Extra::default() })
     }
 
-    fn create_file(path: &Path, header: &ResultsHeader, piece: Option<&Piece>) -> Result<Self, ResultsError> {
+    /// The same, with what EXODUS knows nothing of.
+    pub(super) fn create_with(path: &Path, header: &ResultsHeader, extra: &Extra) -> Result<Self, ResultsError> {
         let mesh = header.mesh;
         let mut qa = mesh.qa.clone();
         qa.push(header.qa.clone());
@@ -79,7 +82,7 @@ impl ResultsWriter {
             global: &header.global,
             nodal: &header.nodal,
             element: &header.element,
-            piece,
+            extra: Some(extra),
         };
         write_file(path, mesh, &contents)?;
         let layout = match inspect(path).map_err(ResultsError::io("read", path))? {
@@ -100,6 +103,11 @@ impl ResultsWriter {
     /// Number of states written so far.
     pub fn states(&self) -> usize {
         self.states as usize
+    }
+
+    /// Waits until all that was written is on the disk, where it outlives a power failure.
+    pub(super) fn sync(&self) -> Result<(), ResultsError> {
+        self.file.sync_all().map_err(ResultsError::io("write", &self.path))
     }
 
     /// Appends one state: the time, the globals, one array over all nodes per nodal variable, one array over all

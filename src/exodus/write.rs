@@ -9,6 +9,7 @@ use super::arrays::Character;
 use super::error::ResultsError;
 use super::names::{self, Family};
 use super::pieces::Piece;
+use super::restart::{self, Extra};
 use crate::mesh::Mesh;
 
 /// The version of the EXODUS conventions that these files keep.
@@ -28,8 +29,7 @@ pub(super) struct Contents<'a> {
     pub global: &'a [String],
     pub nodal: &'a [String],
     pub element: &'a [String],
-    /// What makes the file a piece of a larger one, if it is one.
-    pub piece: Option<&'a Piece>,
+    pub extra: Option<&'a Extra<'a>>,
 }
 
 /// Writes a mesh as an EXODUS II (GENESIS) file.
@@ -92,10 +92,11 @@ impl<'a> Writer<'a> {
         self.variable::<f64>(names::TIME, &[names::TIME_STEP])?;
         self.define_texts()?;
         self.define_mesh()?;
-        if let Some(piece) = self.contents.piece {
+        if let Some(piece) = self.piece() {
             self.define_piece(piece)?;
         }
         self.define_results()?;
+        self.define_extra()?;
         self.file.enddef()
     }
 
@@ -235,12 +236,40 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
+    /// What EXODUS knows nothing of; its readers pass over it.
+    fn piece(&self) -> Option<&'a Piece> {
+        self.contents.extra.and_then(|extra| extra.piece)
+    }
+
+    fn define_extra(&mut self) -> netcdf::Result<()> {
+        let Some(extra) = self.contents.extra else { return Ok(()) };
+        if let Some(identity) = extra.identity {
+            self.file.add_attribute(restart::IDENTITY, identity)?;
+            let names: Vec<&str> = extra.lists.iter().map(|list| list.name.as_str()).collect();
+            self.file.add_attribute(restart::LISTS, names.join(" "))?;
+        }
+        for list in extra.lists {
+            let variable = restart::list_variable(&list.name);
+            let dimensions = [format!("{variable}_rows"), format!("{variable}_columns")];
+            let rows = list.values.len() / list.width;
+            self.dimensions(&[(&dimensions[0], rows), (&dimensions[1], list.width)])?;
+            self.variable::<f64>(&variable, &[&dimensions[0], &dimensions[1]])?;
+        }
+        Ok(())
+    }
+
+    fn put_extra(&mut self) -> netcdf::Result<()> {
+        self.piece().map_or(Ok(()), |piece| self.put_piece(piece))?;
+        let lists = self.contents.extra.map_or(&[][..], |extra| extra.lists);
+        lists.iter().try_for_each(|list| self.values(&restart::list_variable(&list.name), &list.values))
+    }
+
     fn put(&mut self) -> netcdf::Result<()> {
         self.put_texts()?;
         self.put_nodes()?;
         self.put_blocks()?;
         self.put_sets()?;
-        self.contents.piece.map_or(Ok(()), |piece| self.put_piece(piece))
+        self.put_extra()
     }
 
     pub(super) fn values<T: NcTypeDescriptor>(&mut self, name: &str, values: &[T]) -> netcdf::Result<()> {

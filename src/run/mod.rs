@@ -1,12 +1,16 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
 mod files;
+mod identity;
 mod memory;
 mod plots;
 mod report;
+mod restart;
 
 pub use files::{Files, keep_old_print_files};
+pub use identity::{differences, told};
 pub use report::{Display, Quiet};
+pub use restart::{Continuation, states_beside};
 
 use crate::comm::Communicator;
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
@@ -18,6 +22,7 @@ use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
 use plots::Plots;
+use restart::RestartFiles;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -47,6 +52,8 @@ pub struct Job<'a> {
     pub decomposition: &'a Decomposition<'a>,
     /// Each rank writes its piece of the plot states.
     pub split: bool,
+    /// The state that the run goes on from, if it does.
+    pub continuation: Option<&'a Continuation>,
     /// What the outside world wants of the run: signals, a shutdown file.
     pub wish: &'a (dyn Fn() -> Request + Sync),
 }
@@ -62,6 +69,8 @@ pub struct Ended {
     pub time: f64,
     /// Plot states written.
     pub states: usize,
+    /// Whether a restart state was written.
+    pub restart: bool,
     /// Relative error of the energy balance at the end.
     pub energy_error: f64,
     /// Wall-clock seconds per element and cycle.
@@ -96,6 +105,9 @@ pub enum RunError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The state to go on from lacks something.
+    #[error("the restart file lacks {}", .0.join(", "))]
+    Incomplete(Vec<String>),
     /// Another rank could not write; all leave with it, and with its words.
     #[error("{0}")]
     Elsewhere(String),
@@ -108,12 +120,15 @@ pub enum RunError {
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
     let share = job.decomposition.share(comm.rank());
     let mut solver = Solver::new(job.mesh, job.model, job.body, &share, comm);
+    if let Some(continuation) = job.continuation {
+        continuation.restore(&mut solver, comm)?;
+    }
     let mut writer = Writer::new(job, &solver, &share, comm);
     writer.start(job, comm)?;
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
     display.finish();
-    writer.finish(&mut solver, comm, begun.elapsed().as_secs_f64(), outcome)
+    writer.finish(&mut solver, comm, begun, outcome)
 }
 
 /// The step loop. Ends with what stopped the run, or with the reason why it cannot go on.
@@ -127,6 +142,10 @@ fn steps(
     let model = job.model;
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut lines = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
+    if job.continuation.is_some() {
+        plots.pass(solver.previous_time, solver.time_step);
+        lines.pass(solver.previous_time, solver.time_step);
+    }
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
@@ -152,6 +171,9 @@ fn steps(
             return Ok(agreed);
         }
         solver.advance();
+        if writer.restarts.as_mut().is_some_and(|restarts| restarts.due(solver)) {
+            writer.restart(solver, comm)?;
+        }
     }
 }
 
@@ -175,8 +197,11 @@ struct Writer<'a> {
     log: Option<PrintLog>,
     watched: HistoryPlan,
     histories: Option<ResultsWriter>,
+    restarts: Option<RestartFiles<'a>>,
     files: &'a Files,
     elements: usize,
+    first_step: u64,
+    last_restart: Option<u64>,
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
@@ -197,10 +222,13 @@ impl<'a> Writer<'a> {
             log: None,
             watched: HistoryPlan::new(job.mesh, job.model),
             histories: None,
+            restarts: RestartFiles::new(job, solver),
             files: job.files,
             elements: job.mesh.element_count(),
+            first_step: solver.step,
+            last_restart: None,
             termination_time: job.model.termination_time,
-            last_line: (Instant::now(), 0, 0.0),
+            last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
         }
     }
@@ -238,7 +266,8 @@ impl<'a> Writer<'a> {
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
-        let front = print::problem(&echo) + &print::step_header();
+        let from = job.continuation.map_or(String::new(), |from| print::continued(&from.in_words()));
+        let front = print::problem(&echo) + &from + &print::step_header();
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
@@ -336,38 +365,48 @@ impl<'a> Writer<'a> {
         outcome
     }
 
+    /// Writes the state between two steps.
+    fn restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        solver.clock.start();
+        let snapshot = self.plots.snapshot(solver, comm);
+        let outcome = match (&mut self.restarts, snapshot) {
+            (Some(restarts), Some(snapshot)) => restarts.write(snapshot).map_err(RunError::from),
+            _ => Ok(()),
+        };
+        self.last_restart = Some(solver.step);
+        let outcome = together(outcome, comm).and_then(|()| self.print(&print::restart_written(solver)));
+        solver.clock.stop(Section::Output);
+        together(outcome, comm)
+    }
+
+    /// Leaves the state to go on from at the end of a run, unless it has just been written: that after the step that
+    /// follows.
+    fn last_restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        if self.restarts.is_none() || self.last_restart == Some(solver.step) {
+            return Ok(());
+        }
+        solver.advance();
+        self.restart(solver, comm)
+    }
+
     /// Closes the log and says how the run ended.
     fn finish(
         mut self,
         solver: &mut Solver,
         comm: &mut dyn Communicator,
-        wall: f64,
+        begun: Instant,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
-        let table = time_table(solver, comm, wall, self.elements);
-        let totals = solver.totals(comm);
-        let words = match &outcome {
-            Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
-            Ok(by) => format!(
-                "STOPPED {} AT STEP {}, TIME {:.6e}; THE LAST STATE IS WRITTEN",
-                reason(*by),
-                solver.step,
-                solver.time
-            ),
-            Err(RunError::Stopped { stop, .. }) => format!(
-                "***** ERROR: AT STEP {}, TIME {:.6e}, TIME STEP {:.6e}: {stop}\n  advice: {}",
-                solver.step,
-                solver.time,
-                solver.time_step,
-                stop.advice()
-            ),
-            Err(error) => format!("***** ERROR: {error}"),
-        };
+        let (step, time, time_step, totals) = (solver.step, solver.time, solver.time_step, solver.totals(comm));
+        let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
+        let wall = begun.elapsed().as_secs_f64();
+        let cycles = (step - self.first_step) as f64 * self.elements as f64;
+        let table = time_table(solver, comm, wall, cycles);
         let states = self.plots.states();
         let initial_energy = solver.initial_energy;
         let ending = Ending {
-            outcome: &words,
-            steps: solver.step,
+            outcome: &in_words(&outcome, step, time, time_step),
+            steps: step,
             states,
             totals: &totals,
             initial_energy,
@@ -379,13 +418,29 @@ impl<'a> Writer<'a> {
         together(printed, comm)?;
         Ok(Ended {
             by,
-            steps: solver.step,
-            time: solver.time,
+            steps: step,
+            time,
             states,
+            restart: self.restarts.is_some(),
             energy_error: totals.relative_error(initial_energy),
             grind: table.grind(),
             wall,
         })
+    }
+}
+
+/// How a run ended, for the log.
+fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step: f64) -> String {
+    match outcome {
+        Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
+        Ok(by) => {
+            format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by))
+        }
+        Err(RunError::Stopped { stop, .. }) => format!(
+            "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
+            stop.advice()
+        ),
+        Err(error) => format!("***** ERROR: {error}"),
     }
 }
 
@@ -423,7 +478,7 @@ fn same_qa(own: &[String; 4], comm: &mut dyn Communicator) -> [String; 4] {
     std::array::from_fn(|_| lines.next().unwrap_or_default())
 }
 
-fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, elements: usize) -> TimeTable {
+fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, element_cycles: f64) -> TimeTable {
     let mut sections = Vec::new();
     for (section, name) in Section::ALL {
         let mine = solver.clock.spent(section).as_secs_f64();
@@ -442,7 +497,7 @@ fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, elements:
         wall,
         ranks: comm.size(),
         elements_of_a_rank: [extremes[0] as u64, -extremes[1] as u64],
-        element_cycles: solver.step as f64 * elements as f64,
+        element_cycles,
         memory: memory::resident().map(|(_, most)| most),
     }
 }

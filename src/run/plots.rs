@@ -1,11 +1,13 @@
-//! Where plot states go: gathered into one file by rank 0, or into a piece by each rank.
+//! Where plot states go: gathered into one file by rank 0, or into a piece by each rank. States to go on from are
+//! gathered in either case.
 
 use super::RunError;
 use crate::comm::Communicator;
 use crate::exodus::pieces::piece_path;
 use crate::exodus::{ResultsHeader, ResultsWriter};
-use crate::output::{Collector, FieldList, Split, global_values};
+use crate::output::{self, Collector, FieldList, Split, global_values};
 use crate::partition::Share;
+use crate::restart::Snapshot;
 use crate::solver::{Solver, Totals};
 use std::path::Path;
 
@@ -16,24 +18,23 @@ pub struct Plots {
     file: Option<ResultsWriter>,
     /// Numbers of nodal and element variables.
     variables: [usize; 2],
-    way: Way,
-}
-
-enum Way {
-    Gathered(Collector),
-    Split(Box<Split>),
+    /// Brings values together; there is none when nothing is gathered.
+    collector: Option<Collector>,
+    /// Puts values into this rank's piece; there is none when plot states are gathered.
+    split: Option<Split>,
 }
 
 impl Plots {
     /// Learns what goes where. All ranks call it.
     pub fn new(job: &Job, solver: &Solver, share: &Share, variables: [usize; 2], comm: &mut dyn Communicator) -> Plots {
         let (nodes, elements) = (job.mesh.coordinates.len(), job.mesh.element_count());
-        let way = if job.split {
-            Way::Split(Box::new(Split::new(job.mesh, job.body, share, comm.size())))
-        } else {
-            Way::Gathered(Collector::new(solver, nodes, elements, comm))
-        };
-        Plots { file: None, variables, way }
+        let gathers = !job.split || job.model.restarts.write.is_some();
+        Plots {
+            file: None,
+            variables,
+            collector: gathers.then(|| Collector::new(solver, nodes, elements, comm)),
+            split: job.split.then(|| Split::new(job.mesh, job.body, share, comm.size())),
+        }
     }
 
     /// Opens the file of this rank, if it writes one.
@@ -41,13 +42,10 @@ impl Plots {
     /// # Errors
     /// When it cannot be written.
     pub fn open(&mut self, path: &Path, header: &ResultsHeader, rank: usize) -> Result<(), RunError> {
-        self.file = match &self.way {
-            Way::Gathered(_) if rank == 0 => Some(ResultsWriter::create(path, header)?),
-            Way::Gathered(_) => None,
-            Way::Split(split) => {
-                let piece = &split.piece;
-                Some(ResultsWriter::create_piece(&piece_path(path, piece.ranks, rank), header, piece)?)
-            }
+        self.file = match self.split.as_ref().map(|split| &split.piece) {
+            Some(piece) => Some(ResultsWriter::create_piece(&piece_path(path, piece.ranks, rank), header, piece)?),
+            None if rank == 0 => Some(ResultsWriter::create(path, header)?),
+            None => None,
         };
         Ok(())
     }
@@ -70,12 +68,13 @@ impl Plots {
     ) -> Result<(), RunError> {
         let [nodal, element] = [fields.nodal_values(solver), fields.element_values(solver, comm.rank())];
         let [nodal_count, element_count] = self.variables;
-        let values = match &mut self.way {
-            Way::Gathered(collector) => {
+        let values = match (&mut self.split, &self.collector) {
+            (Some(split), _) => Some((split.nodal(&nodal, nodal_count, comm), split.element(&element, element_count))),
+            (None, Some(collector)) => {
                 let nodal = collector.nodal(nodal, nodal_count, comm);
                 nodal.zip(collector.element(element, element_count, comm))
             }
-            Way::Split(split) => Some((split.nodal(&nodal, nodal_count, comm), split.element(&element, element_count))),
+            (None, None) => None,
         };
         match (&mut self.file, values) {
             (Some(file), Some((nodal, element))) => {
@@ -83,5 +82,10 @@ impl Plots {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The state between two steps, on rank 0; `None` on the others, and when the run asks for none. All ranks call it.
+    pub fn snapshot(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Option<Snapshot> {
+        self.collector.as_ref().and_then(|collector| output::snapshot(solver, collector, comm))
     }
 }

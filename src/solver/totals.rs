@@ -124,6 +124,7 @@ fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
             sums[5].add(*work);
         }
     }
+    domain.carried_work.iter().for_each(|work| sums[5].add(*work));
     for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works(&domain.nodes)) {
         sums[6].add(normal);
         sums[4].add(-friction);

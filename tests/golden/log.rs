@@ -35,7 +35,7 @@ pub fn lasting(log: &str) -> String {
         // What follows the time table without a head of its own begins with the number of ranks.
         skipped &= !line.contains("NUMBER OF RANKS");
         steps |= line.contains("TIME DILATATION");
-        if steps && !packed.is_empty() {
+        if steps && !packed.is_empty() && !line.contains("RESTART FILE") {
             out += &untimed(line);
             out += "\n";
         } else if !skipped && !PASSING.iter().any(|words| line.contains(words)) {

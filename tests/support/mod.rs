@@ -3,6 +3,7 @@
 
 pub mod bodies;
 pub mod collapsed;
+pub mod continued;
 pub mod meshes;
 pub mod momentum;
 pub mod penetration;

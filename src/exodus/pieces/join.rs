@@ -115,8 +115,23 @@ pub fn pieces_of(named: &Path) -> Result<(PathBuf, Vec<PathBuf>), JoinError> {
     }
 }
 
+/// Whether there is any piece of `whole`, on whatever number of ranks.
+pub fn any_pieces_of(whole: &Path) -> bool {
+    !numbers_of_ranks(whole).is_empty()
+}
+
 /// The number of ranks whose pieces stand beside the whole.
 fn ranks_beside(whole: &Path) -> Result<usize, JoinError> {
+    let ranks = numbers_of_ranks(whole);
+    match ranks[..] {
+        [] => Err(JoinError::None(whole.to_owned())),
+        [one] => Ok(one),
+        _ => Err(JoinError::Several { whole: whole.to_owned(), ranks }),
+    }
+}
+
+/// The numbers of ranks whose pieces stand beside the whole, ascending.
+fn numbers_of_ranks(whole: &Path) -> Vec<usize> {
     let folder = whole.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| parts_of_name(Path::new(&entry.file_name())));
@@ -124,11 +139,7 @@ fn ranks_beside(whole: &Path) -> Result<usize, JoinError> {
     let mut ranks: Vec<usize> = names.filter(|(base, ..)| own == Some(base)).map(|(_, ranks, _)| ranks).collect();
     ranks.sort_unstable();
     ranks.dedup();
-    match ranks[..] {
-        [] => Err(JoinError::None(whole.to_owned())),
-        [one] => Ok(one),
-        _ => Err(JoinError::Several { whole: whole.to_owned(), ranks }),
-    }
+    ranks
 }
 
 /// One piece while it is joined.

@@ -30,6 +30,7 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("contact of all outer faces", "CONTACT MATERIAL", usize::from(model.contact.materials.is_some())),
         ("contact of pairs of side sets", "CONTACT SURFACE", model.contact.surfaces.len()),
         ("elements that are taken away", "DEATH", model.deaths.len()),
+        ("blocks that are taken away at a time", "DELETE MATERIAL", model.deletions.len()),
         ("histories of material points", "MATERIAL POINT", model.material_points.len()),
     ];
     for (what, command, count) in counts.into_iter().filter(|(.., count)| *count > 0) {

@@ -19,6 +19,7 @@ mod planes;
 pub mod points;
 pub mod search;
 mod setup;
+mod state;
 pub mod surface;
 
 use super::body::Body;

@@ -14,9 +14,9 @@ pub struct PlanePoint {
     pub plane: u32,
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
-    allowed: f64,
-    push: f64,
-    drag: [f64; 3],
+    pub(super) allowed: f64,
+    pub(super) push: f64,
+    pub(super) drag: [f64; 3],
 }
 
 fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {

@@ -114,7 +114,7 @@ pub struct Skin {
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
-    free: Vec<(u32, u32)>,
+    pub(super) free: Vec<(u32, u32)>,
 }
 
 impl Skin {
