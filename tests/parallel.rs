@@ -153,6 +153,32 @@ fn more_ranks_than_elements() {
     }
 }
 
+/// Processes read a mesh of this size in slabs, and a deck without one fails on all of them.
+#[test]
+fn a_mesh_read_in_slabs_over_mpi() {
+    let desk = Desk::new();
+    program::put_bar(
+        &desk,
+        2e-6,
+        "PLOT TIME, 5.E-7\nOUTPUT TIME, 1.E-7\nNO DISPLACEMENT, Z, 3\nPRESSURE, 200, 1, 1.E6\nFUNCTION, 1\n0., 1.\nEND\n",
+    );
+    desk.put_mesh("bar.g", &program::box_mesh([24, 24, 60], [0.01, 0.01, 0.025], false));
+    std::fs::rename(desk.path("bar.i"), desk.path("case.i")).expect("a deck");
+    std::fs::rename(desk.path("bar.g"), desk.path("case.g")).expect("a mesh");
+    if over_mpi(&desk, 1, &["check", "case.i"]).is_none() {
+        return;
+    }
+    reference(&desk);
+    over_mpi(&desk, 3, &["case.i", "-q", "-o", "mpi"]).expect("it ran before").with(0);
+    assert_same(&desk, "mpi");
+    std::fs::remove_file(desk.path("case.g")).expect("a mesh");
+    let left = over_mpi(&desk, 3, &["case.i", "-q"]).expect("it ran before").with(2);
+    assert_eq!(left.err.matches("error: no mesh for").count(), 1, "{}", left.err);
+    std::fs::write(desk.path("case.g"), vec![b'x'; 1 << 20]).expect("a file");
+    let left = over_mpi(&desk, 3, &["case.i", "-q"]).expect("it ran before").with(2);
+    assert_eq!(left.err.matches("this is no EXODUS file").count(), 1, "{}", left.err);
+}
+
 #[test]
 fn failures_over_mpi_are_told_once() {
     let desk = Desk::new();

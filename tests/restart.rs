@@ -3,8 +3,9 @@
 mod support;
 
 use std::path::{Path, PathBuf};
+use support::collapsed::{pyramids, wedges};
 use support::continued::{Case, Part, assert_same};
-use support::meshes::recipe;
+use support::meshes::{add_side_set, recipe};
 use urto::deck::Source;
 use urto::material::MATERIALS;
 use urto::mesher::make_with_warnings;
@@ -120,6 +121,22 @@ fn a_block_that_is_deleted_before_or_after_the_restart() {
 #[test]
 fn edges_that_touch_on_any_number_of_ranks() {
     matrix(&crossing_edges(), [60, 40], &["CONTEDGES"]);
+}
+
+/// Wedges and pyramids, whose masses and bounds of the step are their own, with some of them gone before the restart.
+#[test]
+fn collapsed_elements_on_any_number_of_ranks() {
+    let deck = format!(
+        "TITLE\n cut\nTERMINATION TIME, 1.E-3\nPLOT TIME, 1.E-5\nPLOT NODAL, VELOCITY, MASS\nPLOT ELEMENT, STRESS, ENERGY\n\
+         INITIAL VELOCITY MATERIAL, 1, 20., 0., -200.\nRIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.2\n\
+         CONTACT MATERIAL\nDEATH, 1, EQPS, MAX, 0.06\nDEATH, 1, TMSTEP, MIN, 1.E-9\n\
+         MATERIAL, 1, ELASTIC PLASTIC, 7850.\n{PLATE}END\nEXIT\n"
+    );
+    for cut in [wedges, pyramids] {
+        let mut mesh = cut(&recipe("TITLE\n bar\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.06, 3, 3, 18\n"));
+        add_side_set(&mut mesh, 100, |x| x[2] < 1e-9);
+        matrix(&Case::new(&deck, mesh), [40, 40], &["DEAD", "CONTWORK"]);
+    }
 }
 
 /// Every deck of the project, as far as some steps go: written on 2 ranks, read on 3, against one rank that never stopped.

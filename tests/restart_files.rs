@@ -7,6 +7,7 @@ use program::{Desk, Left, URTO, bar_deck, box_mesh, commands_mesh, mpiexec, proj
 use std::path::Path;
 use std::time::Duration;
 use urto::exodus::{Restart, Results, read_restart};
+use urto::mesh::Mesh;
 
 /// Numbers of ranks that write and read.
 const RANKS: [&str; 3] = ["1", "2", "5"];
@@ -141,6 +142,50 @@ fn plot_files_and_histories_that_are_there_are_left_alone() {
     let [end, last] = [&whole, &part].map(|results| results.times().len() - 1);
     assert!(bits(&whole, end) == bits(&part, last));
     assert!(part.times()[0] > 50e-6, "{:?}", part.times());
+}
+
+/// Restart files stay whole when plot states are in pieces, and pieces that are there are left alone like whole files.
+#[test]
+fn runs_in_pieces_go_on() {
+    let desk = desk();
+    desk.put_mesh("case.g", &wedges(&commands_mesh()));
+    desk.put("case.i", &commands("WRITE RESTART, 10.E-6, 9\n"));
+    run(&desk, "case.i", &["-o", "whole", "--ranks", "2"]).with(0);
+    run(&desk, "case.i", &["-o", "split", "--ranks", "3", "--split"]).with(0);
+    for name in ["rsout", "rsout.1", "rsout.3"] {
+        let [whole, split] = ["whole", "split"].map(|base| state(&desk.path(&format!("{base}.{name}"))));
+        assert!(whole == split, "{name}");
+    }
+    let first = std::fs::read(desk.path("split.e.3.0")).expect("a piece");
+    std::fs::remove_file(desk.path("split.h")).expect("the histories"); // The pieces alone keep their name.
+    desk.put("again.i", &commands("READ RESTART, 20.E-6\n"));
+    let on = |ranks: &str| {
+        let arguments = ["-o", "split", "--ranks", ranks, "--split", "--restart", "split.rsout"];
+        run(&desk, "again.i", &arguments).with(0);
+    };
+    on("2");
+    on("3");
+    assert_eq!(first, std::fs::read(desk.path("split.e.3.0")).expect("a piece"));
+    for part in ["split.e-s0002", "split.e-s0003"] {
+        desk.urto(&["join", part]).with(0);
+        assert_tail(&desk.path("whole.e"), &desk.path(part));
+    }
+}
+
+/// The same box of wedges, two in each hexahedron, on its diagonal seen along z.
+fn wedges(mesh: &Mesh) -> Mesh {
+    let halves = |[a, b, c, d, e, f, g, h]: [u32; 8]| [[a, b, c, c, e, f, g, g], [a, c, d, d, e, g, h, h]];
+    let mut cut = mesh.clone();
+    for block in &mut cut.blocks {
+        block.connectivity = block.connectivity.iter().flat_map(|hex| halves(*hex)).collect();
+    }
+    for set in &mut cut.side_sets {
+        // Bottom and top are cut, and the first half has the face where x is largest.
+        let halves = |&(element, side): &(u32, u8)| [0, 1].map(|half| (2 * element + half, side));
+        set.sides = set.sides.iter().flat_map(halves).filter(|(element, side)| *side > 3 || element % 2 == 0).collect();
+    }
+    cut.element_ids = (1..=cut.element_count() as i64).collect();
+    cut
 }
 
 #[test]

@@ -119,6 +119,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::View(options) => verbs::view(&options),
         Verb::Diff(options) => verbs::diff(&options),
+        Verb::Join(options) => verbs::join(&options),
         Verb::Generate(options) => verbs::generate(&options),
     }
 }

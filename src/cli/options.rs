@@ -43,6 +43,7 @@ pub enum Verb {
     Mesh(Mesh),
     View(View),
     Diff(Diff),
+    Join(Join),
     #[command(hide = true)]
     Generate(Generate),
 }
@@ -75,6 +76,9 @@ pub struct Run {
     /// deck's name, here
     #[arg(short, long, value_name = "BASE")]
     pub output: Option<PathBuf>,
+    /// Each rank writes its piece of the plot states, x.e.4.0 to x.e.4.3 on four ranks; `urto join` joins them
+    #[arg(long)]
+    pub split: bool,
     /// The restart file to go on from; else, when the deck has READ RESTART, x.rsin or x.rsout
     #[arg(long, value_name = "FILE")]
     pub restart: Option<PathBuf>,
@@ -180,6 +184,20 @@ pub struct Diff {
     /// Values both below this count as equal
     #[arg(long, value_name = "F", default_value_t = 0.0)]
     pub floor: f64,
+}
+
+/// Joins the pieces that `run --split` wrote
+///
+/// The joined file is the one that a run without --split writes. All pieces must be there; states that not all of them
+/// have, as a killed run leaves, are left out. The pieces stay. They have the form of Nemesis, so that other programs read
+/// and join them too.
+#[derive(Debug, Args)]
+pub struct Join {
+    /// What is in pieces, x.e, or one of the pieces, x.e.4.0
+    pub pieces: PathBuf,
+    /// The file to write; else x.e beside the pieces
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Prints man pages and shell completions.

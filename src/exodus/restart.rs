@@ -8,6 +8,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::error::ResultsError;
+use super::pieces::Piece;
 use super::results::Results;
 use super::results_writer::{ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
@@ -47,7 +48,11 @@ pub struct RestartHeader<'a> {
 /// What a file holds that EXODUS knows nothing of.
 #[derive(Default)]
 pub(super) struct Extra<'a> {
+    /// What makes the file a piece of a larger one, if it is one.
+    pub piece: Option<&'a Piece>,
+    /// What the state is a state of, in a restart file.
     pub identity: Option<&'a str>,
+    /// Its lists.
     pub lists: &'a [List],
 }
 
@@ -87,7 +92,7 @@ fn write(path: &Path, header: &RestartHeader, snapshot: Snapshot) -> Result<(), 
         qa: header.qa.clone(),
         info: header.info.clone(),
     };
-    let extra = Extra { identity: Some(&header.identity), lists: &snapshot.lists };
+    let extra = Extra { piece: None, identity: Some(&header.identity), lists: &snapshot.lists };
     let mut writer = ResultsWriter::create_with(path, &of_results, &extra)?;
     writer.write_state(time, &numbers, &nodal_values, &element_values)?;
     writer.sync()

@@ -48,6 +48,11 @@ impl Results {
         })
     }
 
+    /// The file's name.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The file's arrays, for what EXODUS knows nothing of.
     pub(super) fn arrays(&self) -> &Arrays {
         &self.arrays

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::container::{Container, Layout, inspect};
 use super::error::ResultsError;
+use super::pieces::Piece;
 use super::restart::Extra;
 use super::write::{Contents, LINE_WIDTH, cut, write_file};
 use crate::mesh::Mesh;
@@ -57,6 +58,15 @@ impl ResultsWriter {
     /// When the file cannot be written.
     pub fn create(path: &Path, header: &ResultsHeader) -> Result<Self, ResultsError> {
         Self::create_with(path, header, &Extra::default())
+    }
+
+    /// The same for a piece of the results, whose mesh is that of `piece`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create_piece(path: &Path, header: &ResultsHeader, piece: &Piece) -> Result<Self, ResultsError> {
+        let header = ResultsHeader { mesh: &piece.part.mesh, ..header.clone() };
+        Self::create_with(path, &header, &Extra { piece: Some(piece), ..Extra::default() })
     }
 
     /// The same, with what EXODUS knows nothing of.

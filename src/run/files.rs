@@ -1,5 +1,6 @@
 //! Names of a run's files: PRONTO's suffixes on one base name.
 
+use crate::exodus::pieces::any_pieces_of;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -39,8 +40,8 @@ impl Files {
 }
 
 impl Files {
-    /// All files of a run that is continued. Plot states and histories that are there already are left alone: those of the
-    /// continued run come into `base.e-s0002` and so on, which viewers string together.
+    /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
+    /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
     pub fn continuing(base: &Path) -> Files {
         let first = Files::of(base);
         let part = |number: u32| if number == 1 { String::new() } else { format!("-s{number:04}") };
@@ -49,7 +50,7 @@ impl Files {
             history: with_suffix(&first.history, &part(number)),
             ..first.clone()
         };
-        let free = |files: &Files| !files.plot.exists() && !files.history.exists();
+        let free = |files: &Files| !files.plot.exists() && !files.history.exists() && !any_pieces_of(&files.plot);
         (1..=9999).map(named).find(free).unwrap_or_else(|| first.clone())
     }
 }

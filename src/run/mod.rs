@@ -3,6 +3,7 @@
 mod files;
 mod identity;
 mod memory;
+mod plots;
 mod report;
 mod restart;
 
@@ -16,10 +17,11 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
-use crate::output::{self, Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
-use crate::partition::Decomposition;
+use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
+use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
+use plots::Plots;
 use restart::RestartFiles;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -48,6 +50,8 @@ pub struct Job<'a> {
     pub body: &'a Body,
     /// Which rank computes what.
     pub decomposition: &'a Decomposition<'a>,
+    /// Each rank writes its piece of the plot states.
+    pub split: bool,
     /// The state that the run goes on from, if it does.
     pub continuation: Option<&'a Continuation>,
     /// What the outside world wants of the run: signals, a shutdown file.
@@ -104,21 +108,22 @@ pub enum RunError {
     /// The state to go on from lacks something.
     #[error("the restart file lacks {}", .0.join(", "))]
     Incomplete(Vec<String>),
-    /// Rank 0 could not write; the others leave with it.
-    #[error("rank 0 could not write its files")]
-    Elsewhere,
+    /// Another rank could not write; all leave with it, and with its words.
+    #[error("{0}")]
+    Elsewhere(String),
 }
 
-/// Runs one rank to the end. Files and display are rank 0's business.
+/// Runs one rank to the end. Files and display are rank 0's business, but for pieces of the plot states.
 ///
 /// # Errors
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
-    let mut solver = Solver::new(job.mesh, job.model, job.body, &job.decomposition.share(comm.rank()), comm);
+    let share = job.decomposition.share(comm.rank());
+    let mut solver = Solver::new(job.mesh, job.model, job.body, &share, comm);
     if let Some(continuation) = job.continuation {
         continuation.restore(&mut solver, comm)?;
     }
-    let mut writer = Writer::new(job, &solver, comm)?;
+    let mut writer = Writer::new(job, &solver, &share, comm);
     writer.start(job, comm)?;
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
@@ -184,12 +189,11 @@ fn give_up(
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
 
-/// Plot file and print log of a run; files are open on rank 0 only, but every rank takes part in collecting.
+/// Plot file and print log of a run; the log is open on rank 0 only, but every rank takes part in collecting.
 struct Writer<'a> {
     fields: FieldList,
     names: [Vec<String>; 3],
-    collector: Collector,
-    results: Option<ResultsWriter>,
+    plots: Plots,
     log: Option<PrintLog>,
     watched: HistoryPlan,
     histories: Option<ResultsWriter>,
@@ -204,51 +208,50 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(job: &Job<'a>, solver: &Solver, comm: &mut dyn Communicator) -> Result<Writer<'a>, RunError> {
+    fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model);
-        let (nodes, elements) = (job.mesh.coordinates.len(), job.mesh.element_count());
-        Ok(Writer {
-            names: [
-                fields.nodal_names(),
-                fields.element_names(),
-                GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
-            ],
+        let names = [
+            fields.nodal_names(),
+            fields.element_names(),
+            GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
+        ];
+        Writer {
+            plots: Plots::new(job, solver, share, [names[0].len(), names[1].len()], comm),
             fields,
-            collector: Collector::new(solver, nodes, elements, comm),
-            results: None,
+            names,
             log: None,
             watched: HistoryPlan::new(job.mesh, job.model),
             histories: None,
             restarts: RestartFiles::new(job, solver),
             files: job.files,
-            elements,
+            elements: job.mesh.element_count(),
             first_step: solver.step,
             last_restart: None,
             termination_time: job.model.termination_time,
             last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
-        })
+        }
     }
 
-    /// Opens the files and prints the front part of the log, all on rank 0; all ranks learn whether it worked.
+    /// Opens the files and prints the front part of the log on rank 0; all ranks learn whether it worked.
     fn start(&mut self, job: &Job, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        let outcome = if comm.rank() == 0 { self.open(job) } else { Ok(()) };
-        together(outcome, comm)
-    }
-
-    fn open(&mut self, job: &Job) -> Result<(), RunError> {
-        let [nodal, element, global] = &self.names;
+        let [nodal, element, global] = self.names.clone();
         let header = ResultsHeader {
             mesh: job.mesh,
             title: job.model.title.clone(),
-            global: global.clone(),
-            nodal: nodal.clone(),
-            element: element.clone(),
-            qa: job.qa.clone(),
+            global,
+            nodal,
+            element,
+            qa: same_qa(&job.qa, comm),
             info: job.deck.lines().map(String::from).collect(),
         };
-        self.results = Some(ResultsWriter::create(&self.files.plot, &header)?);
-        self.histories = self.open_histories(&header)?;
+        let opened = self.plots.open(&self.files.plot, &header, comm.rank());
+        let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, &header) } else { Ok(()) });
+        together(outcome, comm)
+    }
+
+    fn open(&mut self, job: &Job, header: &ResultsHeader) -> Result<(), RunError> {
+        self.histories = self.open_histories(header)?;
         let mut log = PrintLog::create(&self.files.print).map_err(|e| self.print_error(e))?;
         let echo = Echo {
             banner: job.banner,
@@ -259,7 +262,7 @@ impl<'a> Writer<'a> {
             mesh: job.mesh,
             overlap: job.body.overlap,
             masses: &job.body.block_masses(job.mesh.blocks.len()),
-            variables: [nodal, element, global],
+            variables: [&self.names[0], &self.names[1], &self.names[2]],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
@@ -323,16 +326,7 @@ impl<'a> Writer<'a> {
         }
         solver.clock.start();
         let totals = solver.totals(comm);
-        let (nodal_count, element_count) = (self.names[0].len(), self.names[1].len());
-        let nodal = self.collector.nodal(self.fields.nodal_values(solver), nodal_count, comm);
-        let values = self.fields.element_values(solver, comm.rank());
-        let element = self.collector.element(values, element_count, comm);
-        let outcome = match (&mut self.results, nodal, element) {
-            (Some(results), Some(nodal), Some(element)) => results
-                .write_state(solver.time, &global_values(solver, &totals), &nodal, &element)
-                .map_err(RunError::from),
-            _ => Ok(()),
-        };
+        let outcome = self.plots.write(solver, &self.fields, &totals, comm);
         let outcome = together(outcome, comm);
         solver.clock.stop(Section::Output);
         outcome
@@ -374,7 +368,7 @@ impl<'a> Writer<'a> {
     /// Writes the state between two steps.
     fn restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
         solver.clock.start();
-        let snapshot = output::snapshot(solver, &self.collector, comm);
+        let snapshot = self.plots.snapshot(solver, comm);
         let outcome = match (&mut self.restarts, snapshot) {
             (Some(restarts), Some(snapshot)) => restarts.write(snapshot).map_err(RunError::from),
             _ => Ok(()),
@@ -408,7 +402,7 @@ impl<'a> Writer<'a> {
         let wall = begun.elapsed().as_secs_f64();
         let cycles = (step - self.first_step) as f64 * self.elements as f64;
         let table = time_table(solver, comm, wall, cycles);
-        let states = self.results.as_ref().map_or(0, ResultsWriter::states);
+        let states = self.plots.states();
         let initial_energy = solver.initial_energy;
         let ending = Ending {
             outcome: &in_words(&outcome, step, time, time_step),
@@ -459,14 +453,29 @@ fn reason(by: Request) -> &'static str {
     }
 }
 
-/// All ranks learn whether rank 0's work succeeded, so that they leave together when it did not.
+/// All ranks learn whether every rank's work succeeded, so that they leave together when it did not, with the words of
+/// the first that failed.
 fn together(outcome: Result<(), RunError>, comm: &mut dyn Communicator) -> Result<(), RunError> {
     let mut good = [if outcome.is_ok() { 1.0 } else { 0.0 }];
     comm.all_min(&mut good);
-    match outcome {
-        Ok(()) if good[0] == 0.0 => Err(RunError::Elsewhere),
-        outcome => outcome,
+    if good[0] != 0.0 {
+        return outcome;
     }
+    let own = outcome.as_ref().err().map_or(String::new(), RunError::to_string);
+    let all = comm.gather(own.into_bytes()).unwrap_or_default();
+    let mut words = all.into_iter().find(|words| !words.is_empty()).unwrap_or_default();
+    comm.broadcast(&mut words);
+    outcome.and_then(|()| Err(RunError::Elsewhere(String::from_utf8_lossy(&words).into_owned())))
+}
+
+/// Rank 0's QA record on every rank: processes do not start in the same second, but pieces must tell that they are of
+/// one run.
+fn same_qa(own: &[String; 4], comm: &mut dyn Communicator) -> [String; 4] {
+    let mut bytes = own.join("\n").into_bytes();
+    comm.broadcast(&mut bytes);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let mut lines = text.split('\n').map(String::from);
+    std::array::from_fn(|_| lines.next().unwrap_or_default())
 }
 
 fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, element_cycles: f64) -> TimeTable {

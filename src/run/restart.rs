@@ -38,7 +38,7 @@ impl Continuation {
     pub(super) fn restore(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
         let outcome = match self.state.read().as_deref() {
             Ok(Some(snapshot)) => solver.restore(snapshot, comm).map_err(RunError::Incomplete),
-            _ => Err(RunError::Elsewhere),
+            _ => Err(RunError::Elsewhere("another rank failed before this one had taken up the state".into())),
         };
         comm.barrier();
         if let Ok(mut state) = self.state.write() {

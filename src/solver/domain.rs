@@ -248,6 +248,7 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
             id: mesh.blocks[index].id,
             density: material.density,
             law: material.law.clone(),
+            least_share: body.least_share[index],
             hourglass: model.hourglass,
             state_names,
             border: group(border),

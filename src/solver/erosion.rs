@@ -235,13 +235,14 @@ fn volume(group: &Group, i: usize, nodes: &Nodes) -> f64 {
     hexahedron_volume(&positions(group, i, nodes))
 }
 
-/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B).
+/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B), as the element itself has it.
 fn stable_step(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> f64 {
     let x = positions(group, i, nodes);
     let operator = gradient(&[0, 1, 2].map(|axis| modes(&x.map(|corner| corner[axis] - x[0][axis]))));
     let square = operator.square4608() / 4608.0;
     let volume = operator.volume192 / 192.0;
-    (group.element_mass(i) * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
+    let light = group.element_mass(i) * block.least_share;
+    (light * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
 }
 
 fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {
