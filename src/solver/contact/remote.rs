@@ -295,10 +295,9 @@ impl Remote {
         };
         let shares = Pattern::new(places(&contract.send), places(&contract.receive), rank);
         let mut homes = vec![rank as u32; arena.cast.points.len() + arena.cast.ghosts.len()];
-        let corners = |face: u32| regional.faces.ids.binary_search(&face).ok();
-        for (face, place) in arena.cast.faces.iter().filter_map(|&face| Some((face, corners(face)?))) {
-            let all = contract.corners.get(&face).copied().unwrap_or_default();
-            for (corner, home) in all.into_iter().zip(regional.face_homes[place]) {
+        for (face, corners) in &contract.corners {
+            let Ok(place) = regional.faces.ids.binary_search(face) else { continue };
+            for (&corner, home) in corners.iter().zip(regional.face_homes[place]) {
                 if let Some(of) = homes.get_mut(arena.place(corner) as usize) {
                     *of = home;
                 }
