@@ -165,6 +165,8 @@ impl Contact {
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes.
             self.arena = alone(layout, &self.sites, &self.watches, Default::default(), 0.0);
+            // Nor a search, which would put history back.
+            self.arena.restore(self.carried.take().unwrap_or_default());
         } else if comm.size() > 1 {
             let is_here = |face: u32| elements.binary_search(&(face / 6)).is_ok();
             self.remote = Some(Remote::new(layout, &self.sites, is_here, comm));
