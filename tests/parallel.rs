@@ -8,7 +8,7 @@ use urto::exodus::{self, Tolerance};
 use urto::mesher;
 
 /// Numbers of thread ranks that are held against one rank.
-const RANKS: [usize; 5] = [2, 3, 5, 8, 64];
+const RANKS: [usize; 6] = [2, 3, 4, 7, 16, 64];
 
 /// Commands that the short run replaces.
 const TIMES: [&str; 3] = ["TERMINATION TIME", "OUTPUT TIME", "PLOT TIME"];
@@ -52,6 +52,24 @@ fn desk(deck: &str, recipe: &str) -> Desk {
     let desk = Desk::new();
     desk.put("case.i", deck);
     let mesh = mesher::make(&text(recipe), recipe, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    desk.put_mesh("case.g", &mesh);
+    desk
+}
+
+/// A deck with another end and a coarser mesh: `(from, to)` are words of its recipe.
+fn lighter(name: &str, end: f64, words: &[(&str, &str)]) -> Desk {
+    let deck = text(&format!("decks/{name}.i"));
+    let rest = deck.lines().filter(|line| !TIMES.iter().any(|times| line.starts_with(times)) && *line != "EXIT");
+    let mut deck: String = rest.map(|line| format!("{line}\n")).collect();
+    deck += &format!("TERMINATION TIME, {end:e}\nOUTPUT TIME, {:e}\nPLOT TIME, {0:e}\nEXIT\n", end / 12.0);
+    let mut recipe = text(&format!("meshes/{name}.mesh"));
+    for (from, to) in words {
+        assert!(recipe.contains(from), "the recipe is as this test knows it");
+        recipe = recipe.replace(from, to);
+    }
+    let desk = Desk::new();
+    desk.put("case.i", &deck);
+    let mesh = mesher::make(&recipe, name, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
     desk.put_mesh("case.g", &mesh);
     desk
 }
@@ -138,6 +156,37 @@ fn every_material() {
 #[test]
 fn swinging_cantilever() {
     on_any_number_of_ranks(&cantilever());
+}
+
+#[test]
+fn bricks_scatter() {
+    let words = [("6, 35, 6", "3, 15, 3"), ("6, 3, 3", "3, 2, 2"), ("3, 3, 3", "2, 2, 2"), ("38, 4, 42", "10, 2, 12")];
+    on_any_number_of_ranks(&lighter("brick_wall", 1e-3, &words));
+    // A search at every step: the decomposition follows the points all the time.
+    let desk = lighter("brick_wall", 3e-4, &words);
+    let deck = desk.text("case.i").replace("CONTACT MATERIAL\n", "CONTACT MATERIAL\nCONTACT SEARCH, GRID, 0., 0.\n");
+    desk.put("case.i", &deck);
+    reference(&desk);
+    for ranks in ["2", "7"] {
+        desk.urto(&["case.i", "-q", "--ranks", ranks, "-o", "many"]).with(0);
+        assert_same(&desk, "many");
+    }
+}
+
+#[test]
+fn a_can_folds() {
+    let words = [("3,       40,     40", "2, 16, 20"), ("28, 28, 3", "10, 8, 2")];
+    on_any_number_of_ranks(&lighter("can_crush", 1.2e-3, &words));
+}
+
+#[test]
+fn a_plate_erodes() {
+    let words = [
+        ("10, 12, QUARTER", "4, 4, QUARTER"),
+        ("24,      20,     12", "6, 8, 4"),
+        ("5, 60, QUARTER", "2, 16, QUARTER"),
+    ];
+    on_any_number_of_ranks(&lighter("perforation", 120e-6, &words));
 }
 
 #[test]
