@@ -83,6 +83,7 @@ impl FieldList {
         let wanted = |field: NodalField| self.nodal.contains(&field);
         let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
         let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
+        let homes = if wanted(NodalField::ContactRank) { contact_ranks(solver) } else { Vec::new() };
         let mut values = Vec::new();
         for field in &self.nodal {
             let first = values.len();
@@ -93,6 +94,7 @@ impl FieldList {
                 let components: &[f64] = match field {
                     NodalField::Reaction => &reactions[node as usize],
                     NodalField::Contact => &contact[node as usize],
+                    NodalField::ContactRank => &homes[node as usize..=node as usize],
                     _ => &vector,
                 };
                 for c in 0..count {
@@ -183,8 +185,19 @@ fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
         }
         NodalField::Velocity => solver.velocity_now(node),
         NodalField::Acceleration => nodes.acceleration(node),
-        NodalField::Mass | NodalField::Reaction | NodalField::Contact => [nodes.mass(node), 0.0, 0.0],
+        NodalField::Mass | NodalField::Reaction | NodalField::Contact | NodalField::ContactRank => {
+            [nodes.mass(node), 0.0, 0.0]
+        }
     }
+}
+
+/// Rank that computes the contact of each local node, −1 where there is none.
+fn contact_ranks(solver: &Solver) -> Vec<f64> {
+    let mut ranks = vec![-1.0; solver.domain.nodes.len()];
+    for (node, rank) in solver.domain.contact.iter().flat_map(|contact| contact.homes()) {
+        ranks[node as usize] = f64::from(rank);
+    }
+    ranks
 }
 
 /// Contact force, overlap, status and element touched, at each local node.

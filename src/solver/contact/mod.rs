@@ -311,6 +311,12 @@ impl Contact {
         self.answers().map(value).collect()
     }
 
+    /// Local nodes on the surface, and the ranks that compute their contact.
+    pub fn homes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let homes = self.sites.homes.iter().copied().chain(std::iter::repeat(0));
+        self.sites.list.iter().map(|site| site.node).zip(homes)
+    }
+
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
         self.sites.pushed.clear();

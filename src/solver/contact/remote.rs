@@ -130,14 +130,14 @@ impl Remote {
         &mut self,
         search: &mut dyn Search,
         problem: (&Layout, &[PlanePoint], f64),
-        sites: &Sites,
+        sites: &mut Sites,
         history: History,
         comm: &mut dyn Communicator,
     ) -> Arena {
         let (layout, watches, depth) = problem;
-        let homes = self.find_homes(sites, comm);
-        let history = self.forward(layout, sites, &homes, watches, history, comm);
-        let mut regional = self.send_out(layout, sites, &homes, comm);
+        sites.homes = self.find_homes(sites, comm);
+        let history = self.forward(layout, sites, watches, history, comm);
+        let mut regional = self.send_out(layout, sites, comm);
         let mine: BTreeSet<u32> = regional.own_edges.iter().copied().collect();
         let lists = [&regional.points, &regional.faces, &regional.edges];
         let found = neighbourhood::find(search, lists, |edge| mine.contains(&edge), layout);
@@ -165,14 +165,13 @@ impl Remote {
         &self,
         layout: &Layout,
         sites: &Sites,
-        homes: &[u32],
         watches: &[PlanePoint],
         history: History,
         comm: &mut dyn Communicator,
     ) -> History {
         let at = |point: u32| layout.edges.get(point as usize).map_or(0, |edge| edge.ends[0]);
         let first = self.route(history, |point| self.owner[point as usize], at, watches, comm);
-        let home = |point: u32| sites.of(point).map_or(0, |site| homes[site]);
+        let home = |point: u32| sites.of(point).map_or(0, |site| sites.homes[site]);
         self.route(first, home, at, watches, comm)
     }
 
@@ -221,9 +220,9 @@ impl Remote {
     }
 
     /// Sends points to their homes, and faces and edges to every home whose points they may meet.
-    fn send_out(&self, layout: &Layout, sites: &Sites, homes: &[u32], comm: &mut dyn Communicator) -> Regional {
+    fn send_out(&self, layout: &Layout, sites: &Sites, comm: &mut dyn Communicator) -> Regional {
         let size = comm.size();
-        let home = |point: u32| f64::from(sites.of(point).map_or(0, |site| homes[site]));
+        let home = |point: u32| f64::from(sites.of(point).map_or(0, |site| sites.homes[site]));
         let own = neighbourhood::point_boxes(sites);
         let edges = neighbourhood::edge_boxes(self.edges.iter().copied(), layout, sites);
         let faces = neighbourhood::face_boxes(self.faces.iter().copied(), layout, sites);

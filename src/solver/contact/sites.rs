@@ -35,6 +35,8 @@ pub struct Sites {
     pub answers: Vec<[f64; ANSWER]>,
     /// Sites with a force now, ascending.
     pub pushed: Vec<u32>,
+    /// Rank that computes the contact of each; empty on one rank.
+    pub homes: Vec<u32>,
     /// Work of normal and of friction forces so far.
     pub works: Vec<[f64; 2]>,
 }
