@@ -3,15 +3,16 @@
 mod files;
 mod memory;
 mod report;
+mod table;
 
 pub use files::{Files, keep_old_print_files};
 pub use report::{Display, Quiet};
 
-use crate::comm::Communicator;
+use crate::comm::{Communicator, Counted};
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
-use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
+use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
 use crate::partition::Decomposition;
 use crate::solver::contact::Contact;
@@ -102,6 +103,7 @@ pub enum RunError {
 /// # Errors
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
+    let comm = &mut Counted::new(comm);
     let mut solver = Solver::new(job.mesh, job.model, job.body, &job.decomposition.share(comm.rank()), comm);
     let mut writer = Writer::new(job, &solver, comm)?;
     writer.start(job, comm)?;
@@ -346,11 +348,11 @@ impl<'a> Writer<'a> {
     fn finish(
         mut self,
         solver: &mut Solver,
-        comm: &mut dyn Communicator,
+        comm: &mut Counted,
         wall: f64,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
-        let table = time_table(solver, comm, wall, self.elements);
+        let table = table::time_table(solver, comm, wall, self.elements);
         let totals = solver.totals(comm);
         let words = match &outcome {
             Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
@@ -411,29 +413,5 @@ fn together(outcome: Result<(), RunError>, comm: &mut dyn Communicator) -> Resul
     match outcome {
         Ok(()) if good[0] == 0.0 => Err(RunError::Elsewhere),
         outcome => outcome,
-    }
-}
-
-fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, elements: usize) -> TimeTable {
-    let mut sections = Vec::new();
-    for (section, name) in Section::ALL {
-        let mine = solver.clock.spent(section).as_secs_f64();
-        // Microseconds, as integers: their sum does not depend on the order.
-        let mut sum = [(mine * 1e6) as u64];
-        comm.all_sum(&mut sum);
-        let mut extremes = [mine, -mine];
-        comm.all_min(&mut extremes);
-        sections.push((name, extremes[0], sum[0] as f64 * 1e-6 / comm.size() as f64, -extremes[1]));
-    }
-    let own = solver.domain.element_file.len() as f64;
-    let mut extremes = [own, -own];
-    comm.all_min(&mut extremes);
-    TimeTable {
-        sections,
-        wall,
-        ranks: comm.size(),
-        elements_of_a_rank: [extremes[0] as u64, -extremes[1] as u64],
-        element_cycles: solver.step as f64 * elements as f64,
-        memory: memory::resident().map(|(_, most)| most),
     }
 }

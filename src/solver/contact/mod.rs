@@ -20,6 +20,7 @@ pub mod points;
 pub mod search;
 mod setup;
 pub mod surface;
+mod work;
 
 use super::body::Body;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
@@ -40,6 +41,7 @@ use search::SearchKind;
 use setup::{ABSENT, Layout, Pairings, Skin};
 
 pub use overlap::{Overlap, remove as remove_overlap};
+pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {

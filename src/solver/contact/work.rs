@@ -1,0 +1,20 @@
+//! What contact asks of this rank: for the log, and to price it on other machines.
+
+use super::Contact;
+
+/// Contact of one rank in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Points that this rank looks after.
+    pub points: u64,
+    /// Pairs of these points and faces that the last search left to be checked in detail.
+    pub candidates: u64,
+}
+
+impl Contact {
+    /// What the last step asked of this rank.
+    pub fn work(&self) -> Work {
+        let [_, candidates] = self.locator.counts();
+        Work { points: self.points.len() as u64, candidates: candidates as u64 }
+    }
+}
