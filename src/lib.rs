@@ -17,5 +17,6 @@ pub mod model;
 pub mod output;
 pub mod partition;
 pub mod run;
+pub mod scale;
 pub mod solver;
 pub mod view;

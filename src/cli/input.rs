@@ -25,10 +25,15 @@ pub struct Given {
 impl Given {
     /// Reads both, or returns every mistake of both.
     pub fn read(input: &options::Input) -> Result<Given, Failure> {
+        Given::read_for(input, None)
+    }
+
+    /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
+    pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
-        let source = Source::open(&deck)
+        let source = open(&deck, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
-        let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read_or_make(&path)?, path)));
+        let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read_or_make(&path, ranks)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
             (Ok(problem), Ok((mesh, mesh_path))) => Ok(Given { deck, mesh_path, problem, mesh }),
@@ -85,17 +90,26 @@ pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
         .ok_or_else(|| Failure::input(missing()))
 }
 
+/// Reads a text, in whose expressions the name `ranks` has this value, if there is one.
+fn open(path: &Path, ranks: Option<u32>) -> std::io::Result<Source> {
+    let source = Source::open(path)?;
+    Ok(match ranks {
+        Some(ranks) => source.with_value("ranks", ranks),
+        None => source,
+    })
+}
+
 /// The mesh of a file: read, or made when the file is a recipe.
-fn read_or_make(path: &Path) -> Result<Mesh, Failure> {
+fn read_or_make(path: &Path, ranks: Option<u32>) -> Result<Mesh, Failure> {
     if path.extension().is_some_and(|suffix| suffix == "mesh") {
-        return make_mesh(path, 1);
+        return make_mesh(path, 1, ranks);
     }
     read_mesh(path).map_err(Failure::input)
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
-pub fn make_mesh(recipe: &Path, refine: u32) -> Result<Mesh, Failure> {
-    let source = Source::open(recipe)
+pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh, Failure> {
+    let source = open(recipe, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
     let (mesh, found) =
         mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))?;

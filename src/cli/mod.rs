@@ -7,6 +7,7 @@ mod input;
 mod manual;
 mod options;
 mod run;
+mod scale;
 mod signals;
 mod terminal;
 mod verbs;
@@ -118,6 +119,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::View(options) => verbs::view(&options),
         Verb::Diff(options) => verbs::diff(&options),
+        Verb::Scale(options) => scale::scale(&options),
         Verb::Generate(options) => verbs::generate(&options),
     }
 }

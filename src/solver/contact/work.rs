@@ -2,19 +2,28 @@
 
 use super::Contact;
 
-/// Contact of one rank in a step.
+/// Contact of one rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Points that this rank looks after.
     pub points: u64,
     /// Pairs of these points and faces that the last search left to be checked in detail.
     pub candidates: u64,
+    /// Constraints of the last step.
+    pub constraints: u64,
+    /// Passes over the constraints of each step, in all steps so far.
+    pub passes: u64,
 }
 
 impl Contact {
-    /// What the last step asked of this rank.
+    /// What contact has asked of this rank.
     pub fn work(&self) -> Work {
         let [_, candidates] = self.locator.counts();
-        Work { points: self.points.len() as u64, candidates: candidates as u64 }
+        Work {
+            points: self.points.len() as u64,
+            candidates: candidates as u64,
+            constraints: self.constraints.len() as u64,
+            passes: self.tally.passes,
+        }
     }
 }
