@@ -63,12 +63,13 @@ fn introduce(given: &Given) {
 
 fn count(options: &options::Scale, given: &Given, body: &Body, ranks: u32) -> Result<Case, Failure> {
     let model = &given.problem.model;
-    scale::count(&given.mesh, model, body, ranks as usize, u64::from(options.steps)).map_err(|failure| match *failure {
-        RankFailure::Failed { error, .. } => {
-            Failure::run(format_args!("error: the run would stop: {error}\nhelp: {}", error.advice()))
-        }
-        other => Failure::run(format_args!("error: {other}")),
-    })
+    scale::count(&given.mesh, model, body, ranks as usize, machine(options).ranks_of_node, u64::from(options.steps))
+        .map_err(|failure| match *failure {
+            RankFailure::Failed { error, .. } => {
+                Failure::run(format_args!("error: the run would stop: {error}\nhelp: {}", error.advice()))
+            }
+            other => Failure::run(format_args!("error: {other}")),
+        })
 }
 
 /// The machine that was named, with what replaces its costs.

@@ -37,41 +37,52 @@ impl Traffic {
     ];
 }
 
+/// Messages in one direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Flow {
+    /// How many. A buffer with nothing in it is none.
+    pub messages: u64,
+    /// Bytes in them.
+    pub bytes: u64,
+    /// How many of these go from node to node.
+    pub far_bytes: u64,
+}
+
 /// What one rank sent and received from rank to rank, and its collective calls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Count {
-    /// Messages sent. A buffer with nothing in it is none.
-    pub sent: u64,
-    /// Bytes in them.
-    pub sent_bytes: u64,
-    /// Messages received.
-    pub received: u64,
-    /// Bytes in them.
-    pub received_bytes: u64,
+    /// What it sent.
+    pub sent: Flow,
+    /// What it received.
+    pub received: Flow,
     /// Collective calls.
     pub collectives: u64,
     /// Bytes that this rank sends in them, when a call is made of ⌈log₂ ranks⌉ rounds in which ranks talk in pairs.
     pub collective_bytes: u64,
 }
 
+impl Flow {
+    fn add(&mut self, bytes: usize, far: bool) {
+        self.messages += u64::from(bytes > 0);
+        self.bytes += bytes as u64;
+        self.far_bytes += if far { bytes as u64 } else { 0 };
+    }
+
+    fn and(self, other: Flow) -> Flow {
+        Flow {
+            messages: self.messages + other.messages,
+            bytes: self.bytes + other.bytes,
+            far_bytes: self.far_bytes + other.far_bytes,
+        }
+    }
+}
+
 impl Count {
-    fn send(&mut self, bytes: usize) {
-        self.sent += u64::from(bytes > 0);
-        self.sent_bytes += bytes as u64;
-    }
-
-    fn receive(&mut self, bytes: usize) {
-        self.received += u64::from(bytes > 0);
-        self.received_bytes += bytes as u64;
-    }
-
     /// Both together.
     pub fn and(self, other: Count) -> Count {
         Count {
-            sent: self.sent + other.sent,
-            sent_bytes: self.sent_bytes + other.sent_bytes,
-            received: self.received + other.received,
-            received_bytes: self.received_bytes + other.received_bytes,
+            sent: self.sent.and(other.sent),
+            received: self.received.and(other.received),
             collectives: self.collectives + other.collectives,
             collective_bytes: self.collective_bytes + other.collective_bytes,
         }
@@ -99,14 +110,21 @@ pub struct Counted<'a> {
     inner: &'a mut dyn Communicator,
     part: Traffic,
     rounds: u64,
+    node: usize,
+    ranks_of_node: usize,
     counts: Counts,
 }
 
 impl<'a> Counted<'a> {
-    /// Counts what goes through `inner`.
+    /// Counts what goes through `inner`; every rank is a node of its own.
     pub fn new(inner: &'a mut dyn Communicator) -> Counted<'a> {
-        let rounds = u64::from(rounds(inner.size()));
-        Counted { inner, part: Traffic::Setup, rounds, counts: Counts::default() }
+        Counted::on_nodes(inner, 1)
+    }
+
+    /// Counts what goes through `inner`, when so many consecutive ranks, at least one, are on each node.
+    pub fn on_nodes(inner: &'a mut dyn Communicator, ranks_of_node: usize) -> Counted<'a> {
+        let (rounds, node) = (u64::from(rounds(inner.size())), inner.rank() / ranks_of_node);
+        Counted { inner, part: Traffic::Setup, rounds, node, ranks_of_node, counts: Counts::default() }
     }
 
     /// What was counted so far.
@@ -116,6 +134,16 @@ impl<'a> Counted<'a> {
 
     fn count(&mut self) -> &mut Count {
         &mut self.counts.0[self.part as usize]
+    }
+
+    fn sends(&mut self, to: usize, bytes: usize) {
+        let far = to / self.ranks_of_node != self.node;
+        self.count().sent.add(bytes, far);
+    }
+
+    fn receives(&mut self, from: usize, bytes: usize) {
+        let far = from / self.ranks_of_node != self.node;
+        self.count().received.add(bytes, far);
     }
 
     /// A collective call in which this rank sends so many bytes in all. Alone there is nobody to call.
@@ -153,15 +181,13 @@ impl Communicator for Counted<'_> {
     }
 
     fn start_exchange(&mut self, peers: &mut [Peer]) {
-        let count = self.count();
-        peers.iter().for_each(|peer| count.send(bytes(&peer.send)));
+        peers.iter().for_each(|peer| self.sends(peer.rank, bytes(&peer.send)));
         self.inner.start_exchange(peers);
     }
 
     fn finish_exchange(&mut self, peers: &mut [Peer]) {
         self.inner.finish_exchange(peers);
-        let count = self.count();
-        peers.iter().for_each(|peer| count.receive(bytes(&peer.receive)));
+        peers.iter().for_each(|peer| self.receives(peer.rank, bytes(&peer.receive)));
     }
 
     fn all_min(&mut self, values: &mut [f64]) {
@@ -177,11 +203,9 @@ impl Communicator for Counted<'_> {
     fn sparse_exchange(&mut self, outgoing: Vec<(usize, Vec<u8>)>) -> Vec<(usize, Vec<u8>)> {
         // Who sends to whom is folded first: half of one number a rank, then a quarter, and so on.
         self.collective(8 * (self.inner.size() as u64 - 1));
-        let count = self.count();
-        outgoing.iter().for_each(|(_, bytes)| count.send(bytes.len()));
+        outgoing.iter().for_each(|(to, bytes)| self.sends(*to, bytes.len()));
         let incoming = self.inner.sparse_exchange(outgoing);
-        let count = self.count();
-        incoming.iter().for_each(|(_, bytes)| count.receive(bytes.len()));
+        incoming.iter().for_each(|(from, bytes)| self.receives(*from, bytes.len()));
         incoming
     }
 
@@ -215,7 +239,7 @@ mod tests {
     #[test]
     fn every_kind_of_call_is_counted_in_its_part() {
         let counts = run_threads(4, |inner| {
-            let comm = &mut Counted::new(inner);
+            let comm = &mut Counted::on_nodes(inner, 2);
             let rank = comm.rank();
             comm.all_sum(&mut [1, 2, 3]);
             comm.enter(Traffic::Elements);
@@ -239,13 +263,16 @@ mod tests {
             let setup = counts.of(Traffic::Setup);
             assert_eq!(setup, Count { collectives: 1, collective_bytes: 2 * 24, ..Count::default() });
             let elements = counts.of(Traffic::Elements);
-            assert_eq!((elements.sent, elements.sent_bytes), (u64::from(rank > 0), 8 * rank));
-            assert_eq!((elements.received, elements.received_bytes), (u64::from(from > 0), 8 * from));
+            assert_eq!((elements.sent.messages, elements.sent.bytes), (u64::from(rank > 0), 8 * rank));
+            assert_eq!((elements.received.messages, elements.received.bytes), (u64::from(from > 0), 8 * from));
+            // Ranks 1 and 3 end a node.
+            assert_eq!(elements.sent.far_bytes, if rank % 2 == 1 { 8 * rank } else { 0 });
+            assert_eq!(elements.received.far_bytes, if from % 2 == 1 { 8 * from } else { 0 });
             let search = counts.of(Traffic::ContactSearch);
-            assert_eq!((search.sent, search.sent_bytes), (2, 7));
+            assert_eq!((search.sent.messages, search.sent.bytes), (2, 7));
             // Each hears from the one before; rank 0 also from all four, itself included.
             let [others, heard] = if rank == 0 { [4, 22] } else { [0, 2] };
-            assert_eq!((search.received, search.received_bytes), (1 + others, heard));
+            assert_eq!((search.received.messages, search.received.bytes), (1 + others, heard));
             assert_eq!((search.collectives, search.collective_bytes), (1, 24));
             let output = counts.of(Traffic::Output);
             assert_eq!(output, Count { collectives: 3, collective_bytes: 20, ..Count::default() });

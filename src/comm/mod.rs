@@ -14,7 +14,7 @@ mod spread;
 mod threads;
 mod wait;
 
-pub use counted::{Count, Counted, Counts, Traffic, rounds};
+pub use counted::{Count, Counted, Counts, Flow, Traffic, rounds};
 pub use exact_sum::ExactSum;
 pub use launch::{RankFailure, launched_by_mpi, run_threads};
 pub use serial::Serial;

@@ -40,8 +40,8 @@ fn balance(solver: &Solver, comm: &mut Counted) -> Vec<Balance> {
     ];
     for (part, name) in Traffic::ALL.into_iter().filter(|(part, _)| *part != Traffic::Setup) {
         let count = counts.of(part);
-        rows.push((format!("MESSAGES FOR {name}"), count.sent, prepared));
-        rows.push((format!("BYTES FOR {name}"), count.sent_bytes, prepared));
+        rows.push((format!("MESSAGES FOR {name}"), count.sent.messages, prepared));
+        rows.push((format!("BYTES FOR {name}"), count.sent.bytes, prepared));
         rows.push((format!("CALLS OF ALL FOR {name}"), count.collectives, prepared));
     }
     let own: Vec<u64> = rows.iter().map(|row| row.1).collect();

@@ -52,7 +52,8 @@ impl RankWork {
     }
 }
 
-/// Takes the first steps of a problem on ranks that are threads, and counts. No file is written.
+/// Takes the first steps of a problem on ranks that are threads, and counts; so many ranks are taken to be on each node
+/// of a machine. No file is written.
 ///
 /// # Errors
 /// When the problem stops before these steps are done, or a thread cannot be had.
@@ -61,13 +62,14 @@ pub fn count(
     model: &Model,
     body: &Body,
     ranks: usize,
+    ranks_of_node: usize,
     steps: u64,
 ) -> Result<Case, Box<RankFailure<Stop>>> {
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
     let work = run_threads(ranks, |inner| {
-        let comm = &mut Counted::new(inner);
+        let comm = &mut Counted::on_nodes(inner, ranks_of_node);
         let mut solver = Solver::new(mesh, model, body, &decomposition.share(comm.rank()), comm);
         count_rank(&mut solver, steps, comm)
     })?;

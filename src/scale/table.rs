@@ -52,8 +52,8 @@ impl Row {
             contact_points: in_a_step(&|rank| rank.contact_points),
             candidates: in_a_step(&|rank| rank.candidates),
             corrections: in_a_step(&|rank| rank.corrections),
-            messages: in_a_step(&|rank| rank.of_steps().sent),
-            bytes: in_a_step(&|rank| rank.of_steps().sent_bytes),
+            messages: in_a_step(&|rank| rank.of_steps().sent.messages),
+            bytes: in_a_step(&|rank| rank.of_steps().sent.bytes),
             collectives: in_a_step(&|rank| rank.of_steps().collectives).most,
             price: machine.price(case),
             efficiency: 1.0,
@@ -144,10 +144,12 @@ fn assumed(machine: &Machine) -> String {
         [machine.element, machine.contact_point, machine.candidate, machine.correction].map(|s| 1e9 * s);
     format!(
         "machine {}: element {element:.0} ns, contact node {point:.1} ns, pair {candidate:.1} ns, constraint in a pass \
-         {correction:.1} ns,\nlatency {:.2} us, bandwidth of a rank {:.1} MB/s\n",
+         {correction:.1} ns,\nlatency {:.2} us, bandwidth of a rank {:.1} MB/s, and {:.1} MB/s among the {} ranks of a node\n",
         machine.name,
         1e6 * machine.latency,
-        1e-6 * machine.bandwidth
+        1e-6 * machine.bandwidth,
+        1e-6 * machine.node_bandwidth,
+        machine.ranks_of_node
     )
 }
 
