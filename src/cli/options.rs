@@ -210,13 +210,13 @@ pub struct Scale {
     #[arg(long, value_name = "NAME", default_value = "cluster")]
     pub machine: MachineName,
     /// Microseconds for an element in a step; the costs of contact change in proportion
-    #[arg(long, value_name = "US", value_parser = cost)]
+    #[arg(long, value_name = "US", value_parser = cost, allow_negative_numbers = true)]
     pub element_cost: Option<f64>,
     /// Microseconds for a message, whatever its length
-    #[arg(long, value_name = "US", value_parser = cost)]
+    #[arg(long, value_name = "US", value_parser = cost, allow_negative_numbers = true)]
     pub latency: Option<f64>,
     /// Megabytes a second that one rank can send while all others send too
-    #[arg(long, value_name = "MB/S", value_parser = cost)]
+    #[arg(long, value_name = "MB/S", value_parser = cost, allow_negative_numbers = true)]
     pub bandwidth: Option<f64>,
     /// Writes the table as comma-separated values too, in seconds and bytes
     #[arg(long, value_name = "FILE")]
