@@ -345,6 +345,8 @@ fn the_meshes_that_are_provided() {
         ("two_waves", 401 * 4, 400, &[(1, 4), (2, 4), (3, 1604), (4, 1604)], &[(100, 1), (200, 1)]),
         ("uniaxial_wave", 401 * 4, 400, &[(1, 4), (2, 4), (3, 1604), (4, 1604)], &[(100, 1), (200, 1)]),
         ("wall_bar", 51 * 4, 50, &[(1, 4), (2, 4), (3, 204), (4, 204)], &[(100, 1), (200, 1)]),
+        ("wall_bar_cut", 51 * 4, 50, &[], &[(100, 1)]),
+        ("wall_bar_further", 51 * 4, 50, &[(1, 4), (2, 4), (3, 204), (4, 204)], &[(100, 1), (200, 1)]),
     ];
     let names: Vec<_> =
         files("meshes", "mesh").iter().map(|path| path.file_stem().map(|s| s.to_string_lossy().into_owned())).collect();

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
+use urto::exodus;
 
 /// The interpreter on the PATH need not be the one that the system's packages belong to.
 const INTERPRETERS: [&str; 2] = ["python3", "/usr/bin/python3"];
@@ -37,10 +38,15 @@ fn ran() -> Desk {
 
 /// What a library sees, or why no interpreter could tell.
 fn read_with(library: &str, results: &Path) -> Result<Seen, String> {
+    let out = run_script("tests/python/read_results.py", &[Path::new(library), results])?;
+    Ok(out.lines().filter_map(line).collect())
+}
+
+/// What a script prints, or why no interpreter could run it.
+fn run_script(script: &str, arguments: &[&Path]) -> Result<String, String> {
     let mut missing = Vec::new();
     for interpreter in INTERPRETERS {
-        let script = project("tests/python/read_results.py");
-        let left = match Command::new(interpreter).arg(script).arg(library).arg(results).output() {
+        let left = match Command::new(interpreter).arg(project(script)).args(arguments).output() {
             Err(why) => {
                 missing.push(format!("{interpreter}: {why}"));
                 continue;
@@ -49,9 +55,9 @@ fn read_with(library: &str, results: &Path) -> Result<Seen, String> {
         };
         let (out, err) = (String::from_utf8_lossy(&left.stdout), String::from_utf8_lossy(&left.stderr));
         match left.status.code() {
-            Some(0) => return Ok(out.lines().filter_map(line).collect()),
+            Some(0) => return Ok(out.into_owned()),
             Some(3) => missing.push(format!("{interpreter}: {}", err.trim())),
-            _ => panic!("{interpreter} cannot read {} with {library}:\n{out}{err}", results.display()),
+            _ => panic!("{interpreter} {script} {arguments:?}:\n{out}{err}"),
         }
     }
     Err(missing.join("; "))
@@ -120,5 +126,26 @@ fn vtk_reads_our_results() {
     match read_with("vtk", &desk.path("two.e")) {
         Ok(seen) => compare(&desk, &seen),
         Err(why) => skipped("VTK", &why),
+    }
+}
+
+/// More ranks than elements along any axis, and so many that some pieces are empty.
+#[test]
+fn netcdf4_joins_our_pieces_by_their_numbers() {
+    let desk = ran();
+    for ranks in [3, 40] {
+        desk.urto(&["two.i", "-q", "--split", "--ranks", &ranks.to_string(), "-o", "split"]).with(0);
+        let whole = desk.path("two.e");
+        let pieces: Vec<_> =
+            (0..ranks).map(|rank| exodus::pieces::piece_path(&desk.path("split.e"), ranks, rank)).collect();
+        let files: Vec<&Path> = [&whole].into_iter().chain(&pieces).map(|path| path.as_path()).collect();
+        match run_script("tests/python/join_pieces.py", &files) {
+            // Six variables at 60 nodes at least, seven in 24 elements, in six states.
+            Ok(out) => {
+                let compared: usize = out.split_whitespace().next().and_then(|n| n.parse().ok()).unwrap_or(0);
+                assert!(compared >= 6 * (6 * 60 + 7 * 24), "{out}");
+            }
+            Err(why) => skipped("netCDF4", &why),
+        }
     }
 }

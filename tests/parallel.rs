@@ -3,13 +3,12 @@
 
 mod program;
 
-use program::{Desk, Left, URTO, project};
-use std::process::Command;
+use program::{Desk, Left, URTO, mpiexec, project};
 use urto::exodus::{self, Tolerance};
 use urto::mesher;
 
 /// Numbers of thread ranks that are held against one rank.
-const RANKS: [usize; 5] = [2, 3, 5, 8, 64];
+const RANKS: [usize; 6] = [2, 3, 4, 7, 16, 64];
 
 /// Commands that the short run replaces.
 const TIMES: [&str; 3] = ["TERMINATION TIME", "OUTPUT TIME", "PLOT TIME"];
@@ -53,6 +52,24 @@ fn desk(deck: &str, recipe: &str) -> Desk {
     let desk = Desk::new();
     desk.put("case.i", deck);
     let mesh = mesher::make(&text(recipe), recipe, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    desk.put_mesh("case.g", &mesh);
+    desk
+}
+
+/// A deck with another end and a coarser mesh: `(from, to)` are words of its recipe.
+fn lighter(name: &str, end: f64, words: &[(&str, &str)]) -> Desk {
+    let deck = text(&format!("decks/{name}.i"));
+    let rest = deck.lines().filter(|line| !TIMES.iter().any(|times| line.starts_with(times)) && *line != "EXIT");
+    let mut deck: String = rest.map(|line| format!("{line}\n")).collect();
+    deck += &format!("TERMINATION TIME, {end:e}\nOUTPUT TIME, {:e}\nPLOT TIME, {0:e}\nEXIT\n", end / 12.0);
+    let mut recipe = text(&format!("meshes/{name}.mesh"));
+    for (from, to) in words {
+        assert!(recipe.contains(from), "the recipe is as this test knows it");
+        recipe = recipe.replace(from, to);
+    }
+    let desk = Desk::new();
+    desk.put("case.i", &deck);
+    let mesh = mesher::make(&recipe, name, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
     desk.put_mesh("case.g", &mesh);
     desk
 }
@@ -121,21 +138,6 @@ fn over_mpi(desk: &Desk, ranks: usize, arguments: &[&str]) -> Option<Left> {
     Some(Left::of(command.output().expect("mpiexec starts")))
 }
 
-fn mpiexec(ranks: usize) -> Option<Command> {
-    if !cfg!(feature = "mpi") || Command::new("mpiexec").arg("--version").output().is_err() {
-        return None;
-    }
-    let mut command = Command::new("mpiexec");
-    command.args(["-n", &ranks.to_string()]);
-    // Open MPI refuses root and more ranks than cores otherwise; other libraries ignore these.
-    for permission in ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"]
-    {
-        command.env(permission, "1");
-    }
-    command.env("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe");
-    Some(command)
-}
-
 #[test]
 fn plastic_bar_under_pressure_on_a_rough_wall() {
     on_any_number_of_ranks(&taylor_bar());
@@ -157,6 +159,37 @@ fn swinging_cantilever() {
 }
 
 #[test]
+fn bricks_scatter() {
+    let words = [("6, 35, 6", "3, 15, 3"), ("6, 3, 3", "3, 2, 2"), ("3, 3, 3", "2, 2, 2"), ("38, 4, 42", "10, 2, 12")];
+    on_any_number_of_ranks(&lighter("brick_wall", 1e-3, &words));
+    // A search at every step: the decomposition follows the points all the time.
+    let desk = lighter("brick_wall", 3e-4, &words);
+    let deck = desk.text("case.i").replace("CONTACT MATERIAL\n", "CONTACT MATERIAL\nCONTACT SEARCH, GRID, 0., 0.\n");
+    desk.put("case.i", &deck);
+    reference(&desk);
+    for ranks in ["2", "7"] {
+        desk.urto(&["case.i", "-q", "--ranks", ranks, "-o", "many"]).with(0);
+        assert_same(&desk, "many");
+    }
+}
+
+#[test]
+fn a_can_folds() {
+    let words = [("3,       40,     40", "2, 16, 20"), ("28, 28, 3", "10, 8, 2")];
+    on_any_number_of_ranks(&lighter("can_crush", 1.2e-3, &words));
+}
+
+#[test]
+fn a_plate_erodes() {
+    let words = [
+        ("10, 12, QUARTER", "4, 4, QUARTER"),
+        ("24,      20,     12", "6, 8, 4"),
+        ("5, 60, QUARTER", "2, 16, QUARTER"),
+    ];
+    on_any_number_of_ranks(&lighter("perforation", 120e-6, &words));
+}
+
+#[test]
 fn more_ranks_than_elements() {
     let desk = Desk::new();
     program::put_bar(&desk, 1e-4, "RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1.\n");
@@ -167,6 +200,32 @@ fn more_ranks_than_elements() {
         desk.urto(&["case.i", "--ranks", ranks, "-q", "-o", "many"]).with(0);
         assert_same(&desk, "many");
     }
+}
+
+/// Processes read a mesh of this size in slabs, and a deck without one fails on all of them.
+#[test]
+fn a_mesh_read_in_slabs_over_mpi() {
+    let desk = Desk::new();
+    program::put_bar(
+        &desk,
+        2e-6,
+        "PLOT TIME, 5.E-7\nOUTPUT TIME, 1.E-7\nNO DISPLACEMENT, Z, 3\nPRESSURE, 200, 1, 1.E6\nFUNCTION, 1\n0., 1.\nEND\n",
+    );
+    desk.put_mesh("bar.g", &program::box_mesh([24, 24, 60], [0.01, 0.01, 0.025], false));
+    std::fs::rename(desk.path("bar.i"), desk.path("case.i")).expect("a deck");
+    std::fs::rename(desk.path("bar.g"), desk.path("case.g")).expect("a mesh");
+    if over_mpi(&desk, 1, &["check", "case.i"]).is_none() {
+        return;
+    }
+    reference(&desk);
+    over_mpi(&desk, 3, &["case.i", "-q", "-o", "mpi"]).expect("it ran before").with(0);
+    assert_same(&desk, "mpi");
+    std::fs::remove_file(desk.path("case.g")).expect("a mesh");
+    let left = over_mpi(&desk, 3, &["case.i", "-q"]).expect("it ran before").with(2);
+    assert_eq!(left.err.matches("error: no mesh for").count(), 1, "{}", left.err);
+    std::fs::write(desk.path("case.g"), vec![b'x'; 1 << 20]).expect("a file");
+    let left = over_mpi(&desk, 3, &["case.i", "-q"]).expect("it ran before").with(2);
+    assert_eq!(left.err.matches("this is no EXODUS file").count(), 1, "{}", left.err);
 }
 
 #[test]

@@ -3,7 +3,9 @@
 use super::terminal::complain;
 use super::{Failure, options};
 use crate::deck::{Diagnostics, Source};
-use crate::exodus::read_mesh;
+use crate::exodus::{MeshError, read_mesh};
+#[cfg(feature = "mpi")]
+use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
 use crate::model::{Problem, examine};
@@ -30,10 +32,33 @@ impl Given {
 
     /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
     pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
+        Given::read_with(input, ranks, &mut |path| read_or_make(path, ranks, &mut read_mesh))
+    }
+
+    /// The same on every process of a job; they read the mesh together.
+    #[cfg(feature = "mpi")]
+    pub fn read_together(input: &options::Input, together: &mut dyn Together) -> Result<Given, Failure> {
+        // Where one process does not come as far as the mesh, none may wait for it there.
+        let ready =
+            deck_path(&input.deck).and_then(|deck| mesh_path(&deck, input.mesh.as_deref()).map(|mesh| (deck, mesh)));
+        let ready = ready.is_ok_and(|(deck, mesh)| Source::open(&deck).is_ok() && !is_recipe(&mesh));
+        if !together.same(ready.then_some(0)) {
+            return Given::read(input);
+        }
+        Given::read_with(input, None, &mut |path| {
+            read_or_make(path, None, &mut |path| read_mesh_together(path, together))
+        })
+    }
+
+    fn read_with(
+        input: &options::Input,
+        ranks: Option<u32>,
+        read: &mut dyn FnMut(&Path) -> Result<Mesh, Failure>,
+    ) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
         let source = open(&deck, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
-        let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read_or_make(&path, ranks)?, path)));
+        let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
             (Ok(problem), Ok((mesh, mesh_path))) => Ok(Given { deck, mesh_path, problem, mesh }),
@@ -100,11 +125,16 @@ fn open(path: &Path, ranks: Option<u32>) -> std::io::Result<Source> {
 }
 
 /// The mesh of a file: read, or made when the file is a recipe.
-fn read_or_make(path: &Path, ranks: Option<u32>) -> Result<Mesh, Failure> {
-    if path.extension().is_some_and(|suffix| suffix == "mesh") {
-        return make_mesh(path, 1, ranks);
-    }
-    read_mesh(path).map_err(Failure::input)
+fn read_or_make(
+    path: &Path,
+    ranks: Option<u32>,
+    read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
+) -> Result<Mesh, Failure> {
+    if is_recipe(path) { make_mesh(path, 1, ranks) } else { read(path).map_err(Failure::input) }
+}
+
+fn is_recipe(path: &Path) -> bool {
+    path.extension().is_some_and(|suffix| suffix == "mesh")
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.

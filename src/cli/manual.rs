@@ -101,7 +101,7 @@ The deck, see
 .BR urto\-deck (5).
 .TP
 .B BASE.g
-The mesh: GENESIS with eight\-node hexahedra, EXODUS II in any netCDF format, or EXODUS I.
+The mesh: GENESIS with hexahedra (HEX8), wedges (WEDGE6) and pyramids (PYRAMID5), EXODUS II in any netCDF format, or EXODUS I.
 .TP
 .B BASE.mesh
 A recipe, from which
@@ -118,6 +118,14 @@ Older ones are kept as BASE.o.1, BASE.o.2 and so on.
 The plot states, EXODUS II: for ParaView, VTK, netCDF and
 .BR "urto view" .
 It can be read at any instant, also while the run goes on and after it was killed.
+.TP
+.B BASE.e.N.0 \fRto\fP BASE.e.N.N-1
+With
+.BR \-\-split ,
+the pieces of the plot states, one for each of N ranks, numbered in as many digits as N has: EXODUS with the arrays of
+Nemesis.
+.B urto join BASE.e
+makes BASE.e of them.
 .TP
 .B BASE.h
 Histories of the points of MATERIAL POINT, if the deck has any: an EXODUS file of the watched elements, with one state per
@@ -187,6 +195,9 @@ What each rank would do and say on so many ranks, and what a step would cost on 
 .B urto scale decks/bending_beam_scaled.i \-\-scaled
 The same with a mesh that grows: its recipe uses the name
 .BR ranks .
+.TP
+.B mpiexec \-n 16 urto decks/taylor_bar.i \-\-split; urto join taylor_bar.e
+Every process writes its own results, which then become one file.
 .TP
 .B urto diff a.e b.e \-\-tolerance 1e\-6 \-\-floor 1e\-12
 Whether two runs agree to six digits.

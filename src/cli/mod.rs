@@ -6,6 +6,7 @@ mod display;
 mod input;
 mod manual;
 mod options;
+mod restart;
 mod run;
 mod scale;
 mod signals;
@@ -120,6 +121,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::View(options) => verbs::view(&options),
         Verb::Diff(options) => verbs::diff(&options),
         Verb::Scale(options) => scale::scale(&options),
+        Verb::Join(options) => verbs::join(&options),
         Verb::Generate(options) => verbs::generate(&options),
     }
 }

@@ -44,6 +44,7 @@ pub enum Verb {
     View(View),
     Diff(Diff),
     Scale(Scale),
+    Join(Join),
     #[command(hide = true)]
     Generate(Generate),
 }
@@ -62,7 +63,8 @@ pub struct Input {
 ///
 /// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2
 /// and so on. Results are the same to the bit on any number of ranks. To stop a run in good order, create a file
-/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves.
+/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves. With WRITE RESTART in the deck
+/// it also leaves x.rsout, from which --restart or READ RESTART goes on.
 #[derive(Debug, Args)]
 pub struct Run {
     /// Where deck and mesh are.
@@ -75,6 +77,12 @@ pub struct Run {
     /// deck's name, here
     #[arg(short, long, value_name = "BASE")]
     pub output: Option<PathBuf>,
+    /// Each rank writes its piece of the plot states, x.e.4.0 to x.e.4.3 on four ranks; `urto join` joins them
+    #[arg(long)]
+    pub split: bool,
+    /// The restart file to go on from; else, when the deck has READ RESTART, x.rsin or x.rsout
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
     /// Nothing on the terminal but errors
     #[arg(short, long)]
     pub quiet: bool,
@@ -236,6 +244,20 @@ pub enum MachineName {
 fn cost(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
     number.ok_or_else(|| "expected a number above 0".to_string())
+}
+
+/// Joins the pieces that `run --split` wrote
+///
+/// The joined file is the one that a run without --split writes. All pieces must be there; states that not all of them
+/// have, as a killed run leaves, are left out. The pieces stay. They have the form of Nemesis, so that other programs read
+/// and join them too.
+#[derive(Debug, Args)]
+pub struct Join {
+    /// What is in pieces, x.e, or one of the pieces, x.e.4.0
+    pub pieces: PathBuf,
+    /// The file to write; else x.e beside the pieces
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Prints man pages and shell completions.

@@ -3,11 +3,11 @@
 use super::input::Given;
 use super::signals::Wishes;
 use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, date, display, options};
+use super::{DONE, FAILED, Failure, date, display, options, restart};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::scientific;
 use crate::partition::Decomposition;
-use crate::run::{self, Display, Ended, Files, Job, Quiet, RunError};
+use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -27,18 +27,28 @@ struct Prepared {
     body: Body,
     ranks: usize,
     files: Files,
+    split: bool,
+    continuation: Option<Continuation>,
     banner: Vec<String>,
     qa: [String; 4],
     clock: [Instant; 2],
 }
 
 impl Prepared {
-    fn new(options: &options::Run, ranks: usize, transport: &str) -> Result<Prepared, Failure> {
+    fn new(
+        options: &options::Run,
+        ranks: usize,
+        transport: &str,
+        read: impl FnOnce(&options::Input) -> Result<Given, Failure>,
+    ) -> Result<Prepared, Failure> {
         let begun = Instant::now();
-        let given = Given::read(&options.input)?;
+        let given = read(&options.input)?;
         let clock = [begun, Instant::now()];
         let body = Body::new(&given.mesh, &given.problem.model);
         let base = base(options.output.as_deref(), &given.deck);
+        let found = restart::find(options, &given, &body, &base)?;
+        let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
+        let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
         let (day, date, time) = date::now();
         let banner = vec![
             format!("urto {}   {}", env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_DESCRIPTION")),
@@ -50,7 +60,8 @@ impl Prepared {
             format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
-        Ok(Prepared { given, body, ranks, files: Files::of(&base), banner, qa, clock })
+        let split = options.split;
+        Ok(Prepared { given, body, ranks, files, split, continuation, banner, qa, clock })
     }
 
     /// Makes room for the results: their folder, and the old print log out of the way.
@@ -78,6 +89,9 @@ impl Prepared {
             self.given.problem.model.title.trim(),
             ranks_in_words(self.ranks)
         ));
+        if let Some(continuation) = &self.continuation {
+            say(continuation.in_words());
+        }
     }
 }
 
@@ -118,7 +132,9 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         qa: prepared.qa.clone(),
         files: &prepared.files,
         body: &prepared.body,
+        continuation: prepared.continuation.as_ref(),
         decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
+        split: prepared.split,
         wish,
     })
 }
@@ -136,7 +152,7 @@ fn screen(prepared: &Prepared, quiet: bool) -> Box<dyn Display + Send> {
 fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let ranks = options.ranks.map_or(cores, |n| n as usize);
-    let prepared = Prepared::new(options, ranks, "threads")?;
+    let prepared = Prepared::new(options, ranks, "threads", Given::read)?;
     prepared.make_room()?;
     prepared.announce(options.quiet);
     let wishes = listen(&prepared)?;
@@ -157,6 +173,29 @@ fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     }
 }
 
+/// The processes of a job, as readers of one file.
+#[cfg(feature = "mpi")]
+struct Processes<'a>(&'a mut comm::mpi::World);
+
+#[cfg(feature = "mpi")]
+impl crate::exodus::Together for Processes<'_> {
+    fn place(&self) -> (usize, usize) {
+        use crate::comm::Communicator;
+        (self.0.rank(), self.0.size())
+    }
+
+    /// Through the first process, one slab after the other, so that no process holds more than one beside its own.
+    fn all(&mut self, own: Vec<u8>, take: &mut dyn FnMut(&[u8])) {
+        use crate::comm::Communicator;
+        let mut slabs = self.0.gather(own).unwrap_or_default().into_iter();
+        for _ in 0..self.0.size() {
+            let mut slab = slabs.next().unwrap_or_default();
+            self.0.broadcast(&mut slab);
+            take(&slab);
+        }
+    }
+}
+
 #[cfg(feature = "mpi")]
 fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     use crate::comm::Communicator;
@@ -169,7 +208,8 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
             Failure::input("error: under mpiexec the number of ranks is that of its processes; leave --ranks out"),
         );
     }
-    let prepared = Prepared::new(options, ranks, "MPI processes").and_then(|prepared| {
+    let read = |input: &options::Input| Given::read_together(input, &mut Processes(&mut world));
+    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|prepared| {
         if rank == 0 {
             prepared.make_room()?;
             prepared.announce(options.quiet);
@@ -240,7 +280,18 @@ fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
             scientific(ended.energy_error, 1)
         ));
         let (plot, print) = (prepared.files.plot.display(), prepared.files.print.display());
-        say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        if prepared.split {
+            let ranks = prepared.ranks;
+            say(format_args!(
+                "{} plot states: {plot}.{ranks}.*, which urto join {plot} joins   log: {print}",
+                ended.states
+            ));
+        } else {
+            say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        }
+        if ended.restart {
+            say(format_args!("to go on from here: {}", prepared.files.restart.display()));
+        }
     }
     match ended.by {
         Request::Continue | Request::Shutdown => DONE,

@@ -1,7 +1,7 @@
-//! The smaller verbs: explain, mesh, view, diff, generate.
+//! The smaller verbs: explain, mesh, view, diff, join, generate.
 
 use super::options::{self, Generated};
-use super::terminal::say;
+use super::terminal::{complain, say};
 use super::{DONE, FAILED, Failure};
 use crate::output::GLOBAL_VARIABLES;
 use crate::view::{Direction, StateChoice, ViewOptions};
@@ -114,6 +114,25 @@ pub fn diff(options: &options::Diff) -> Result<u8, Failure> {
     let comparison = exodus::compare(&options.first, &options.second, &tolerance).map_err(Failure::input_error)?;
     say(&comparison);
     Ok(if comparison.is_same() { DONE } else { FAILED })
+}
+
+/// `urto join`
+pub fn join(options: &options::Join) -> Result<u8, Failure> {
+    use exodus::pieces;
+    let (whole, found) = pieces::pieces_of(&options.pieces).map_err(Failure::input_error)?;
+    let output = options.output.as_ref().unwrap_or(&whole);
+    if found.contains(output) {
+        return Err(Failure::input(format_args!("error: {} is one of the pieces itself", output.display())));
+    }
+    let joined = pieces::join(&found, output).map_err(Failure::input_error)?;
+    if joined.most > joined.states {
+        complain(format_args!(
+            "warning: some pieces have {} states, others {}: the run ended while it wrote; the {} that all have are joined",
+            joined.most, joined.states, joined.states
+        ));
+    }
+    say(format_args!("{}: {} states from {} pieces", output.display(), joined.states, joined.pieces));
+    Ok(DONE)
 }
 
 /// `urto generate`

@@ -15,7 +15,7 @@ pub enum Traffic {
     Erosion,
     /// Finding what contact has to look at: who treats which points and faces.
     ContactSearch,
-    /// Positions and velocities of contact points, once a step.
+    /// Motion to where contact is computed, and forces back, once a step.
     ContactMotion,
     /// Contact forces, in every pass.
     ContactPasses,

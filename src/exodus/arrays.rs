@@ -1,7 +1,8 @@
 //! The netCDF library seen as named arrays: what the EXODUS readers ask of a file, with errors that name the array.
 
 use netcdf::types::{FloatType, IntType, NcTypeDescriptor, NcVariableType};
-use netcdf::{AttributeValue, Extents, Variable};
+use netcdf::{AttributeValue, Extent, Extents, Variable};
+use std::ops::Range;
 use std::path::Path;
 
 /// A netCDF file opened for reading.
@@ -75,6 +76,21 @@ impl Arrays {
         }
     }
 
+    /// The rows of a variable of integers from one to another.
+    pub fn rows_of_integers(&self, name: &str, rows: Range<usize>) -> Result<Vec<i64>, Reason> {
+        let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
+        match variable.vartype() {
+            NcVariableType::Int(_) => self.get(&variable, name, &part(&variable, rows)),
+            other => Err(format!("{name} holds {}, integers belong there", kind(&other))),
+        }
+    }
+
+    /// The rows of a variable of numbers from one to another.
+    pub fn rows_of_reals(&self, name: &str, rows: Range<usize>) -> Result<Vec<f64>, Reason> {
+        let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
+        self.part_of_reals(name, &part(&variable, rows))
+    }
+
     /// A whole variable of numbers of any precision; `None` if it does not exist.
     pub fn reals(&self, name: &str) -> Result<Option<Vec<f64>>, Reason> {
         if !self.has(name) {
@@ -95,13 +111,18 @@ impl Arrays {
     /// A variable of characters as trimmed texts, one per row of its last dimension.
     /// Missing or strange ones give nothing: texts are never needed to compute.
     pub fn texts(&self, name: &str) -> Vec<String> {
+        self.whole_texts(name).iter().map(|text| text.trim().to_owned()).collect()
+    }
+
+    /// The same with the blanks around them.
+    pub fn whole_texts(&self, name: &str) -> Vec<String> {
         let Some(variable) = self.file.variable(name) else { return Vec::new() };
         let width = shape(&variable).last().copied().unwrap_or(0);
         if variable.vartype() != NcVariableType::Char || width == 0 {
             return Vec::new();
         }
         let characters: Vec<Character> = self.get(&variable, name, &(..).into()).unwrap_or_default();
-        characters.chunks(width).map(trimmed).collect()
+        characters.chunks(width).map(text).collect()
     }
 
     fn get<T: NcTypeDescriptor + Copy>(
@@ -126,6 +147,14 @@ fn silence_hdf5() {
     unsafe { hdf5_metno_sys::h5e::H5Eset_auto2(hdf5_metno_sys::h5e::H5E_DEFAULT, None, std::ptr::null_mut()) };
 }
 
+/// Some rows of a variable.
+fn part(variable: &Variable, rows: Range<usize>) -> Extents {
+    let first = Extent::SliceCount { start: rows.start, count: rows.len(), stride: 1 };
+    let all = Extent::Slice { start: 0, stride: 1 };
+    let rest = variable.dimensions().len().saturating_sub(1);
+    Extents::from([first].into_iter().chain(std::iter::repeat_n(all, rest)).collect::<Vec<_>>())
+}
+
 fn shape(variable: &Variable) -> Vec<usize> {
     variable.dimensions().iter().map(|d| d.len()).collect()
 }
@@ -139,9 +168,9 @@ fn as_text(value: AttributeValue) -> Option<String> {
 }
 
 /// Names are padded with NULs or with blanks.
-fn trimmed(characters: &[Character]) -> String {
+fn text(characters: &[Character]) -> String {
     let bytes: Vec<u8> = characters.iter().map(|c| c.0).take_while(|&b| b != 0).collect();
-    String::from_utf8_lossy(&bytes).trim().to_owned()
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn kind(variable_type: &NcVariableType) -> &'static str {

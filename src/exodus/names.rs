@@ -50,6 +50,17 @@ pub const PACKED_NODAL_VALUES: &str = "vals_nod_var";
 pub const ELEMENT_NAMES: &str = "name_elem_var";
 pub const TRUTH_TABLE: &str = "elem_var_tab";
 
+// Dimensions and variables of pieces, which Nemesis adds.
+pub const NUM_PROCESSORS: &str = "num_processors";
+pub const NUM_PROCESSORS_OF_FILE: &str = "num_procs_file";
+pub const NUM_NODES_GLOBAL: &str = "num_nodes_global";
+pub const NUM_ELEM_GLOBAL: &str = "num_elems_global";
+pub const FILE_KIND: &str = "nem_ftype";
+pub const NUM_NODE_MAPS: &str = "num_n_cmaps";
+pub const NUM_NODE_MAP_ENTRIES: &str = "ncnt_cmap";
+/// Version of the Nemesis conventions, as attributes.
+pub const NEMESIS_VERSIONS: [&str; 2] = ["nemesis_api_version", "nemesis_file_version"];
+
 /// Attribute of the `connect` variables that holds the element type.
 pub const ELEMENT_TYPE: &str = "elem_type";
 /// Attribute that says what a property array is, and the value that marks the numbers of blocks and sets.
@@ -66,6 +77,59 @@ pub struct Family {
 pub const BLOCKS: Family = Family { count: NUM_BLOCKS, status: "eb_status", ids: "eb_prop1", names: "eb_names" };
 pub const NODE_SETS: Family = Family { count: NUM_NODE_SETS, status: "ns_status", ids: "ns_prop1", names: "ns_names" };
 pub const SIDE_SETS: Family = Family { count: NUM_SIDE_SETS, status: "ss_status", ids: "ss_prop1", names: "ss_names" };
+
+/// What pieces say of a whole family: its count, numbers and sizes, and the sizes of its distribution factors.
+pub struct WholeFamily {
+    pub count: &'static str,
+    pub ids: &'static str,
+    pub sizes: &'static str,
+    pub factors: Option<&'static str>,
+}
+
+pub const WHOLE_BLOCKS: WholeFamily =
+    WholeFamily { count: "num_el_blk_global", ids: "el_blk_ids_global", sizes: "el_blk_cnt_global", factors: None };
+pub const WHOLE_NODE_SETS: WholeFamily = WholeFamily {
+    count: "num_ns_global",
+    ids: "ns_ids_global",
+    sizes: "ns_node_cnt_global",
+    factors: Some("ns_df_cnt_global"),
+};
+pub const WHOLE_SIDE_SETS: WholeFamily = WholeFamily {
+    count: "num_ss_global",
+    ids: "ss_ids_global",
+    sizes: "ss_side_cnt_global",
+    factors: Some("ss_df_cnt_global"),
+};
+
+/// A list of a piece's nodes or elements by what they are to others: its status, dimension and variable.
+pub struct Standing {
+    pub status: &'static str,
+    pub count: &'static str,
+    pub list: &'static str,
+}
+
+/// Nodes inside and at the border, then elements inside and at the border.
+pub const STANDINGS: [Standing; 4] = [
+    Standing { status: "int_n_stat", count: "num_int_node", list: "node_mapi" },
+    Standing { status: "bor_n_stat", count: "num_bor_node", list: "node_mapb" },
+    Standing { status: "int_e_stat", count: "num_int_elem", list: "elem_mapi" },
+    Standing { status: "bor_e_stat", count: "num_bor_elem", list: "elem_mapb" },
+];
+/// Nodes that a piece needs without having them: urto has none.
+pub const OUTER_NODES_STATUS: &str = "ext_n_stat";
+
+/// Which nodes are shared with whom: ranks, status and end of each rank's list; then nodes and ranks, entry by entry.
+pub const NODE_MAP: [&str; 5] = ["n_comm_ids", "n_comm_stat", "n_comm_data_idx", "n_comm_nids", "n_comm_proc"];
+
+// Places in the whole file, from 1: ours, as numbers do not tell the order.
+pub const NODE_PLACES: &str = "urto_node_places";
+pub const ELEMENT_PLACES: &str = "urto_elem_places";
+pub fn node_set_places(set: usize) -> String {
+    format!("urto_ns_places{}", set + 1)
+}
+pub fn side_set_places(set: usize) -> String {
+    format!("urto_ss_places{}", set + 1)
+}
 
 pub fn block_elements(block: usize) -> String {
     format!("num_el_in_blk{}", block + 1)

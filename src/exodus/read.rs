@@ -6,11 +6,12 @@
 
 use std::path::Path;
 
-use super::arrays::Arrays;
+use super::arrays::{Arrays, Reason};
 use super::container::{Container, inspect};
 use super::error::MeshError;
 use super::genesis;
 use super::names::{self, Family};
+use super::slabs::{self, Together};
 use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
 use crate::mesh::Mesh;
 use crate::mesh::check::{self, Problem, Problems, counted};
@@ -22,7 +23,32 @@ use crate::mesh::check::{self, Problem, Problems, counted};
 /// arrays missing or of the wrong shape), of its numbers (out of range, given twice), of its elements (of a kind
 /// that is not supported, without positive volume).
 pub fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
-    let mesh = read_mesh_unchecked(path)?;
+    checked(path, read_mesh_unchecked(path)?)
+}
+
+/// Reads the same mesh on several processes, of which each reads a slab of every large array. All processes call it.
+///
+/// Where they do not see the same file, each reads its own.
+///
+/// # Errors
+/// Those of [`read_mesh`].
+pub fn read_mesh_together(path: &Path, together: &mut dyn Together) -> Result<Mesh, MeshError> {
+    if together.place().1 == 1 {
+        return read_mesh(path);
+    }
+    let length = std::fs::metadata(path).ok().map(|file| file.len());
+    let classic = matches!(inspect(path), Ok(Container::Classic(_) | Container::Hdf5));
+    let opened = length.filter(|_| classic).and_then(|length| Some((open(path).ok()?, length)));
+    if !together.same(opened.as_ref().map(|(_, length)| *length)) {
+        return read_mesh(path);
+    }
+    match opened {
+        Some((arrays, _)) => checked(path, assemble_with(path, &arrays, false, Some(together))?),
+        None => read_mesh(path),
+    }
+}
+
+fn checked(path: &Path, mesh: Mesh) -> Result<Mesh, MeshError> {
     let problems = check::geometry(&mesh);
     if problems.is_empty() { Ok(mesh) } else { Err(MeshError { path: path.to_owned(), problems }) }
 }
@@ -37,8 +63,22 @@ pub(super) fn read_mesh_unchecked(path: &Path) -> Result<Mesh, MeshError> {
 
 /// The mesh of a file that is open already.
 pub(super) fn assemble(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+    assemble_with(path, arrays, false, None)
+}
+
+/// The part of a mesh that a piece holds; it may be without nodes and elements.
+pub(super) fn assemble_part(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+    assemble_with(path, arrays, true, None)
+}
+
+fn assemble_with(
+    path: &Path,
+    arrays: &Arrays,
+    is_part: bool,
+    together: Option<&mut dyn Together>,
+) -> Result<Mesh, MeshError> {
     let mut problems = Problems::default();
-    let tables = Reader { arrays, problems: &mut problems }.tables();
+    let tables = Reader { arrays, problems: &mut problems, is_part, together }.tables();
     // Arrays that are missing would be missed again by all that refers to them, so they are told alone.
     let assembled = if problems.is_empty() { tables.assemble() } else { Err(problems) };
     assembled.map_err(|problems| MeshError { path: path.to_owned(), problems })
@@ -96,17 +136,20 @@ pub(super) fn node_count(arrays: &Arrays) -> usize {
 }
 
 /// Reads the arrays and notes what is missing.
-struct Reader<'a> {
+struct Reader<'a, 't> {
     arrays: &'a Arrays,
     problems: &'a mut Problems,
+    is_part: bool,
+    together: Option<&'a mut (dyn Together + 't)>,
 }
 
-impl Reader<'_> {
+impl Reader<'_, '_> {
     fn tables(&mut self) -> Tables {
         let dimensions = self.arrays.dimension(names::NUM_DIM).unwrap_or(3);
         Tables {
             title: self.arrays.text(names::TITLE).unwrap_or_default(),
             dimensions,
+            is_part: self.is_part,
             // A flat mesh is refused for being flat, not for its missing z.
             coordinates: if dimensions == 3 { self.coordinates() } else { Default::default() },
             node_count: self.arrays.dimension(names::NUM_NODES),
@@ -124,9 +167,29 @@ impl Reader<'_> {
         self.problems.add(|| Problem::new(what, "write the mesh again; a program or a copy left it incomplete"));
     }
 
+    /// A whole array of integers, read in slabs where several processes read.
+    fn whole_integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Reason> {
+        match (&mut self.together, slabs::rows(self.arrays.shape(name))) {
+            (Some(together), Some(rows)) => {
+                slabs::read(*together, rows, |rows| self.arrays.rows_of_integers(name, rows)).map(Some)
+            }
+            _ => self.arrays.integers(name),
+        }
+    }
+
+    /// The same for reals.
+    fn whole_reals(&mut self, name: &str) -> Result<Option<Vec<f64>>, Reason> {
+        match (&mut self.together, slabs::rows(self.arrays.shape(name))) {
+            (Some(together), Some(rows)) => {
+                slabs::read(*together, rows, |rows| self.arrays.rows_of_reals(name, rows)).map(Some)
+            }
+            _ => self.arrays.reals(name),
+        }
+    }
+
     /// An optional array of integers; what cannot be read counts as missing and is noted.
     fn integers(&mut self, name: &str) -> Option<Vec<i64>> {
-        self.arrays.integers(name).unwrap_or_else(|reason| {
+        self.whole_integers(name).unwrap_or_else(|reason| {
             self.problem(reason);
             None
         })
@@ -134,7 +197,7 @@ impl Reader<'_> {
 
     /// An array of integers that must be there.
     fn required(&mut self, name: &str, place: &str) -> Vec<i64> {
-        match self.arrays.integers(name) {
+        match self.whole_integers(name) {
             Ok(Some(values)) => return values,
             Ok(None) => self.problem(format!("{place}: {name} is missing")),
             Err(reason) => self.problem(format!("{place}: {reason}")),
@@ -143,10 +206,13 @@ impl Reader<'_> {
     }
 
     fn coordinates(&mut self) -> [Vec<f64>; 3] {
+        if self.is_part && self.arrays.dimension(names::NUM_NODES).is_none() {
+            return Default::default();
+        }
         if let Some(shape) = self.arrays.shape(names::PACKED_COORDINATES) {
             return self.packed_coordinates(&shape);
         }
-        names::COORDINATES.map(|name| match self.arrays.reals(name) {
+        names::COORDINATES.map(|name| match self.whole_reals(name) {
             Ok(Some(values)) => values,
             Ok(None) => {
                 self.problem(format!("{name} is missing"));
@@ -160,7 +226,7 @@ impl Reader<'_> {
     }
 
     fn packed_coordinates(&mut self, shape: &[usize]) -> [Vec<f64>; 3] {
-        match (shape, self.arrays.reals(names::PACKED_COORDINATES)) {
+        match (shape, self.whole_reals(names::PACKED_COORDINATES)) {
             (&[3, nodes], Ok(Some(mut x))) if x.len() == 3 * nodes => {
                 let z = x.split_off(2 * nodes);
                 let y = x.split_off(nodes);

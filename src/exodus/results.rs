@@ -48,6 +48,16 @@ impl Results {
         })
     }
 
+    /// The file's name.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file's arrays, for what EXODUS knows nothing of.
+    pub(super) fn arrays(&self) -> &Arrays {
+        &self.arrays
+    }
+
     /// The file's title.
     pub fn title(&self) -> String {
         self.arrays.text(names::TITLE).unwrap_or_default()

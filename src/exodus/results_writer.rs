@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 use super::container::{Container, Layout, inspect};
 use super::error::ResultsError;
+use super::pieces::Piece;
+use super::restart::Extra;
 use super::write::{Contents, LINE_WIDTH, cut, write_file};
 use crate::mesh::Mesh;
 
@@ -55,6 +57,20 @@ impl ResultsWriter {
     /// # Errors
     /// When the file cannot be written.
     pub fn create(path: &Path, header: &ResultsHeader) -> Result<Self, ResultsError> {
+        Self::create_with(path, header, &Extra::default())
+    }
+
+    /// The same for a piece of the results, whose mesh is that of `piece`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create_piece(path: &Path, header: &ResultsHeader, piece: &Piece) -> Result<Self, ResultsError> {
+        let header = ResultsHeader { mesh: &piece.part.mesh, ..header.clone() };
+        Self::create_with(path, &header, &Extra { piece: Some(piece), ..Extra::default() })
+    }
+
+    /// The same, with what EXODUS knows nothing of.
+    pub(super) fn create_with(path: &Path, header: &ResultsHeader, extra: &Extra) -> Result<Self, ResultsError> {
         let mesh = header.mesh;
         let mut qa = mesh.qa.clone();
         qa.push(header.qa.clone());
@@ -66,6 +82,7 @@ impl ResultsWriter {
             global: &header.global,
             nodal: &header.nodal,
             element: &header.element,
+            extra: Some(extra),
         };
         write_file(path, mesh, &contents)?;
         let layout = match inspect(path).map_err(ResultsError::io("read", path))? {
@@ -86,6 +103,11 @@ impl ResultsWriter {
     /// Number of states written so far.
     pub fn states(&self) -> usize {
         self.states as usize
+    }
+
+    /// Waits until all that was written is on the disk, where it outlives a power failure.
+    pub(super) fn sync(&self) -> Result<(), ResultsError> {
+        self.file.sync_all().map_err(ResultsError::io("write", &self.path))
     }
 
     /// Appends one state: the time, the globals, one array over all nodes per nodal variable, one array over all

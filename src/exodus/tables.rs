@@ -2,10 +2,9 @@
 //!
 //! Nothing here touches a file, so that every rule about what a mesh may hold can be tried on arrays in memory.
 
-use std::array::from_fn;
-
 use super::names;
 use crate::mesh::check::{Problem, Problems, counted};
+use crate::mesh::shape::Shape;
 use crate::mesh::{Block, HEX_SIDES, Mesh, NodeSet, SideSet};
 
 /// How many bad references of one array are named one by one before the rest is summed up.
@@ -18,6 +17,8 @@ pub struct Tables {
     pub title: String,
     /// Number of spatial dimensions, 3 if the file does not say.
     pub dimensions: usize,
+    /// A part of a mesh may be without nodes and elements.
+    pub is_part: bool,
     /// x, y and z of every node.
     pub coordinates: [Vec<f64>; 3],
     /// What the dimension `num_nodes` says, if it is there.
@@ -104,12 +105,13 @@ impl Tables {
         let element_ids = numbers("element", self.element_ids, elements, &mut problems);
 
         unique("block", self.blocks.iter().map(|b| b.id), &mut problems);
+        let shapes: Vec<(usize, Option<Shape>)> = self.blocks.iter().map(|b| (b.len(), b.accepted())).collect();
         let mut ids = element_ids.iter();
         let blocks = self.blocks.into_iter().map(|b| b.assemble(nodes, &mut ids, &mut problems)).collect();
         unique("node set", self.node_sets.iter().map(|s| s.id), &mut problems);
         let node_sets = self.node_sets.into_iter().map(|s| s.assemble(nodes, &mut problems)).collect();
         unique("side set", self.side_sets.iter().map(|s| s.id), &mut problems);
-        let side_sets = self.side_sets.into_iter().map(|s| s.assemble(elements, &mut problems)).collect();
+        let side_sets = self.side_sets.into_iter().map(|s| s.assemble(elements, &shapes, &mut problems)).collect();
 
         if !problems.is_empty() {
             return Err(problems);
@@ -133,7 +135,7 @@ impl Tables {
                 });
             }
         }
-        if nodes == 0 {
+        if nodes == 0 && !self.is_part {
             problems.add(|| Problem::new("the mesh has no nodes", "write the mesh again with its nodes and blocks"));
         }
         too_many("nodes", nodes, problems);
@@ -145,7 +147,7 @@ impl Tables {
         let elements = self.blocks.iter().map(BlockTable::len).sum();
         if self.blocks.is_empty() {
             problems.add(|| Problem::new("the mesh has no element blocks", "put the elements into at least one block"));
-        } else if elements == 0 {
+        } else if elements == 0 && !self.is_part {
             problems
                 .add(|| Problem::new("the mesh has no elements", "all its blocks are empty; export the elements too"));
         }
@@ -167,10 +169,21 @@ impl BlockTable {
         self.connectivity.len().checked_div(self.nodes_per_element).unwrap_or(0)
     }
 
-    /// Hexahedra by type name, with or without the number of nodes in it; without a type by the number of nodes.
-    fn is_hexahedra(&self) -> bool {
-        let type_fits = self.element_type.is_empty() || self.begins_with("HEX");
-        type_fits && self.nodes_per_element == 8
+    /// What the elements are by type name, with or without the number of nodes in it; without a type by the number of
+    /// nodes. `None` when they are of no kind that can be computed with.
+    pub(super) fn shape(&self) -> Option<Shape> {
+        let stems =
+            [(Shape::Hexahedron, "HEX"), (Shape::Wedge, "WED"), (Shape::Pyramid, "PYR"), (Shape::Tetrahedron, "TET")];
+        let fits = |&&(shape, stem): &&(Shape, &str)| {
+            let named = self.begins_with(stem) || (self.element_type.is_empty() && shape == Shape::Hexahedron);
+            named && self.nodes_per_element == shape.nodes()
+        };
+        stems.iter().find(fits).map(|&(shape, _)| shape)
+    }
+
+    /// The same, but for tetrahedra: see [`BlockTable::unsupported`].
+    fn accepted(&self) -> Option<Shape> {
+        self.shape().filter(|shape| *shape != Shape::Tetrahedron)
     }
 
     fn begins_with(&self, stem: &str) -> bool {
@@ -187,41 +200,47 @@ impl BlockTable {
         if self.connectivity.is_empty() {
             return empty;
         }
-        if !self.is_hexahedra() {
+        let Some(shape) = self.accepted() else {
             problems.add(|| self.unsupported());
             element_ids.by_ref().take(self.len()).for_each(drop);
             return empty;
-        }
+        };
         let mut references = References::new(format!("block {}", self.id), Target::Node, nodes, problems);
-        let (elements, _) = self.connectivity.as_chunks::<8>();
-        let connectivity = elements
-            .iter()
-            .zip(element_ids)
-            .map(|(given, id)| {
-                from_fn(|corner| {
-                    references.resolve(given[corner], || format!(", element {id}: its node {}", corner + 1))
-                })
-            })
-            .collect();
+        let connectivity = self.connectivity.chunks_exact(shape.nodes()).zip(element_ids).map(|(given, id)| {
+            let mut own = [0; 8];
+            for (corner, (own, &given)) in own.iter_mut().zip(given).enumerate() {
+                *own = references.resolve(given, || format!(", element {id}: its node {}", corner + 1));
+            }
+            shape.corners().map(|node| own[node])
+        });
+        let connectivity = connectivity.collect();
         references.sum_up();
         Block { connectivity, ..empty }
     }
 
     /// Why this block's elements are refused, and what would be accepted.
     fn unsupported(&self) -> Problem {
+        if self.shape() == Some(Shape::Tetrahedron) {
+            return Problem::new(
+                format!(
+                    "block {}: linear tetrahedra are not taken: with one point of integration each they lock in plastic \
+                     flow and when nearly incompressible",
+                    self.id
+                ),
+                "mesh the part with hexahedra, wedges or pyramids; a few may stand among hexahedra, with repeated nodes",
+            );
+        }
         let spelled = if self.element_type.is_empty() { "(no type)" } else { self.element_type.as_str() };
-        let advice = if self.begins_with("HEX") {
-            "hexahedra of higher order are not built; write the mesh with linear elements"
-        } else if self.begins_with("SHE") || self.begins_with("QUA") {
+        let advice = if self.begins_with("SHE") || self.begins_with("QUA") {
             "shells and membranes are not built yet; model the part with solid elements"
-        } else if self.begins_with("TET") || self.begins_with("WED") || self.begins_with("PYR") {
-            "mesh the part with hexahedra; wedges may be written as hexahedra with repeated nodes"
+        } else if ["HEX", "TET", "WED", "PYR"].iter().any(|stem| self.begins_with(stem)) {
+            "elements of higher order are not built; write the mesh with linear elements"
         } else {
             "leave this block out or replace it by solid elements"
         };
         Problem::new(
             format!(
-                "block {}: elements of type {spelled} with {} are not supported; eight-node hexahedra are (HEX, HEX8)",
+                "block {}: elements of type {spelled} with {} are not supported; HEX8, WEDGE6 and PYRAMID5 are",
                 self.id,
                 counted(self.nodes_per_element, "node")
             ),
@@ -238,7 +257,8 @@ impl NodeSetTable {
 }
 
 impl SideSetTable {
-    fn assemble(self, elements: usize, problems: &mut Problems) -> SideSet {
+    /// `shapes` are the number of elements and their shape, block by block.
+    fn assemble(self, elements: usize, shapes: &[(usize, Option<Shape>)], problems: &mut Problems) -> SideSet {
         let place = format!("side set {}", self.id);
         let counts = (self.elements.len(), self.sides.len());
         if counts.0 != counts.1 {
@@ -246,10 +266,32 @@ impl SideSetTable {
             problems.add(|| Problem::new(what, "write the mesh again"));
         }
         let faces = References::new(place.clone(), Target::Element, elements, problems).resolve_all(&self.elements);
-        let sides = References::new(place, Target::Side, HEX_SIDES.len(), problems).resolve_all(&self.sides);
-        let sides = faces.into_iter().zip(sides).map(|(element, side)| (element, side as u8)).collect();
+        let given = References::new(place.clone(), Target::Side, HEX_SIDES.len(), problems).resolve_all(&self.sides);
+        let mut sides = Vec::with_capacity(faces.len());
+        for (element, side) in faces.into_iter().zip(given) {
+            let shape = shape_of(element, shapes).unwrap_or(Shape::Hexahedron);
+            match shape.sides().get(side as usize) {
+                Some(&side) => sides.push((element, side)),
+                None => problems.add(|| {
+                    let what = format!("{place}: side {} of the element at place {}", side + 1, element + 1);
+                    Problem::new(what, format!("the sides of a {} are 1 to {}", shape.name(), shape.sides().len()))
+                }),
+            }
+        }
         SideSet { id: self.id, name: self.name, sides }
     }
+}
+
+/// The shape of an element by its place in the file.
+fn shape_of(element: u32, shapes: &[(usize, Option<Shape>)]) -> Option<Shape> {
+    let mut rest = element as usize;
+    for &(count, shape) in shapes {
+        if rest < count {
+            return shape;
+        }
+        rest -= count;
+    }
+    None
 }
 
 /// What a list of one-based numbers refers to.

@@ -8,6 +8,8 @@ use netcdf::{FileMut, Options};
 use super::arrays::Character;
 use super::error::ResultsError;
 use super::names::{self, Family};
+use super::pieces::Piece;
+use super::restart::{self, Extra};
 use crate::mesh::Mesh;
 
 /// The version of the EXODUS conventions that these files keep.
@@ -27,6 +29,7 @@ pub(super) struct Contents<'a> {
     pub global: &'a [String],
     pub nodal: &'a [String],
     pub element: &'a [String],
+    pub extra: Option<&'a Extra<'a>>,
 }
 
 /// Writes a mesh as an EXODUS II (GENESIS) file.
@@ -63,8 +66,8 @@ fn beside(path: &Path) -> PathBuf {
 }
 
 /// A file being defined and filled.
-struct Writer<'a> {
-    file: FileMut,
+pub(super) struct Writer<'a> {
+    pub(super) file: FileMut,
     mesh: &'a Mesh,
     contents: &'a Contents<'a>,
     /// Numbers need 64 bits.
@@ -89,7 +92,11 @@ impl<'a> Writer<'a> {
         self.variable::<f64>(names::TIME, &[names::TIME_STEP])?;
         self.define_texts()?;
         self.define_mesh()?;
+        if let Some(piece) = self.piece() {
+            self.define_piece(piece)?;
+        }
         self.define_results()?;
+        self.define_extra()?;
         self.file.enddef()
     }
 
@@ -102,7 +109,7 @@ impl<'a> Writer<'a> {
         file.add_attribute(names::MAXIMUM_NAME_LENGTH, self.name_width as i32 - 1)?;
         // Bits 0x0400 and 0x0800: maps and numbers in 64 bits.
         file.add_attribute(names::INT64_STATUS, if self.wide { 0x0C00i32 } else { 0 })?;
-        file.add_attribute(names::TITLE, cut(self.contents.title, LINE_WIDTH - 1))?;
+        file.add_attribute(names::TITLE, cut(self.contents.title.trim_end(), LINE_WIDTH - 1))?;
         Ok(())
     }
 
@@ -129,18 +136,18 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds dimensions; one of length zero is left out, as netCDF would make it unlimited.
-    fn dimensions(&mut self, list: &[(&str, usize)]) -> netcdf::Result<()> {
+    pub(super) fn dimensions(&mut self, list: &[(&str, usize)]) -> netcdf::Result<()> {
         for &(name, length) in list.iter().filter(|(_, length)| *length > 0) {
             self.file.add_dimension(name, length)?;
         }
         Ok(())
     }
 
-    fn variable<T: NcTypeDescriptor>(&mut self, name: &str, dimensions: &[&str]) -> netcdf::Result<()> {
+    pub(super) fn variable<T: NcTypeDescriptor>(&mut self, name: &str, dimensions: &[&str]) -> netcdf::Result<()> {
         self.file.add_variable::<T>(name, dimensions).map(drop)
     }
 
-    fn numbers(&mut self, name: &str, dimension: &str) -> netcdf::Result<()> {
+    pub(super) fn numbers(&mut self, name: &str, dimension: &str) -> netcdf::Result<()> {
         if self.wide { self.variable::<i64>(name, &[dimension]) } else { self.variable::<i32>(name, &[dimension]) }
     }
 
@@ -157,9 +164,14 @@ impl<'a> Writer<'a> {
 
     fn define_mesh(&mut self) -> netcdf::Result<()> {
         let mesh = self.mesh;
-        self.numbers(names::NODE_IDS, names::NUM_NODES)?;
-        self.numbers(names::ELEMENT_IDS, names::NUM_ELEM)?;
-        for name in names::COORDINATES {
+        // A piece may be without elements.
+        if !mesh.node_ids.is_empty() {
+            self.numbers(names::NODE_IDS, names::NUM_NODES)?;
+        }
+        if !mesh.element_ids.is_empty() {
+            self.numbers(names::ELEMENT_IDS, names::NUM_ELEM)?;
+        }
+        for name in names::COORDINATES.into_iter().filter(|_| !mesh.coordinates.is_empty()) {
             self.variable::<f64>(name, &[names::NUM_NODES])?;
         }
         self.define_family(&names::BLOCKS, mesh.blocks.len())?;
@@ -206,7 +218,8 @@ impl<'a> Writer<'a> {
         }
         if !contents.nodal.is_empty() {
             self.variable::<Character>(names::NODAL_NAMES, &[names::NUM_NODAL_VARIABLES, names::LEN_NAME])?;
-            for v in 0..contents.nodal.len() {
+            let arrays = if self.mesh.coordinates.is_empty() { 0 } else { contents.nodal.len() };
+            for v in 0..arrays {
                 self.variable::<f64>(&names::nodal_values(v), &[names::TIME_STEP, names::NUM_NODES])?;
             }
         }
@@ -223,18 +236,47 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
+    /// What EXODUS knows nothing of; its readers pass over it.
+    fn piece(&self) -> Option<&'a Piece> {
+        self.contents.extra.and_then(|extra| extra.piece)
+    }
+
+    fn define_extra(&mut self) -> netcdf::Result<()> {
+        let Some(extra) = self.contents.extra else { return Ok(()) };
+        if let Some(identity) = extra.identity {
+            self.file.add_attribute(restart::IDENTITY, identity)?;
+            let names: Vec<&str> = extra.lists.iter().map(|list| list.name.as_str()).collect();
+            self.file.add_attribute(restart::LISTS, names.join(" "))?;
+        }
+        for list in extra.lists {
+            let variable = restart::list_variable(&list.name);
+            let dimensions = [format!("{variable}_rows"), format!("{variable}_columns")];
+            let rows = list.values.len() / list.width;
+            self.dimensions(&[(&dimensions[0], rows), (&dimensions[1], list.width)])?;
+            self.variable::<f64>(&variable, &[&dimensions[0], &dimensions[1]])?;
+        }
+        Ok(())
+    }
+
+    fn put_extra(&mut self) -> netcdf::Result<()> {
+        self.piece().map_or(Ok(()), |piece| self.put_piece(piece))?;
+        let lists = self.contents.extra.map_or(&[][..], |extra| extra.lists);
+        lists.iter().try_for_each(|list| self.values(&restart::list_variable(&list.name), &list.values))
+    }
+
     fn put(&mut self) -> netcdf::Result<()> {
         self.put_texts()?;
         self.put_nodes()?;
         self.put_blocks()?;
-        self.put_sets()
+        self.put_sets()?;
+        self.put_extra()
     }
 
-    fn values<T: NcTypeDescriptor>(&mut self, name: &str, values: &[T]) -> netcdf::Result<()> {
+    pub(super) fn values<T: NcTypeDescriptor>(&mut self, name: &str, values: &[T]) -> netcdf::Result<()> {
         self.file.variable_mut(name).ok_or("no such variable")?.put_values(values, ..)
     }
 
-    fn put_numbers(&mut self, name: &str, values: &[i64]) -> netcdf::Result<()> {
+    pub(super) fn put_numbers(&mut self, name: &str, values: &[i64]) -> netcdf::Result<()> {
         if values.is_empty() { Ok(()) } else { self.values(name, values) }
     }
 
@@ -264,7 +306,7 @@ impl<'a> Writer<'a> {
     fn put_nodes(&mut self) -> netcdf::Result<()> {
         let mesh = self.mesh;
         self.put_numbers(names::NODE_IDS, &mesh.node_ids)?;
-        for (axis, name) in names::COORDINATES.into_iter().enumerate() {
+        for (axis, name) in names::COORDINATES.into_iter().enumerate().filter(|_| !mesh.coordinates.is_empty()) {
             let values: Vec<f64> = mesh.coordinates.iter().map(|position| position[axis]).collect();
             self.values(name, &values)?;
         }
@@ -328,7 +370,7 @@ fn all_names<'a>(mesh: &'a Mesh, contents: &'a Contents) -> impl Iterator<Item =
     blocks.chain(sets).chain(variables)
 }
 
-fn one_based(indices: &[u32]) -> Vec<i32> {
+pub(super) fn one_based(indices: &[u32]) -> Vec<i32> {
     indices.iter().map(|&i| i as i32 + 1).collect()
 }
 

@@ -1,11 +1,18 @@
 //! Is a mesh fit to compute with? Finds what an analyst must mend, in the analyst's numbers.
 
-use super::Mesh;
+use super::{Mesh, shape};
 
 /// How many problems are told in full; the rest are counted.
 const LISTED: usize = 20;
 /// How many elements with the same fault are named one by one before the rest of their block is summed up.
 const NAMED_PER_BLOCK: usize = 3;
+
+/// Less than this part of an eighth of its element's mass makes a node of a collapsed element too light: a fifth of what
+/// a regular pyramid leaves its apex.
+const LEAST_SHARE: f64 = 0.1;
+
+/// One element of a block in so many may be a tetrahedron.
+const MOST_TETRAHEDRA: usize = 10;
 
 /// Something wrong with a mesh: what it is, and what may be done.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +62,8 @@ impl Problems {
     }
 }
 
-/// Everything that makes a mesh unfit: coordinates that are not finite, elements without positive volume.
+/// Everything that makes a mesh unfit: coordinates that are not finite, elements without positive volume, pinched ones,
+/// blocks of tetrahedra.
 ///
 /// The mesh's indices must be in range, as they are in every mesh that the `exodus` reader hands out.
 pub fn geometry(mesh: &Mesh) -> Problems {
@@ -63,6 +71,9 @@ pub fn geometry(mesh: &Mesh) -> Problems {
     coordinates(mesh, &mut problems);
     if problems.is_empty() {
         volumes(mesh, &mut problems);
+    }
+    if problems.is_empty() {
+        tetrahedra(mesh, &mut problems);
     }
     problems
 }
@@ -89,35 +100,46 @@ fn coordinates(mesh: &Mesh, problems: &mut Problems) {
     }
 }
 
+/// Tetrahedra lock; a few in a block do no harm.
+fn tetrahedra(mesh: &Mesh, problems: &mut Problems) {
+    for block in &mesh.blocks {
+        let found = block.connectivity.iter().filter(|nodes| shape::kind(nodes) == shape::Shape::Tetrahedron).count();
+        if found * MOST_TETRAHEDRA > block.connectivity.len() {
+            problems.add(|| {
+                let of = block.connectivity.len();
+                Problem::new(
+                    format!(
+                        "block {}: {found} of its {of} elements are tetrahedra; they lock in plastic flow and when nearly \
+                         incompressible",
+                        block.id
+                    ),
+                    format!("mesh the part with hexahedra, wedges or pyramids; one in {MOST_TETRAHEDRA} may be a tetrahedron"),
+                )
+            });
+        }
+    }
+}
+
 fn volumes(mesh: &Mesh, problems: &mut Problems) {
     let mut ids = mesh.element_ids.iter();
     for block in &mesh.blocks {
         let mut faulty = 0;
         for (nodes, id) in block.connectivity.iter().zip(&mut ids) {
             let corners = nodes.map(|n| mesh.coordinates[n as usize]);
-            let volume = hexahedron_volume(&corners);
-            if volume > smallest_volume(&corners) {
-                continue;
-            }
+            let Some(Problem { what, help }) = fault(mesh, nodes, &corners) else { continue };
             faulty += 1;
             if faulty <= NAMED_PER_BLOCK {
-                problems.add(|| Problem {
-                    what: format!(
-                        "block {}, element {id}: its volume is {}, it must be positive; centre {}",
-                        block.id,
-                        short(volume),
-                        point(centre(&corners))
-                    ),
-                    help: volume_hint(mesh, nodes, &corners, volume),
-                });
+                let place = point(centre(&corners));
+                problems
+                    .add(|| Problem::new(format!("block {}, element {id}: {what}; centre {place}", block.id), help));
             }
         }
         if faulty > NAMED_PER_BLOCK {
             problems.add(|| {
                 Problem::new(
                     format!(
-                        "block {}: {faulty} of its {} elements have no positive volume, the first {NAMED_PER_BLOCK} \
-                         are named above",
+                        "block {}: {faulty} of its {} elements cannot be computed with, the first {NAMED_PER_BLOCK} are \
+                         named above",
                         block.id,
                         block.connectivity.len()
                     ),
@@ -128,12 +150,40 @@ fn volumes(mesh: &Mesh, problems: &mut Problems) {
     }
 }
 
+/// Why an element cannot be computed with, if it cannot.
+fn fault(mesh: &Mesh, nodes: &[u32; 8], corners: &[[f64; 3]; 8]) -> Option<Problem> {
+    let volume = hexahedron_volume(corners);
+    if volume <= smallest_volume(corners) || volume.is_nan() {
+        let what = format!("its volume is {}, it must be positive", short(volume));
+        return Some(Problem::new(what, volume_hint(mesh, nodes, corners, volume)));
+    }
+    if !shape::is_collapsed(nodes) {
+        return None;
+    }
+    if let Some(node) = shape::pinched_at(nodes) {
+        let what = format!("node {} stands at corners that no edge joins", mesh.node_ids[node as usize]);
+        return Some(Problem::new(what, "only the ends of edges may be one node, as in wedges and pyramids"));
+    }
+    let least = shape::least_share(nodes, &shape::mass_shares(nodes, corners));
+    (least.is_nan() || least < LEAST_SHARE).then(|| {
+        Problem::new(
+            "it is so distorted that one of its nodes would have hardly any of its mass",
+            "give it a shape nearer to that of a regular wedge or pyramid",
+        )
+    })
+}
+
 /// What may be wrong with an element that has no positive volume.
 fn volume_hint(mesh: &Mesh, nodes: &[u32; 8], corners: &[[f64; 3]; 8], volume: f64) -> String {
     let repeated = (1..8).find(|&i| nodes[..i].contains(&nodes[i]));
     let [a, b, c, d, e, f, g, h] = *corners;
     let upside_down = [e, f, g, h, a, b, c, d];
     match repeated {
+        Some(_) if volume < 0.0 => {
+            "its base must turn counter-clockwise seen from its apex, a wedge's first triangle seen from \
+                                    the second"
+                .into()
+        }
         Some(i) => format!("node {} appears more than once among its nodes", mesh.node_ids[nodes[i] as usize]),
         None if volume < 0.0 && hexahedron_volume(&upside_down) > 0.0 => {
             "nodes 1-2-3-4 must turn counter-clockwise seen from nodes 5-6-7-8; here the two faces are exchanged \
@@ -267,7 +317,7 @@ mod tests {
         let problems = geometry(&column());
         let told: Vec<&str> = problems.list().iter().map(|p| p.what.as_str()).collect();
         assert_eq!(told[0], "block 3, element 11: its volume is 0, it must be positive; centre (0.5, 0.5, 0)");
-        assert_eq!(told[3], "block 3: 5 of its 6 elements have no positive volume, the first 3 are named above");
+        assert_eq!(told[3], "block 3: 5 of its 6 elements cannot be computed with, the first 3 are named above");
         assert_eq!(told.len(), 4);
     }
 

@@ -6,6 +6,10 @@
 
 pub mod check;
 pub mod locate;
+mod part;
+pub mod shape;
+
+pub use part::{Part, Places};
 
 /// A mesh of eight-node hexahedra as the analyst's file describes it.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -7,16 +7,20 @@ mod boundary;
 mod check;
 mod contact;
 mod control;
+mod deletion;
 mod function;
 mod initial;
 mod material;
 mod output;
 mod problem;
 mod properties;
+mod restart;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
+pub use deletion::Deletion;
 pub use problem::{Problem, examine, from_deck};
+pub use restart::{ReadRestart, Restarts, WriteRestart};
 
 use crate::material::Law;
 
@@ -61,10 +65,14 @@ pub struct Model {
     pub contact: Contact,
     /// When elements are taken away.
     pub deaths: Vec<Death>,
+    /// Blocks that are taken away at a time.
+    pub deletions: Vec<Deletion>,
     /// What the plot file holds.
     pub plot_requests: PlotRequests,
     /// Points of the undeformed mesh whose elements have their histories written.
     pub material_points: Vec<[f64; 3]>,
+    /// Restarts to write and to go on from.
+    pub restarts: Restarts,
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.

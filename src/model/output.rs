@@ -107,7 +107,8 @@ pub(super) fn finish(draft: &mut Draft) {
     nodal.retain(|field| *field != NodalField::Displacement);
     nodal.insert(0, NodalField::Displacement);
     let element = &mut draft.model.plot_requests.element;
-    if !draft.model.deaths.is_empty() && !element.contains(&ElementField::Status) {
+    let goes = !draft.model.deaths.is_empty() || !draft.model.deletions.is_empty();
+    if goes && !element.contains(&ElementField::Status) {
         element.push(ElementField::Status);
     }
     check_schedule(draft);

@@ -1,8 +1,8 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, StepModuli, TimeStepControl,
-    boundary, check, contact, control, function, initial, material, output,
+    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
+    TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -33,7 +33,9 @@ const FAMILIES: &[&[Setter]] = &[
     boundary::COMMANDS,
     initial::COMMANDS,
     contact::COMMANDS,
+    deletion::COMMANDS,
     output::COMMANDS,
+    restart::COMMANDS,
 ];
 
 /// A model in the making.
@@ -81,6 +83,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
     output::finish(&mut draft);
+    restart::finish(&mut draft);
     function::report_unused(&mut draft);
     let Draft { model, found, .. } = draft;
     Problem { model, deck, diagnostics: found }
@@ -123,8 +126,10 @@ impl Default for Model {
             rigid_surfaces: Vec::new(),
             contact: Contact::default(),
             deaths: Vec::new(),
+            deletions: Vec::new(),
             plot_requests: PlotRequests::default(),
             material_points: Vec::new(),
+            restarts: Restarts::default(),
         }
     }
 }

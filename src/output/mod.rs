@@ -4,9 +4,13 @@ mod collect;
 mod fields;
 mod history;
 pub mod print;
+mod restart;
 mod schedule;
+mod split;
 
 pub use collect::Collector;
 pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
 pub use history::HistoryPlan;
+pub use restart::snapshot;
 pub use schedule::Schedule;
+pub use split::Split;

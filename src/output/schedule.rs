@@ -17,7 +17,18 @@ impl Schedule {
     }
 
     fn next_time(&self) -> f64 {
-        if self.next == 0.0 { self.start } else { self.start + self.next * self.interval }
+        self.time_of(self.next)
+    }
+
+    fn time_of(&self, number: f64) -> f64 {
+        if number == 0.0 { self.start } else { self.start + number * self.interval }
+    }
+
+    /// Goes on behind the state at `time`, followed by a step `time_step`: what that state served, or one before it, is not
+    /// due again.
+    pub fn pass(&mut self, time: f64, time_step: f64) {
+        let reach = time + 0.5 * time_step;
+        self.next = if self.time_of(0.0) <= reach { self.first_beyond(reach) } else { 0.0 };
     }
 
     /// Whether the state at `time`, followed by a step `time_step`, is the nearest to an asked time that has not
@@ -27,11 +38,22 @@ impl Schedule {
         if self.next_time() > reach || self.next_time() > self.stop {
             return false;
         }
-        // The next number is computed, not counted up to: intervals may be far below the time step, or below the
-        // resolution of time itself.
-        let passed = ((reach - self.start) / self.interval).floor().min(f64::MAX);
-        self.next = self.next.max(passed).max(0.0) + 1.0;
+        self.next = self.first_beyond(reach);
         true
+    }
+
+    /// Number of the first time beyond `reach`, which is not before the start. It is computed, not counted up to:
+    /// intervals may be far below the time step, or below the resolution of time itself.
+    fn first_beyond(&self, reach: f64) -> f64 {
+        let number = ((reach - self.start) / self.interval).floor().min(f64::MAX);
+        // The quotient may be rounded across a whole number; who has served what must not hang on that.
+        if self.time_of(number) > reach {
+            number.max(1.0)
+        } else if self.time_of(number + 1.0) > reach {
+            number + 1.0
+        } else {
+            number + 2.0
+        }
     }
 }
 
@@ -58,6 +80,24 @@ mod tests {
     fn is_not_kept_busy_by_intervals_below_the_resolution_of_time() {
         assert_eq!(served(Schedule::new(0.0, Some(1e-300), 1.0), 0.25, 4), [0, 1, 2, 3]);
         assert_eq!(served(Schedule::new(0.0, Some(5e-324), f64::INFINITY), 1e9, 3), [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_schedule_that_passes_a_state_is_due_when_one_is_that_never_stopped() {
+        // Steps and intervals whose multiples are rounded now up, now down.
+        for (step, interval, start) in [(0.1, 0.3, 0.0), (0.1, 0.1, 0.1), (0.07, 0.01, 1.0), (0.3, 1.1, 0.9)] {
+            let new = || Schedule::new(start, Some(interval), f64::INFINITY);
+            let whole: Vec<bool> = {
+                let mut schedule = new();
+                (0..200).map(|n| schedule.due(f64::from(n) * step, step)).collect()
+            };
+            for stop in 1..200 {
+                let mut schedule = new();
+                schedule.pass(f64::from(stop - 1) * step, step);
+                let rest: Vec<bool> = (stop..200).map(|n| schedule.due(f64::from(n) * step, step)).collect();
+                assert_eq!(rest, whole[stop as usize..], "stopped before state {stop}");
+            }
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Names of a run's files: PRONTO's suffixes on one base name.
 
+use crate::exodus::pieces::any_pieces_of;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -12,12 +13,14 @@ pub struct Files {
     pub plot: PathBuf,
     /// Histories of material points, `.h`.
     pub history: PathBuf,
+    /// Newest restart state, `.rsout`.
+    pub restart: PathBuf,
     /// Its appearance asks the run to stop, `.shutdown`.
     pub shutdown: PathBuf,
 }
 
 /// `base` with a suffix appended; what looks like a suffix of `base` stays.
-fn with_suffix(base: &Path, suffix: &str) -> PathBuf {
+pub(super) fn with_suffix(base: &Path, suffix: &str) -> PathBuf {
     let mut name = OsString::from(base);
     name.push(suffix);
     PathBuf::from(name)
@@ -30,8 +33,25 @@ impl Files {
             print: with_suffix(base, ".o"),
             plot: with_suffix(base, ".e"),
             history: with_suffix(base, ".h"),
+            restart: with_suffix(base, ".rsout"),
             shutdown: with_suffix(base, ".shutdown"),
         }
+    }
+}
+
+impl Files {
+    /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
+    /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
+    pub fn continuing(base: &Path) -> Files {
+        let first = Files::of(base);
+        let part = |number: u32| if number == 1 { String::new() } else { format!("-s{number:04}") };
+        let named = |number: u32| Files {
+            plot: with_suffix(&first.plot, &part(number)),
+            history: with_suffix(&first.history, &part(number)),
+            ..first.clone()
+        };
+        let free = |files: &Files| !files.plot.exists() && !files.history.exists() && !any_pieces_of(&files.plot);
+        (1..=9999).map(named).find(free).unwrap_or_else(|| first.clone())
     }
 }
 

@@ -1,22 +1,29 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
 mod files;
+mod identity;
 mod memory;
+mod plots;
 mod report;
+mod restart;
 mod table;
 
 pub use files::{Files, keep_old_print_files};
+pub use identity::{differences, told};
 pub use report::{Display, Quiet};
+pub use restart::{Continuation, states_beside};
 
 use crate::comm::{Communicator, Counted};
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
-use crate::output::{Collector, FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, global_values};
-use crate::partition::Decomposition;
+use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
+use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
+use plots::Plots;
+use restart::RestartFiles;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -44,6 +51,10 @@ pub struct Job<'a> {
     pub body: &'a Body,
     /// Which rank computes what.
     pub decomposition: &'a Decomposition<'a>,
+    /// Each rank writes its piece of the plot states.
+    pub split: bool,
+    /// The state that the run goes on from, if it does.
+    pub continuation: Option<&'a Continuation>,
     /// What the outside world wants of the run: signals, a shutdown file.
     pub wish: &'a (dyn Fn() -> Request + Sync),
 }
@@ -59,6 +70,8 @@ pub struct Ended {
     pub time: f64,
     /// Plot states written.
     pub states: usize,
+    /// Whether a restart state was written.
+    pub restart: bool,
     /// Relative error of the energy balance at the end.
     pub energy_error: f64,
     /// Wall-clock seconds per element and cycle.
@@ -93,24 +106,31 @@ pub enum RunError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// Rank 0 could not write; the others leave with it.
-    #[error("rank 0 could not write its files")]
-    Elsewhere,
+    /// The state to go on from lacks something.
+    #[error("the restart file lacks {}", .0.join(", "))]
+    Incomplete(Vec<String>),
+    /// Another rank could not write; all leave with it, and with its words.
+    #[error("{0}")]
+    Elsewhere(String),
 }
 
-/// Runs one rank to the end. Files and display are rank 0's business.
+/// Runs one rank to the end. Files and display are rank 0's business, but for pieces of the plot states.
 ///
 /// # Errors
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
     let comm = &mut Counted::new(comm);
-    let mut solver = Solver::new(job.mesh, job.model, job.body, &job.decomposition.share(comm.rank()), comm);
-    let mut writer = Writer::new(job, &solver, comm)?;
+    let share = job.decomposition.share(comm.rank());
+    let mut solver = Solver::new(job.mesh, job.model, job.body, &share, comm);
+    if let Some(continuation) = job.continuation {
+        continuation.restore(&mut solver, comm)?;
+    }
+    let mut writer = Writer::new(job, &solver, &share, comm);
     writer.start(job, comm)?;
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
     display.finish();
-    writer.finish(&mut solver, comm, begun.elapsed().as_secs_f64(), outcome)
+    writer.finish(&mut solver, comm, begun, outcome)
 }
 
 /// The step loop. Ends with what stopped the run, or with the reason why it cannot go on.
@@ -124,6 +144,10 @@ fn steps(
     let model = job.model;
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut lines = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
+    if job.continuation.is_some() {
+        plots.pass(solver.previous_time, solver.time_step);
+        lines.pass(solver.previous_time, solver.time_step);
+    }
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
@@ -149,6 +173,9 @@ fn steps(
             return Ok(agreed);
         }
         solver.advance();
+        if writer.restarts.as_mut().is_some_and(|restarts| restarts.due(solver)) {
+            writer.restart(solver, comm)?;
+        }
     }
 }
 
@@ -164,65 +191,69 @@ fn give_up(
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
 
-/// Plot file and print log of a run; files are open on rank 0 only, but every rank takes part in collecting.
+/// Plot file and print log of a run; the log is open on rank 0 only, but every rank takes part in collecting.
 struct Writer<'a> {
     fields: FieldList,
     names: [Vec<String>; 3],
-    collector: Collector,
-    results: Option<ResultsWriter>,
+    plots: Plots,
     log: Option<PrintLog>,
     watched: HistoryPlan,
     histories: Option<ResultsWriter>,
+    restarts: Option<RestartFiles<'a>>,
     files: &'a Files,
     elements: usize,
+    first_step: u64,
+    last_restart: Option<u64>,
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
 }
 
 impl<'a> Writer<'a> {
-    fn new(job: &Job<'a>, solver: &Solver, comm: &mut dyn Communicator) -> Result<Writer<'a>, RunError> {
+    fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model);
-        let (nodes, elements) = (job.mesh.coordinates.len(), job.mesh.element_count());
-        Ok(Writer {
-            names: [
-                fields.nodal_names(),
-                fields.element_names(),
-                GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
-            ],
+        let names = [
+            fields.nodal_names(),
+            fields.element_names(),
+            GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
+        ];
+        Writer {
+            plots: Plots::new(job, solver, share, [names[0].len(), names[1].len()], comm),
             fields,
-            collector: Collector::new(solver, nodes, elements, comm),
-            results: None,
+            names,
             log: None,
             watched: HistoryPlan::new(job.mesh, job.model),
             histories: None,
+            restarts: RestartFiles::new(job, solver),
             files: job.files,
-            elements,
+            elements: job.mesh.element_count(),
+            first_step: solver.step,
+            last_restart: None,
             termination_time: job.model.termination_time,
-            last_line: (Instant::now(), 0, 0.0),
+            last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
-        })
+        }
     }
 
-    /// Opens the files and prints the front part of the log, all on rank 0; all ranks learn whether it worked.
+    /// Opens the files and prints the front part of the log on rank 0; all ranks learn whether it worked.
     fn start(&mut self, job: &Job, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        let outcome = if comm.rank() == 0 { self.open(job) } else { Ok(()) };
-        together(outcome, comm)
-    }
-
-    fn open(&mut self, job: &Job) -> Result<(), RunError> {
-        let [nodal, element, global] = &self.names;
+        let [nodal, element, global] = self.names.clone();
         let header = ResultsHeader {
             mesh: job.mesh,
             title: job.model.title.clone(),
-            global: global.clone(),
-            nodal: nodal.clone(),
-            element: element.clone(),
-            qa: job.qa.clone(),
+            global,
+            nodal,
+            element,
+            qa: same_qa(&job.qa, comm),
             info: job.deck.lines().map(String::from).collect(),
         };
-        self.results = Some(ResultsWriter::create(&self.files.plot, &header)?);
-        self.histories = self.open_histories(&header)?;
+        let opened = self.plots.open(&self.files.plot, &header, comm.rank());
+        let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, &header) } else { Ok(()) });
+        together(outcome, comm)
+    }
+
+    fn open(&mut self, job: &Job, header: &ResultsHeader) -> Result<(), RunError> {
+        self.histories = self.open_histories(header)?;
         let mut log = PrintLog::create(&self.files.print).map_err(|e| self.print_error(e))?;
         let echo = Echo {
             banner: job.banner,
@@ -233,11 +264,12 @@ impl<'a> Writer<'a> {
             mesh: job.mesh,
             overlap: job.body.overlap,
             masses: &job.body.block_masses(job.mesh.blocks.len()),
-            variables: [nodal, element, global],
+            variables: [&self.names[0], &self.names[1], &self.names[2]],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
         };
-        let front = print::problem(&echo) + &print::step_header();
+        let from = job.continuation.map_or(String::new(), |from| print::continued(&from.in_words()));
+        let front = print::problem(&echo) + &from + &print::step_header();
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
@@ -296,16 +328,7 @@ impl<'a> Writer<'a> {
         }
         solver.clock.start();
         let totals = solver.totals(comm);
-        let (nodal_count, element_count) = (self.names[0].len(), self.names[1].len());
-        let nodal = self.collector.nodal(self.fields.nodal_values(solver), nodal_count, comm);
-        let values = self.fields.element_values(solver, comm.rank());
-        let element = self.collector.element(values, element_count, comm);
-        let outcome = match (&mut self.results, nodal, element) {
-            (Some(results), Some(nodal), Some(element)) => results
-                .write_state(solver.time, &global_values(solver, &totals), &nodal, &element)
-                .map_err(RunError::from),
-            _ => Ok(()),
-        };
+        let outcome = self.plots.write(solver, &self.fields, &totals, comm);
         let outcome = together(outcome, comm);
         solver.clock.stop(Section::Output);
         outcome
@@ -344,38 +367,47 @@ impl<'a> Writer<'a> {
         outcome
     }
 
+    /// Writes the state between two steps.
+    fn restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        solver.clock.start();
+        let snapshot = self.plots.snapshot(solver, comm);
+        let outcome = match (&mut self.restarts, snapshot) {
+            (Some(restarts), Some(snapshot)) => restarts.write(snapshot).map_err(RunError::from),
+            _ => Ok(()),
+        };
+        self.last_restart = Some(solver.step);
+        let outcome = together(outcome, comm).and_then(|()| self.print(&print::restart_written(solver)));
+        solver.clock.stop(Section::Output);
+        together(outcome, comm)
+    }
+
+    /// Leaves the state to go on from at the end of a run, unless it has just been written: that after the step that
+    /// follows.
+    fn last_restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+        if self.restarts.is_none() || self.last_restart == Some(solver.step) {
+            return Ok(());
+        }
+        solver.advance();
+        self.restart(solver, comm)
+    }
+
     /// Closes the log and says how the run ended.
     fn finish(
         mut self,
         solver: &mut Solver,
         comm: &mut Counted,
-        wall: f64,
+        begun: Instant,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
-        let table = table::time_table(solver, comm, wall, self.elements);
-        let totals = solver.totals(comm);
-        let words = match &outcome {
-            Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
-            Ok(by) => format!(
-                "STOPPED {} AT STEP {}, TIME {:.6e}; THE LAST STATE IS WRITTEN",
-                reason(*by),
-                solver.step,
-                solver.time
-            ),
-            Err(RunError::Stopped { stop, .. }) => format!(
-                "***** ERROR: AT STEP {}, TIME {:.6e}, TIME STEP {:.6e}: {stop}\n  advice: {}",
-                solver.step,
-                solver.time,
-                solver.time_step,
-                stop.advice()
-            ),
-            Err(error) => format!("***** ERROR: {error}"),
-        };
-        let states = self.results.as_ref().map_or(0, ResultsWriter::states);
+        let (step, time, time_step, totals) = (solver.step, solver.time, solver.time_step, solver.totals(comm));
+        let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
+        let wall = begun.elapsed().as_secs_f64();
+        let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
+        let states = self.plots.states();
         let initial_energy = solver.initial_energy;
         let ending = Ending {
-            outcome: &words,
-            steps: solver.step,
+            outcome: &in_words(&outcome, step, time, time_step),
+            steps: step,
             states,
             totals: &totals,
             initial_energy,
@@ -387,13 +419,29 @@ impl<'a> Writer<'a> {
         together(printed, comm)?;
         Ok(Ended {
             by,
-            steps: solver.step,
-            time: solver.time,
+            steps: step,
+            time,
             states,
+            restart: self.restarts.is_some(),
             energy_error: totals.relative_error(initial_energy),
             grind: table.grind(),
             wall,
         })
+    }
+}
+
+/// How a run ended, for the log.
+fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step: f64) -> String {
+    match outcome {
+        Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
+        Ok(by) => {
+            format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by))
+        }
+        Err(RunError::Stopped { stop, .. }) => format!(
+            "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
+            stop.advice()
+        ),
+        Err(error) => format!("***** ERROR: {error}"),
     }
 }
 
@@ -406,12 +454,27 @@ fn reason(by: Request) -> &'static str {
     }
 }
 
-/// All ranks learn whether rank 0's work succeeded, so that they leave together when it did not.
+/// All ranks learn whether every rank's work succeeded, so that they leave together when it did not, with the words of
+/// the first that failed.
 fn together(outcome: Result<(), RunError>, comm: &mut dyn Communicator) -> Result<(), RunError> {
     let mut good = [if outcome.is_ok() { 1.0 } else { 0.0 }];
     comm.all_min(&mut good);
-    match outcome {
-        Ok(()) if good[0] == 0.0 => Err(RunError::Elsewhere),
-        outcome => outcome,
+    if good[0] != 0.0 {
+        return outcome;
     }
+    let own = outcome.as_ref().err().map_or(String::new(), RunError::to_string);
+    let all = comm.gather(own.into_bytes()).unwrap_or_default();
+    let mut words = all.into_iter().find(|words| !words.is_empty()).unwrap_or_default();
+    comm.broadcast(&mut words);
+    outcome.and_then(|()| Err(RunError::Elsewhere(String::from_utf8_lossy(&words).into_owned())))
+}
+
+/// Rank 0's QA record on every rank: processes do not start in the same second, but pieces must tell that they are of
+/// one run.
+fn same_qa(own: &[String; 4], comm: &mut dyn Communicator) -> [String; 4] {
+    let mut bytes = own.join("\n").into_bytes();
+    comm.broadcast(&mut bytes);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let mut lines = text.split('\n').map(String::from);
+    std::array::from_fn(|_| lines.next().unwrap_or_default())
 }

@@ -6,14 +6,16 @@ use crate::output::print::{Balance, TimeTable};
 use crate::solver::contact::Contact;
 use crate::solver::{Section, Solver};
 
-/// The table, the same on every rank but for its memory; all ranks call it. `wall` is in seconds.
-pub fn time_table(solver: &Solver, comm: &mut Counted, wall: f64, elements: usize) -> TimeTable {
+/// The table, the same on every rank but for its memory; all ranks call it. `wall` is in seconds, `steps` were taken by
+/// this run on so many elements in all.
+pub fn time_table(solver: &Solver, comm: &mut Counted, wall: f64, [steps, elements]: [u64; 2]) -> TimeTable {
     TimeTable {
         sections: sections(solver, comm),
-        balance: balance(solver, comm),
+        // The forces of the last state are found too, though no step is taken from it.
+        balance: balance(solver, comm, steps + 1),
         wall,
         ranks: comm.size(),
-        element_cycles: solver.step as f64 * elements as f64,
+        element_cycles: steps as f64 * elements as f64,
         memory: memory::resident().map(|(_, most)| most),
     }
 }
@@ -28,10 +30,8 @@ fn sections(solver: &Solver, comm: &mut Counted) -> Vec<Balance> {
 }
 
 /// Work and messages of a step. What no rank has is left out.
-fn balance(solver: &Solver, comm: &mut Counted) -> Vec<Balance> {
+fn balance(solver: &Solver, comm: &mut Counted, prepared: u64) -> Vec<Balance> {
     let counts = comm.counts();
-    // The forces of the last state are found too, though no step is taken from it.
-    let prepared = solver.step + 1;
     let work = solver.domain.contact.as_ref().map(Contact::work).unwrap_or_default();
     let mut rows = vec![
         ("ELEMENTS".to_string(), solver.domain.element_file.len() as u64, 1),

@@ -4,7 +4,7 @@
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
 use crate::mesh::check::hexahedron_volume;
-use crate::mesh::{HEX_SIDES, Mesh};
+use crate::mesh::{HEX_SIDES, Mesh, shape};
 use crate::model::Model;
 use crate::partition::{Contributors, rcb, space_filling_order};
 use crate::solver::contact::{self, Overlap};
@@ -20,6 +20,8 @@ pub struct Body {
     pub element_nodes: Arc<Vec<[u32; 8]>>,
     /// Element masses, in canonical order.
     pub element_mass: Vec<f64>,
+    /// For each mesh block the least share of a corner's eighth that a node has; see [`shape::least_share`].
+    pub least_share: Vec<f64>,
     /// Lumped nodal masses, in file order.
     pub node_mass: Vec<f64>,
     /// Initial positions, in file order; those of the mesh unless contact surfaces overlapped there.
@@ -88,6 +90,7 @@ impl Body {
             element_block: Arc::default(),
             element_nodes: Arc::default(),
             element_mass: Vec::with_capacity(mesh.element_count()),
+            least_share: vec![1.0; mesh.blocks.len()],
             node_mass: vec![0.0; mesh.coordinates.len()],
             positions: Arc::new(mesh.coordinates.clone()),
             faces: Vec::new(),
@@ -139,15 +142,19 @@ impl Body {
     /// Masses of elements and nodes from the positions as they are.
     fn weigh(&mut self, model: &Model) {
         self.node_mass.fill(0.0);
+        self.least_share.fill(1.0);
         self.element_mass.clear();
         for element in 0..self.element_nodes.len() {
             let nodes = self.element_nodes[element];
-            let material = self.block_material[self.element_block[element] as usize];
-            let mass = model.materials[material].density * hexahedron_volume(&self.corners(&nodes));
+            let block = self.element_block[element] as usize;
+            let corners = self.corners(&nodes);
+            let mass = model.materials[self.block_material[block]].density * hexahedron_volume(&corners);
             self.element_mass.push(mass);
-            for node in nodes {
-                self.node_mass[node as usize] += mass / 8.0;
+            let shares = shape::mass_shares(&nodes, &corners);
+            for (node, share) in nodes.into_iter().zip(shares) {
+                self.node_mass[node as usize] += mass * share;
             }
+            self.least_share[block] = self.least_share[block].min(shape::least_share(&nodes, &shares));
         }
     }
 

@@ -28,6 +28,8 @@ pub struct Domain {
     pub element_id: Vec<i64>,
     /// Canonical number of each local element in the whole body.
     pub element_canonical: Vec<u32>,
+    /// Names of the state variables that the laws of the whole model store, ascending; the same on all ranks.
+    pub law_states: Vec<&'static str>,
     /// Faces under pressure.
     pub pressure_faces: Vec<PressureFace>,
     /// Forces on nodes.
@@ -38,6 +40,8 @@ pub struct Domain {
     pub silent: Vec<Dashpot>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
+    /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
+    pub carried_work: Vec<f64>,
     /// Contact and rigid surfaces, when there are any.
     pub contact: Option<Contact>,
     /// Elements that are taken away, when the deck asks for it.
@@ -59,6 +63,15 @@ pub fn state_names(law: &Law) -> &'static [&'static str] {
     law.accept(StateNames)
 }
 
+/// Names of all state variables that the model's laws store, ascending.
+fn law_states(model: &Model) -> Vec<&'static str> {
+    let mut names: Vec<&str> =
+        model.materials.iter().flat_map(|material| state_names(&material.law)).copied().collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
@@ -71,11 +84,13 @@ impl Domain {
             element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
             element_file,
             element_canonical: elements.clone(),
+            law_states: law_states(model),
             pressure_faces: pressure_faces(model, body, share, &local),
             node_forces: Vec::new(),
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
             silent: silent::dashpots(mesh, model, body, &local),
             constraints: Vec::new(),
+            carried_work: Vec::new(),
             contact: None,
             erosion: None,
             exchange: Exchange::new(share),
@@ -86,7 +101,8 @@ impl Domain {
         }
         let held = domain.set_constraints(mesh, model, &local);
         domain.set_forces(mesh, model, &local);
-        domain.contact = Contact::new(mesh, model, body, &domain.nodes, held, &local, comm);
+        domain.contact =
+            Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
         domain
     }
@@ -232,6 +248,7 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
             id: mesh.blocks[index].id,
             density: material.density,
             law: material.law.clone(),
+            least_share: body.least_share[index],
             hourglass: model.hourglass,
             state_names,
             border: group(border),

@@ -3,6 +3,9 @@
 //! An element that goes leaves its lane of the chunk to a cube at rest far larger than any element, made of eight nodes
 //! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
 
+mod delete;
+mod state;
+
 use super::Body;
 use super::domain::ABSENT;
 use super::elements::geometry::{corners, gradient, modes};
@@ -15,6 +18,7 @@ use crate::lanes::{CHUNK, Row, Sym3};
 use crate::mesh::Mesh;
 use crate::mesh::check::hexahedron_volume;
 use crate::model::{Death, DeathVariable, ElementField, Model};
+use delete::Deletions;
 use std::sync::Arc;
 
 /// Edge of the cube that stands in for what is gone, in units of the body's size.
@@ -35,6 +39,8 @@ const CUBE: [[f64; 3]; 8] = [
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
     rules: Vec<Death>,
+    deletions: Deletions,
+    element_order: Arc<Vec<u32>>,
     element_nodes: Arc<Vec<[u32; 8]>>,
     /// Local number of each node of the mesh.
     local: Vec<u32>,
@@ -52,9 +58,9 @@ pub struct Erosion {
 }
 
 impl Erosion {
-    /// `None` for a model without DEATH. Adds the stand-in's nodes behind those of the rank.
+    /// `None` for a model without DEATH and DELETE MATERIAL. Adds the stand-in's nodes behind those of the rank.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, nodes: &mut Nodes, local: &[u32]) -> Option<Erosion> {
-        if model.deaths.is_empty() {
+        if model.deaths.is_empty() && model.deletions.is_empty() {
             return None;
         }
         let mut left = vec![0; nodes.len()];
@@ -72,11 +78,14 @@ impl Erosion {
             nodes.file.push(ABSENT);
             nodes.owned.push(false);
         }
+        let deletions = deletions(mesh, model, body);
         Some(Erosion {
             rules: model.deaths.clone(),
+            element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),
             local: local.to_vec(),
-            keeps: keeps(mesh, model, body),
+            keeps: deletions.keeps(&body.element_nodes, body.positions.len()),
+            deletions,
             left,
             stand_in,
             edge,
@@ -85,23 +94,28 @@ impl Erosion {
         })
     }
 
-    /// Takes away what fails, and returns the canonical numbers of what went on all ranks, ascending. `time_step` has
-    /// led to the present positions.
+    /// Takes away what fails and what is deleted now, and returns the canonical numbers of what went on all ranks,
+    /// ascending; `None` when nothing has changed. `time` is that of the present positions, and `time_step` has led to them.
     pub fn advance(
         &mut self,
         blocks: &mut [ElementBlock],
         canonical: &[u32],
         nodes: &mut Nodes,
-        time_step: f64,
+        [time, time_step]: [f64; 2],
         comm: &mut dyn Communicator,
-    ) -> Vec<u32> {
+    ) -> Option<Vec<u32>> {
+        let deleted = self.deletions.due(time, time_step);
         let mut dead: Vec<u32> = Vec::new();
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
-            let mass = block.density * self.edge * self.edge * self.edge;
+            let mass = self.stand_in_mass(block);
             for border in [true, false] {
                 let group = if border { &block.border } else { &block.interior };
-                let failed = failing(&rules, block, group, nodes);
+                let failed = if deleted.contains(&block.id) {
+                    (0..group.len()).filter(|&i| group.is_alive(i)).collect()
+                } else {
+                    failing(&rules, block, group, nodes)
+                };
                 let group = if border { &mut block.border } else { &mut block.interior };
                 for i in failed {
                     dead.push(canonical[group.places[i] as usize]);
@@ -113,7 +127,10 @@ impl Erosion {
         let dead = everyone(dead, comm);
         self.gone += dead.len() as u64;
         self.release(&dead, nodes);
-        dead
+        if !deleted.is_empty() {
+            self.drop_free_nodes(nodes);
+        }
+        (!dead.is_empty() || !deleted.is_empty()).then_some(dead)
     }
 
     /// Counts the elements that nodes lose, and drops free nodes where that is asked for.
@@ -126,14 +143,15 @@ impl Erosion {
                 }
                 self.left[here as usize] -= 1;
                 if self.left[here as usize] == 0 && !self.keeps[node as usize] {
-                    let v = nodes.velocity(here);
-                    if nodes.owned[here as usize] {
-                        self.energy.push(0.5 * nodes.mass(here) * dot(v, v));
-                    }
-                    nodes.rows[here as usize].0[3..8].fill(0.0);
+                    self.energy.extend(drop_node(nodes, here));
                 }
             }
         }
+    }
+
+    /// Mass of the stand-in of a block's elements.
+    fn stand_in_mass(&self, block: &ElementBlock) -> f64 {
+        block.density * self.edge * self.edge * self.edge
     }
 
     /// Whether a node of the mesh goes on when it has lost its elements.
@@ -147,15 +165,21 @@ impl Erosion {
     }
 }
 
-/// Nodes that go on without elements: those with an element of a block that wants it.
-fn keeps(mesh: &Mesh, model: &Model, body: &Body) -> Vec<bool> {
+fn deletions(mesh: &Mesh, model: &Model, body: &Body) -> Deletions {
     let wants = |block: i64| model.deaths.iter().any(|rule| rule.block == block && rule.keeps_nodes);
-    let wanting: Vec<bool> = mesh.blocks.iter().map(|block| wants(block.id)).collect();
-    let mut keeps = vec![false; body.positions.len()];
-    for (nodes, block) in body.element_nodes.iter().zip(&*body.element_block) {
-        nodes.iter().for_each(|&node| keeps[node as usize] |= wanting[*block as usize]);
+    Deletions {
+        to_come: model.deletions.clone(),
+        gone: Vec::new(),
+        blocks: mesh.blocks.iter().map(|block| (block.id, wants(block.id))).collect(),
+        element_block: body.element_block.clone(),
     }
-    keeps
+}
+
+/// Takes a node's mass away; its kinetic energy, where this rank answers for the node and it was not dropped before.
+fn drop_node(nodes: &mut Nodes, node: u32) -> Option<f64> {
+    let (mass, v) = (nodes.mass(node), nodes.velocity(node));
+    nodes.rows[node as usize].0[3..8].fill(0.0);
+    (nodes.owned[node as usize] && mass > 0.0).then(|| 0.5 * mass * dot(v, v))
 }
 
 /// The numbers of all ranks, ascending.
@@ -211,13 +235,14 @@ fn volume(group: &Group, i: usize, nodes: &Nodes) -> f64 {
     hexahedron_volume(&positions(group, i, nodes))
 }
 
-/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B).
+/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B), as the element itself has it.
 fn stable_step(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> f64 {
     let x = positions(group, i, nodes);
     let operator = gradient(&[0, 1, 2].map(|axis| modes(&x.map(|corner| corner[axis] - x[0][axis]))));
     let square = operator.square4608() / 4608.0;
     let volume = operator.volume192 / 192.0;
-    (group.element_mass(i) * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
+    let light = group.element_mass(i) * block.least_share;
+    (light * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
 }
 
 fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {

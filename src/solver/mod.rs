@@ -16,6 +16,7 @@ mod health;
 mod loads;
 pub mod nodes;
 mod silent;
+mod state;
 mod stop;
 mod totals;
 
@@ -43,6 +44,8 @@ pub struct Solver {
     pub step: u64,
     /// Time of the present state.
     pub time: f64,
+    /// Time of the state before; that of the first one is its own.
+    pub previous_time: f64,
     /// Step that leads from the present state to the next.
     pub time_step: f64,
     /// Largest stable step of the present state.
@@ -98,6 +101,7 @@ impl Solver {
             clock: Clock::default(),
             step: 0,
             time: 0.0,
+            previous_time: 0.0,
             time_step: 0.0,
             stable_step: 0.0,
             initial_energy,
@@ -143,7 +147,6 @@ impl Solver {
                 return Err(stop);
             }
         };
-        comm.enter(Traffic::ContactMotion);
         self.external_forces(comm);
         // Until the next step, all that is said is for sums, log and files.
         comm.enter(Traffic::Output);
@@ -164,6 +167,7 @@ impl Solver {
         self.domain.nodes.integrate(self.kick, self.time_step);
         self.clock.stop(Section::Integration);
         self.book_work();
+        self.previous_time = self.time;
         self.time += self.time_step;
         self.step += 1;
     }
@@ -225,15 +229,12 @@ impl Solver {
         let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, .. } = &mut self.domain;
         let Some(erosion) = erosion else { return };
         self.clock.start();
-        let dead = erosion.advance(blocks, element_canonical, nodes, self.time_step, comm);
-        if !dead.is_empty() {
+        if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
             pressure_faces.iter_mut().for_each(|face| face.gone |= dead.binary_search(&face.element).is_ok());
-        }
-        if let Some(contact) = contact
-            && !dead.is_empty()
-        {
-            comm.enter(Traffic::ContactSearch);
-            contact.erode(&dead, erosion, nodes, comm);
+            if let Some(contact) = contact {
+                comm.enter(Traffic::ContactSearch);
+                contact.erode(&dead, erosion, nodes, comm);
+            }
         }
         self.clock.stop(Section::Erosion);
     }

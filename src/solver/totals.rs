@@ -124,7 +124,8 @@ fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
             sums[5].add(*work);
         }
     }
-    for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works(&domain.nodes)) {
+    domain.carried_work.iter().for_each(|work| sums[5].add(*work));
+    for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works()) {
         sums[6].add(normal);
         sums[4].add(-friction);
     }

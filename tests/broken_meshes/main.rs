@@ -99,8 +99,22 @@ const SPOILT: &[Case] = &[
     }),
     ("type_tetra", |m| m.other_type("TETRA", 4)),
     ("type_tet4", |m| m.other_type("tet4", 4)),
-    ("type_wedge", |m| m.other_type("WEDGE", 6)),
-    ("type_pyramid", |m| m.other_type("PYRAMID", 5)),
+    ("type_wedge15", |m| m.other_type("WEDGE15", 15)),
+    ("type_pyramid13", |m| m.other_type("PYRAMID", 13)),
+    ("wedge_has_no_side_six", |m| m.other_type("WEDGE", 6)),
+    ("pyramid_inside_out", |m| {
+        m.other_type("PYRAMID5", 5);
+        *m.integers("connect2") = vec![9, 12, 11, 10, 13];
+        m.integers("side_ss1")[1] = 5;
+    }),
+    ("pinched_element", |m| m.integers("connect2")[6] = 9),
+    ("dented_pyramid", |m| {
+        // A pyramid whose base is dented at a corner.
+        *m.integers("connect2") = vec![9, 10, 11, 12, 13, 13, 13, 13];
+        m.reals("coordy")[10] = 0.2;
+        m.reals("coordz")[10] = 0.2;
+    }),
+    ("block_of_tetrahedra", |m| *m.integers("connect2") = vec![9, 10, 11, 11, 13, 13, 13, 13]),
     ("type_hex20", |m| m.other_type("HEX20", 20)),
     ("type_hex27", |m| m.other_type("HEX", 27)),
     ("type_shell", |m| m.other_type("SHELL4", 4)),
@@ -218,5 +232,27 @@ fn check(name: &str, path: &Path, failures: &mut Vec<String>) {
     let expected = fs::read_to_string(&golden).unwrap_or_default();
     if message != expected {
         failures.push(format!("{name}: expected\n{expected}found\n{message}"));
+    }
+}
+
+/// A block of one wedge or one pyramid in the place of the third cube.
+#[test]
+fn wedges_and_pyramids_are_read_as_collapsed_hexahedra() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shapes.g");
+    for (element_type, nodes, side, corners, hex_side) in [
+        ("WEDGE", vec![9, 10, 11, 13, 14, 15], 3, [8, 9, 10, 10, 12, 13, 14, 14], 3),
+        ("wedge6", vec![9, 10, 11, 13, 14, 15], 5, [8, 9, 10, 10, 12, 13, 14, 14], 5),
+        ("PYRAMID5", vec![9, 10, 11, 12, 13], 5, [8, 9, 10, 11, 12, 12, 12, 12], 4),
+        ("pyr", vec![9, 10, 11, 12, 13], 4, [8, 9, 10, 11, 12, 12, 12, 12], 3),
+    ] {
+        let mut raw = Raw::cubes();
+        raw.other_type(element_type, nodes.len());
+        *raw.integers("connect2") = nodes;
+        raw.integers("side_ss1")[1] = side;
+        raw.write(&path);
+        let mesh = read_mesh(&path).unwrap_or_else(|e| panic!("{element_type}: {e}"));
+        assert_eq!(mesh.blocks[1].connectivity, [corners], "{element_type}");
+        assert_eq!(mesh.side_sets[0].sides, [(0, 4), (2, hex_side)], "{element_type}");
     }
 }

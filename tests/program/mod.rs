@@ -185,3 +185,19 @@ pub fn bar_deck(end: f64, more: &str) -> String {
          POISSONS RATIO = 0.33\nEND\nINITIAL VELOCITY MATERIAL, 1, 0., 0., -10.\n{more}EXIT\n"
     )
 }
+
+/// The launcher of so many MPI processes, when this build and this machine can.
+pub fn mpiexec(ranks: usize) -> Option<Command> {
+    if !cfg!(feature = "mpi") || Command::new("mpiexec").arg("--version").output().is_err() {
+        return None;
+    }
+    let mut command = Command::new("mpiexec");
+    command.args(["-n", &ranks.to_string()]);
+    // Open MPI refuses root and more ranks than cores otherwise; other libraries ignore these.
+    for permission in ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"]
+    {
+        command.env(permission, "1");
+    }
+    command.env("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe");
+    Some(command)
+}

@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 pub mod bodies;
+pub mod collapsed;
+pub mod continued;
 pub mod meshes;
 pub mod momentum;
 pub mod penetration;

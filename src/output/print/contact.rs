@@ -28,6 +28,11 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
             "BLOCK   VARIABLE      BOUND        VALUE   NODES",
             model.deaths.iter().map(death).collect(),
         ),
+        table(
+            "REMOVAL OF BLOCKS",
+            "BLOCK         TIME",
+            model.deletions.iter().map(|one| format!("{:>5}{:>13}", one.block, number(one.time))).collect(),
+        ),
     ]
     .concat()
 }

@@ -101,7 +101,7 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("WRITE PLOT FILE AT INTERVALS OF", &interval(model.plot.interval));
     out += &leader("START WRITING PLOT FILE AT TIME", &number(model.plot.start));
     out += &leader("STOP WRITING PLOT FILE AT TIME", &number(model.plot.stop));
-    out += &leader("WRITE RESTART FILE AT INTERVALS OF", "NONE");
+    out += &leader("WRITE RESTART FILE AT INTERVALS OF", &interval(model.restarts.write.map(|write| write.interval)));
     out += &leader("SCALE FACTOR APPLIED TO TIME STEP", &number(model.time_step.scale));
     out += &leader("STRAIN SOFTENING SCALE FACTOR", &number(model.time_step.softening));
     out += &leader("LARGEST GROWTH OF TIME STEP", &number(model.time_step.growth));

@@ -4,10 +4,12 @@
 mod contact;
 mod echo;
 mod modelled;
+mod restart;
 mod steps;
 mod summary;
 
 pub use modelled::{Feature, features};
+pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};
 pub use summary::{Balance, Ending, TimeTable, closing};
 

@@ -1,6 +1,7 @@
 //! What a model makes the code do, and which command asked for it.
 
-use crate::mesh::Mesh;
+use crate::mesh::shape::{Shape, kind};
+use crate::mesh::{Block, Mesh};
 use crate::model::{Hourglass, Model, MotionKind};
 
 /// A part of the code that has work to do.
@@ -29,6 +30,7 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("contact of all outer faces", "CONTACT MATERIAL", usize::from(model.contact.materials.is_some())),
         ("contact of pairs of side sets", "CONTACT SURFACE", model.contact.surfaces.len()),
         ("elements that are taken away", "DEATH", model.deaths.len()),
+        ("blocks that are taken away at a time", "DELETE MATERIAL", model.deletions.len()),
         ("histories of material points", "MATERIAL POINT", model.material_points.len()),
     ];
     for (what, command, count) in counts.into_iter().filter(|(.., count)| *count > 0) {
@@ -38,12 +40,28 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
     list
 }
 
+/// How many elements of which shapes a block has.
+fn elements(block: &Block) -> String {
+    let mut out = Vec::new();
+    for (shape, name) in [
+        (Shape::Hexahedron, "hexahedra"),
+        (Shape::Wedge, "wedges"),
+        (Shape::Pyramid, "pyramids"),
+        (Shape::Tetrahedron, "tetrahedra"),
+    ] {
+        let count = block.connectivity.iter().filter(|nodes| kind(nodes) == shape).count();
+        if count > 0 || block.connectivity.is_empty() && shape == Shape::Hexahedron {
+            out.push(format!("{count} {name}"));
+        }
+    }
+    out.join(", ")
+}
+
 /// What every element does.
 fn solids(model: &Model, mesh: &Mesh) -> Vec<Feature> {
     let laws = mesh.blocks.iter().filter_map(|block| {
         let material = model.materials.iter().find(|material| material.block == block.id)?;
-        let count = block.connectivity.len();
-        let what = format!("{count} hexahedra, {}", material.law.entry().name.to_lowercase());
+        let what = format!("{}, {}", elements(block), material.law.entry().name.to_lowercase());
         Some(Feature { what, asked_by: format!("MATERIAL {}", block.id) })
     });
     let hourglass = match model.hourglass {

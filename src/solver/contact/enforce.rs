@@ -98,6 +98,9 @@ pub struct Outcome {
 
 /// What ranks tell each other in the course of the passes; nothing on one rank.
 pub trait Others {
+    /// Appends the constraints of others that act on points which this rank answers for, and sends them those that act on
+    /// theirs.
+    fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<State>);
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
     fn share(&mut self, moved: &mut [Moved]);
     /// The largest of all ranks' values.
@@ -108,6 +111,8 @@ pub trait Others {
 pub struct Alone;
 
 impl Others for Alone {
+    fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<State>) {}
+
     fn share(&mut self, _: &mut [Moved]) {}
 
     fn largest(&mut self, value: f64) -> f64 {
@@ -126,17 +131,17 @@ pub struct Moved {
 
 /// A constraint in the course of the passes.
 #[derive(Debug, Clone, Copy, Default)]
-struct State {
+pub struct State {
     /// Reduced mass of the constraint alone, times its share; 0 where nothing can be moved.
-    strength: f64,
+    pub strength: f64,
     /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
-    softness: [[f64; 2]; MEMBERS],
-    /// Normal and friction force of the last pass.
-    last: (f64, [f64; 3]),
+    pub softness: [[f64; 2]; MEMBERS],
     /// Velocity of sliding without contact forces.
-    slip: [f64; 3],
+    pub slip: [f64; 3],
+    /// Normal and friction force of the last pass.
+    pub last: (f64, [f64; 3]),
     /// Whether it pushes or overlaps.
-    active: bool,
+    pub active: bool,
 }
 
 /// Buffers of the passes, kept from step to step.
@@ -181,7 +186,7 @@ impl Enforcer {
         }
     }
 
-    /// Finds the forces of all constraints and their sums at the points. The order of the constraints is that of the
+    /// Finds the forces of all constraints that were prepared, and their sums at the points. The order of the constraints is that of the
     /// sums and must not depend on the decomposition.
     pub fn solve(
         &mut self,
@@ -192,7 +197,11 @@ impl Enforcer {
         others: &mut dyn Others,
     ) -> Outcome {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
-        self.prepare(constraints, points);
+        self.list_members(constraints);
+        for (c, state) in constraints.iter().zip(&mut self.states) {
+            state.last = (c.push, c.drag);
+            state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
+        }
         let mut outcome = Outcome::default();
         // Where nothing overlaps and nothing was pushed there is nothing to do. One pass is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
@@ -231,9 +240,27 @@ impl Enforcer {
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
     }
 
-    /// Finds what does not change in the passes, and the friction of the last step in the new planes.
-    fn prepare(&mut self, constraints: &mut [Constraint], points: &Points) {
-        self.list_members(constraints);
+    /// What does not change in the passes, of each constraint.
+    pub fn states(&mut self) -> &mut Vec<State> {
+        &mut self.states
+    }
+
+    /// Puts constraints in the order of their origins, of which only those before `own` are already in order. The place
+    /// before of each constraint, or `None` where nothing has changed.
+    pub fn merge(&mut self, constraints: &mut Vec<Constraint>, own: usize) -> Option<Vec<u32>> {
+        if constraints.len() == own {
+            return None;
+        }
+        let mut order: Vec<u32> = (0..constraints.len() as u32).collect();
+        order.sort_by_key(|&i| constraints[i as usize].origin);
+        *constraints = order.iter().map(|&i| constraints[i as usize]).collect();
+        self.states = order.iter().map(|&i| self.states[i as usize]).collect();
+        Some(order)
+    }
+
+    /// Finds what does not change in the passes, and the friction of the last step in the new planes; before
+    /// [`Enforcer::solve`].
+    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &Points) {
         self.states.clear();
         for c in constraints {
             (c.push, c.drag) = (BEGINNING * c.push, scaled(c.drag, BEGINNING));
@@ -258,8 +285,6 @@ impl Enforcer {
             } else {
                 c.drag = [0.0; 3];
             }
-            state.last = (c.push, c.drag);
-            state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
             self.states.push(state);
         }
     }
@@ -288,7 +313,9 @@ impl Enforcer {
         }
         for &point in &self.members {
             let p = point as usize;
-            let (sum, m) = (std::mem::take(&mut self.sums[p]), points.inverse_mass[p]);
+            let sum = std::mem::take(&mut self.sums[p]);
+            // What others answer for comes from them.
+            let Some(m) = points.inverse_mass.get(p) else { continue };
             let change = [0, 1, 2].map(|i| times.kick * (sum.change[i] * m[i]));
             self.moved[p] = Moved { change, load: sum.load };
         }

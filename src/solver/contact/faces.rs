@@ -53,6 +53,28 @@ impl Faces {
         faces
     }
 
+    /// Some of these faces, ascending; `point` gives the new numbers of points, of which there are `points`.
+    pub fn subset(&self, chosen: &[u32], point: impl Fn(u32) -> u32, points: usize) -> Faces {
+        let mut some = Faces::default();
+        for &face in chosen {
+            let face = face as usize;
+            some.number.push(self.number[face]);
+            some.corners.push(self.corners[face].map(&point));
+            some.block.push(self.block[face]);
+            some.size.push(self.size[face]);
+            some.depth.push(self.depth[face]);
+            some.element.push(self.element[face].map(|of| if of == u32::MAX { of } else { point(of) }));
+        }
+        some.connect(points);
+        some
+    }
+
+    /// The outer faces of a face's element, itself included.
+    pub fn of_same_element(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
+        let same = move |other: &u32| self.number[*other as usize] / 6 == self.number[face as usize] / 6;
+        (0..face).rev().take_while(same).chain((face..self.len() as u32).take_while(same))
+    }
+
     /// Number of faces.
     pub fn len(&self) -> usize {
         self.number.len()

@@ -2,10 +2,12 @@
 
 use super::detect::{Check, UNTOUCHED};
 use super::enforce::{Alone, Enforcer, Limits};
-use super::locate::{Locator, Near, Reach};
+use super::locate::{Locator, Near};
+use super::neighbourhood::{self, Boxes};
 use super::points::Points;
 use super::search::SearchKind;
-use super::setup::{ABSENT, Layout, Pairings, Skin};
+use super::setup::{Layout, Pairings, Skin};
+use super::sites::Sites;
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::solver::Body;
@@ -48,6 +50,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             break;
         }
         let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
+        enforcer.prepare(&mut constraints, &points);
         enforcer.solve(&mut constraints, &points, &still, limits, &mut Alone);
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
@@ -76,8 +79,13 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut 
 
 /// Every point behind a face that faces it.
 fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super::enforce::Constraint> {
-    let mut locator = Locator::new(SearchKind::Grid, Reach { steps: 1.0, least: 0.0, depth: 1.0 });
-    locator.locate(points, &layout.faces, &layout.interfaces, &[]);
+    let sites = Sites::still(points);
+    let all = neighbourhood::point_boxes(&sites);
+    let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &sites);
+    let mut search = SearchKind::Grid.make();
+    let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
+    let mut locator = Locator::new(found, 1.0, points, &layout.faces);
+    locator.step(points, &layout.faces);
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
     let mut near: Vec<Near> = Vec::new();
@@ -89,9 +97,12 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super:
         for touch in &mut touches {
             touch.allowed = 0.0;
             let size = layout.faces.size[touch.face as usize];
-            let interface = near.iter().find(|near| near.face == touch.face).map_or(ABSENT, |near| near.interface);
-            if touch.stand.gap < -NOTHING * size && interface != ABSENT {
-                constraints.extend(super::constraint(layout, pairings, point, touch, interface));
+            let Some(near) = near.iter().find(|near| near.face == touch.face) else { continue };
+            let rule = layout.interfaces[near.interface as usize].rule;
+            let face = layout.faces.block[touch.face as usize];
+            let pairing = pairings.of(rule, layout.point_block[point as usize], face);
+            if touch.stand.gap < -NOTHING * size {
+                constraints.extend(super::constraint(&layout.faces, pairing, point, touch));
             }
         }
     }

@@ -8,15 +8,17 @@ use crate::solver::nodes::{dot, subtract};
 /// One point that a plane watches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanePoint {
+    /// Number of the watch among all.
+    pub number: u32,
     /// The point.
     pub point: u32,
     /// Index into the model's rigid surfaces.
     pub plane: u32,
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
-    allowed: f64,
-    push: f64,
-    drag: [f64; 3],
+    pub(super) allowed: f64,
+    pub(super) push: f64,
+    pub(super) drag: [f64; 3],
 }
 
 fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
@@ -26,7 +28,14 @@ fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
 impl PlanePoint {
     /// A point at its initial position.
     pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlanePoint {
-        PlanePoint { point, plane: number as u32, allowed: gap(plane, position).min(0.0), push: 0.0, drag: [0.0; 3] }
+        PlanePoint {
+            number: 0,
+            point,
+            plane: number as u32,
+            allowed: gap(plane, position).min(0.0),
+            push: 0.0,
+            drag: [0.0; 3],
+        }
     }
 
     /// Keeps the force of a step.
@@ -38,7 +47,6 @@ impl PlanePoint {
     /// `size`.
     pub fn constraint(
         &mut self,
-        number: u32,
         planes: &[RigidSurface],
         points: &Points,
         size: f64,
@@ -62,7 +70,7 @@ impl PlanePoint {
             friction: Friction::constant(plane.friction),
             push: self.push,
             drag: self.drag,
-            origin: Origin::Plane(number),
+            origin: Origin::Plane(self.number),
         };
         (constraint.members[0], constraint.weights[0]) = (self.point, 1.0);
         Some(constraint)

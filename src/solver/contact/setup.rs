@@ -1,5 +1,6 @@
 //! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
 
+use super::edges::{self, Edge};
 use super::faces::Faces;
 use super::locate::{Interface, Rule};
 use super::surface::{Surface, face_nodes};
@@ -78,9 +79,11 @@ pub struct Layout {
     /// Block of each point: that of the first of its faces.
     pub point_block: Vec<u32>,
     /// Faces.
-    pub faces: Faces,
+    pub faces: Arc<Faces>,
     /// Interfaces; explicit pairs first.
     pub interfaces: Vec<Interface>,
+    /// Edges that stand out, of the faces that CONTACT MATERIAL lets touch.
+    pub edges: Vec<Edge>,
 }
 
 impl Layout {
@@ -113,8 +116,10 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
+    /// Whether edges may touch edges.
+    edges_wanted: bool,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
-    free: Vec<(u32, u32)>,
+    pub(super) free: Vec<(u32, u32)>,
 }
 
 impl Skin {
@@ -137,6 +142,7 @@ impl Skin {
             sets: side_set_faces(mesh, contact, body),
             chosen,
             more,
+            edges_wanted: contact.control.edges,
             free: Vec::new(),
         }
     }
@@ -164,7 +170,7 @@ impl Skin {
         let mut layout = Layout { nodes, ..Default::default() };
         let points = layout.nodes.len();
         let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
-        layout.faces = Faces::new(&numbers, body, |node| layout.point(node), points);
+        layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));
         let faces = &layout.faces;
         let block = |point: u32| faces.around(point).first().map_or(0, |&face| faces.block[face as usize]);
         layout.point_block = (0..points as u32).map(block).collect();
@@ -173,6 +179,11 @@ impl Skin {
             layout.point_block[point] = block;
         }
         layout.interfaces = self.interfaces(&layout, &automatic);
+        // As sharp as they are in the mesh.
+        if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted) {
+            let positions = self.positions(&layout.nodes);
+            layout.edges = edges::standing_out(&automatic.faces, &layout.faces, &positions);
+        }
         layout
     }
 

@@ -20,6 +20,8 @@ pub struct ElementBlock {
     pub density: f64,
     /// Constitutive law.
     pub law: Law,
+    /// The least part of an eighth of its mass that any node has of an element: 1 but where corners coincide.
+    pub least_share: f64,
     /// Hourglass control.
     pub hourglass: Hourglass,
     /// Names of the law's stored state variables, in row order.

@@ -37,6 +37,8 @@ pub struct Settings {
     pub time: f64,
     /// Initial mass density.
     pub density: f64,
+    /// Least part of an eighth of its mass that any node has of an element; 1 where no corners coincide.
+    pub least_share: f64,
     /// Elastic dilatational modulus λ + 2μ.
     pub dilatational: f64,
     /// Shear modulus μ.
@@ -138,14 +140,16 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
     accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
 
-    // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration
+    // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
+    // M at each corner, so M is what eight of the lightest make up
+    let light = mass * V::splat(settings.least_share);
     let gradient = gradient(&x);
     let inverse = V::splat(1.0) / gradient.volume192;
     let b_squared = gradient.square4608();
     let stiffness = response.stiffness;
     let modulus = if K::STIFFNESS { stiffness.dilatational } else { step_modulus(settings, &old, &stress, &strain) };
     let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
-    let bound = (mass * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
+    let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
     let damping = viscous_damping(settings, bound, rate);
     let viscous = damping * modulus * bound * rate;
@@ -159,7 +163,7 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let hourglass_state = hourglass::State {
         lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
         stiffness_measure,
-        mass,
+        mass: light,
         mu,
         poisson: V::splat(settings.poisson),
         returned: response.returned,
@@ -167,7 +171,7 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         time_step,
     };
     let resistance = resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state);
-    let stable_step = control.stable_step(stable_step, stiffness_measure, mass, mu);
+    let stable_step = control.stable_step(stable_step, stiffness_measure, light, mu);
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
     let zero = V::splat(0.0);
     let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);

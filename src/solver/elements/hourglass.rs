@@ -19,7 +19,7 @@ pub struct State<V> {
     pub lengths: [V; 3],
     /// B_iI B_iI / V at the end of the step.
     pub stiffness_measure: V,
-    /// Element mass.
+    /// Element mass, or eight times the mass of its lightest corner where that is less.
     pub mass: V,
     /// Shear modulus μ.
     pub mu: V,

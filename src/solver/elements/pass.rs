@@ -72,6 +72,7 @@ pub fn run(block: &mut ElementBlock, nodes: &[Row], sink: Sink, pass: &PassSetti
         time_step: pass.time_step,
         time: pass.time,
         density: block.density,
+        least_share: block.least_share,
         dilatational: moduli.dilatational(),
         mu: 0.5 * moduli.two_mu,
         poisson: moduli.poisson(),

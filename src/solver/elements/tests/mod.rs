@@ -5,6 +5,7 @@
 
 mod assumed_strain;
 mod bits;
+mod collapsed;
 mod energy;
 mod extremes;
 mod kinematics;
@@ -135,6 +136,7 @@ impl Rig {
                 index: 0,
                 id: 1,
                 density: DENSITY,
+                least_share: 1.0,
                 hourglass,
                 state_names,
                 border: Group::new(&[], &law),

@@ -1,0 +1,118 @@
+//! What a restart is a state of, and whether a deck and a mesh are still the same problem.
+//!
+//! A continued run may change its times, outputs, loads, constraints and the numbers of its laws. What gives the stored
+//! state its meaning must stay: the mesh, laws and densities of the blocks, hourglass control, and what is in contact.
+
+use crate::exodus::Restart;
+use crate::mesh::Mesh;
+use crate::model::{ContactMaterials, Hourglass, Model};
+use crate::solver::{Body, state_names};
+
+/// Version of the meaning of what a restart file holds.
+const FORMAT: &str = "1";
+
+/// Differences told one by one.
+const TOLD: usize = 5;
+
+/// What must stay the same: names and values, a line each.
+pub fn identity(model: &Model) -> String {
+    let mut lines = vec![("format".to_string(), FORMAT.to_string())];
+    for material in &model.materials {
+        let states = state_names(&material.law);
+        let stored = if states.is_empty() { String::new() } else { format!(" with {}", states.join(" ")) };
+        let law = format!("{} of density {}{stored}", material.law.entry().name, material.density);
+        lines.push((format!("MATERIAL {}", material.block), law));
+    }
+    let hourglass = match model.hourglass {
+        Hourglass::FlanaganBelytschko { .. } => "FLANAGAN BELYTSCHKO",
+        Hourglass::AssumedStrain { .. } => "ASSUMED STRAIN",
+    };
+    lines.push(("HOURGLASS CONTROL".into(), hourglass.into()));
+    let materials = match &model.contact.materials {
+        None => "none".to_string(),
+        Some(ContactMaterials::All) => "all blocks".to_string(),
+        Some(ContactMaterials::Blocks(blocks)) => blocks.iter().map(i64::to_string).collect::<Vec<_>>().join(" "),
+    };
+    lines.push(("CONTACT MATERIAL".into(), materials));
+    let pairs = model.contact.surfaces.iter().map(|pair| format!("{} on {}", pair.side_sets[0], pair.side_sets[1]));
+    lines.push(("CONTACT SURFACE".into(), some(pairs.collect())));
+    let planes = model.rigid_surfaces.iter().map(|p| format!("{} at {:?} along {:?}", p.side_set, p.point, p.normal));
+    lines.push(("RIGID SURFACE".into(), some(planes.collect())));
+    lines.into_iter().map(|(name, value)| format!("{name}: {value}\n")).collect()
+}
+
+fn some(list: Vec<String>) -> String {
+    if list.is_empty() { "none".into() } else { list.join(", ") }
+}
+
+/// Why a state cannot be gone on from with this deck and mesh, a sentence each; none when it can.
+pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
+    let mut found = meshes(&restart.mesh, mesh);
+    let now = identity(model);
+    found.extend(texts(&restart.identity, &now));
+    let dead = restart.snapshot.lists.iter().find(|list| list.name == "DEAD").map_or(0, |list| list.values.len());
+    if dead > 0 && model.deaths.is_empty() && model.deletions.is_empty() {
+        found.push(format!("{dead} elements had been taken away, the deck has neither DEATH nor DELETE MATERIAL now"));
+    }
+    if found.is_empty() {
+        found.extend(masses(restart, mesh, body));
+    }
+    found
+}
+
+/// Values that differ between two identities.
+fn texts(then: &str, now: &str) -> Vec<String> {
+    let lines = |text: &str| -> Vec<(String, String)> {
+        text.lines().filter_map(|line| line.split_once(": ")).map(|(a, b)| (a.to_string(), b.to_string())).collect()
+    };
+    let (then, now) = (lines(then), lines(now));
+    let value = |list: &[(String, String)], name: &str| {
+        list.iter().find(|(known, _)| known == name).map_or("none".to_string(), |(_, value)| value.clone())
+    };
+    let mut names: Vec<&String> = then.iter().chain(&now).map(|(name, _)| name).collect();
+    names.sort();
+    names.dedup();
+    let differ = names.into_iter().filter(|name| value(&then, name) != value(&now, name));
+    differ.map(|name| format!("{name}: it was {}, it is {}", value(&then, name), value(&now, name))).collect()
+}
+
+fn meshes(then: &Mesh, now: &Mesh) -> Vec<String> {
+    let counts = |mesh: &Mesh| format!("{} nodes and {} elements", mesh.coordinates.len(), mesh.element_count());
+    if counts(then) != counts(now) {
+        return vec![format!("the mesh had {}, it has {}", counts(then), counts(now))];
+    }
+    let ids = |mesh: &Mesh| mesh.blocks.iter().map(|block| block.id).collect::<Vec<_>>();
+    if ids(then) != ids(now) {
+        return vec![format!("the element blocks were {:?}, they are {:?}", ids(then), ids(now))];
+    }
+    let mut found = Vec::new();
+    for (block, other) in then.blocks.iter().zip(&now.blocks) {
+        if block.connectivity.len() != other.connectivity.len() {
+            let counts = [block, other].map(|block| block.connectivity.len());
+            found.push(format!("block {} had {} elements, it has {}", block.id, counts[0], counts[1]));
+        } else if block.connectivity != other.connectivity {
+            found.push(format!("elements of block {} have other nodes than they had", block.id));
+        }
+    }
+    let moved = then.coordinates.iter().zip(&now.coordinates).position(|(a, b)| a != b);
+    found.extend(moved.map(|node| format!("node {} is not where it was in the mesh", now.node_ids[node])));
+    found
+}
+
+/// Masses follow from mesh, densities and the overlaps that were taken out of the mesh at the start.
+fn masses(restart: &Restart, mesh: &Mesh, body: &Body) -> Option<String> {
+    let (_, then) = restart.snapshot.nodal.iter().find(|(name, _)| name == "NODMASS")?;
+    // A node that has been dropped has no mass.
+    let differ = then.iter().zip(&body.node_mass).position(|(then, now)| *then != 0.0 && then != now)?;
+    let node = mesh.node_ids[differ];
+    Some(format!("node {node} had another mass: CONTACT DATA takes overlaps out of the mesh in another way now"))
+}
+
+/// The differences as a list of lines, not all when there are many.
+pub fn told(differences: &[String]) -> String {
+    let mut lines: Vec<String> = differences.iter().take(TOLD).map(|line| format!("  {line}")).collect();
+    if differences.len() > TOLD {
+        lines.push(format!("  and {} more", differences.len() - TOLD));
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,361 @@
+//! Where contact is computed: some points and faces of the layout, their candidates and their history.
+//!
+//! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
+//! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
+
+use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
+use super::edges::{Edge, EdgeCheck, PastPair};
+use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
+use super::faces::Faces;
+use super::locate::{Locator, Near, Rule};
+use super::neighbourhood::Found;
+use super::planes::PlanePoint;
+use super::points::Points;
+use super::setup::{ABSENT, Layout, Pairings};
+use super::sites::ANSWER;
+use crate::model::RigidSurface;
+use crate::solver::constraints::StepTimes;
+use std::sync::Arc;
+
+/// What contact carries from step to step, by the numbers of the layout.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct History {
+    /// Points and what they touch.
+    pub points: Vec<(u32, [Past; TOUCHES])>,
+    /// Pairs of edges that touch.
+    pub edges: Vec<PastPair>,
+    /// Watches of planes and their forces.
+    pub planes: Vec<(u32, f64, [f64; 3])>,
+}
+
+/// Points, faces and edges of an arena, by the numbers of the layout, ascending.
+#[derive(Debug, Clone, Default)]
+pub struct Cast {
+    /// Points whose motion is known here.
+    pub points: Vec<u32>,
+    /// Points that only take part in constraints of other ranks, not among `points`.
+    pub ghosts: Vec<u32>,
+    /// Faces.
+    pub faces: Vec<u32>,
+    /// Edges.
+    pub edges: Vec<u32>,
+}
+
+/// Points that may touch, and everything about them.
+#[derive(Default)]
+pub struct Arena {
+    /// The points.
+    pub points: Points,
+    /// Candidates.
+    pub locator: Locator,
+    /// Who is here.
+    pub cast: Cast,
+    faces: Arc<Faces>,
+    edges: Vec<Edge>,
+    point_block: Vec<u32>,
+    rules: Vec<Rule>,
+    history: Vec<[Past; TOUCHES]>,
+    edge_history: Vec<PastPair>,
+    planes: Vec<PlanePoint>,
+    /// Constraints of this step.
+    pub constraints: Vec<Constraint>,
+    enforcer: Enforcer,
+    /// What has come out for each point, and of which points that is not nothing.
+    pub answers: Vec<[f64; ANSWER]>,
+    /// Points with a force now, ascending.
+    pub pushed: Vec<u32>,
+    near: Vec<Near>,
+    near_faces: Vec<u32>,
+    strict: Vec<bool>,
+    touches: Vec<Touch>,
+}
+
+/// What a step needs to know of the problem.
+pub struct Setting<'a> {
+    /// What holds between blocks and pairs.
+    pub pairings: &'a Pairings,
+    /// Rigid planes.
+    pub planes: &'a [RigidSurface],
+    /// Length that overlaps with planes are small against.
+    pub mean_size: f64,
+    /// How far the passes go.
+    pub limits: Limits,
+}
+
+impl Arena {
+    /// An arena with this cast. `found` is in numbers of the layout, as is `watches`, the planes' points that this rank
+    /// answers for.
+    pub fn new(cast: Cast, found: Found, depth: f64, layout: &Layout, watches: &[PlanePoint]) -> Arena {
+        let points = cast.points.len();
+        let whole = points == layout.nodes.len() && cast.faces.len() == layout.faces.len();
+        let faces = if whole {
+            layout.faces.clone()
+        } else {
+            Arc::new(layout.faces.subset(&cast.faces, |point| place(&cast.points, point), points))
+        };
+        let local = |point: u32| place(&cast.points, point);
+        let edges = cast.edges.iter().map(|&edge| {
+            let Edge { ends, faces } = layout.edges[edge as usize];
+            Edge { ends: ends.map(local), faces: faces.map(|face| place(&cast.faces, face)) }
+        });
+        let edges = edges.collect();
+        let found = Found {
+            watched: found.watched.into_iter().map(local).collect(),
+            first: found.first,
+            near: found.near.into_iter().map(|near| Near { face: place(&cast.faces, near.face), ..near }).collect(),
+            pairs: found.pairs.into_iter().map(|pair| pair.map(|edge| place(&cast.edges, edge))).collect(),
+        };
+        let all = points + cast.ghosts.len();
+        let values = Points::new(points);
+        Arena {
+            locator: Locator::new(found, depth, &values, &faces),
+            points: values,
+            edges,
+            point_block: cast.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
+            rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
+            history: vec![UNTOUCHED; points],
+            planes: watches.iter().map(|watch| PlanePoint { point: local(watch.point), ..*watch }).collect(),
+            enforcer: Enforcer::new(all),
+            answers: vec![[0.0; ANSWER]; all],
+            faces,
+            cast,
+            ..Default::default()
+        }
+    }
+
+    /// Place of a point of the layout here, or [`ABSENT`].
+    pub fn place(&self, point: u32) -> u32 {
+        match self.cast.points.binary_search(&point) {
+            Ok(place) => place as u32,
+            Err(_) => match self.cast.ghosts.binary_search(&point) {
+                Ok(ghost) => (self.cast.points.len() + ghost) as u32,
+                Err(_) => ABSENT,
+            },
+        }
+    }
+
+    /// The candidates of the last search are replaced; history is kept of points that still have any.
+    pub fn renew(&mut self, found: Found, depth: f64) {
+        let mut watched = found.watched.iter().peekable();
+        for (point, past) in self.history.iter_mut().enumerate() {
+            // Whether a point without candidates is looked at must not depend on when the search is made.
+            if watched.next_if(|&&next| next as usize == point).is_none() {
+                *past = UNTOUCHED;
+            }
+        }
+        self.locator = Locator::new(found, depth, &self.points, &self.faces);
+    }
+
+    /// What is carried from step to step.
+    pub fn history(&self) -> History {
+        let face = |face: u32| if face == NONE { NONE } else { self.cast.faces[face as usize] };
+        let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != UNTOUCHED);
+        let points = touching.map(|(past, &point)| (point, past.map(|past| Past { face: face(past.face), ..past })));
+        let edges = self.edge_history.iter();
+        let planes = self.planes.iter().filter(|watch| watch.push != 0.0 || watch.drag != [0.0; 3]);
+        History {
+            points: points.collect(),
+            edges: edges
+                .map(|past| PastPair { pair: past.pair.map(|e| self.cast.edges[e as usize]), ..*past })
+                .collect(),
+            planes: planes.map(|watch| (watch.number, watch.push, watch.drag)).collect(),
+        }
+    }
+
+    /// Puts back what was carried, as far as it concerns what is here.
+    pub fn restore(&mut self, mut history: History) {
+        for (point, pasts) in history.points {
+            let here = place(&self.cast.points, point);
+            if let Some(mine) = self.history.get_mut(here as usize) {
+                *mine = tidy(pasts.map(|past| Past { face: place(&self.cast.faces, past.face), ..past }));
+            }
+        }
+        history.edges.sort_by_key(|past| past.pair);
+        let edge = |edge: u32| self.cast.edges.binary_search(&edge).ok().map(|edge| edge as u32);
+        let pairs = history.edges.into_iter().filter_map(|past| {
+            let [first, second] = past.pair;
+            Some(PastPair { pair: [edge(first)?, edge(second)?], ..past })
+        });
+        self.edge_history = pairs.collect();
+        for (number, push, drag) in history.planes {
+            if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
+                self.planes[watch].remember(push, drag);
+            }
+        }
+    }
+
+    /// Finds the contact forces of a step, whose motion is in `points`.
+    pub fn step(&mut self, setting: &Setting, step: &StepTimes, others: &mut dyn Others) -> Outcome {
+        self.constraints.clear();
+        if !self.rules.is_empty() {
+            self.locator.step(&self.points, &self.faces);
+            self.check(setting.pairings);
+            self.check_edges(setting.pairings);
+        }
+        let always = !self.rules.is_empty();
+        for watch in &mut self.planes {
+            self.constraints.extend(watch.constraint(setting.planes, &self.points, setting.mean_size, always));
+        }
+        self.origins();
+        let outcome = self.enforce(setting, step, others);
+        self.answer();
+        outcome
+    }
+
+    /// Origins tell the order of constraints to all ranks: they are in numbers of the layout.
+    fn origins(&mut self) {
+        for c in &mut self.constraints {
+            c.origin = match c.origin {
+                Origin::Face(point, place) => Origin::Face(self.cast.points[point as usize], place),
+                Origin::Edges(a, b) => Origin::Edges(self.cast.edges[a as usize], self.cast.edges[b as usize]),
+                Origin::Plane(number) => Origin::Plane(number),
+            };
+        }
+    }
+
+    /// The detailed check of every point with candidates; what it touches becomes constraints and history.
+    fn check(&mut self, pairings: &Pairings) {
+        let Arena { points, faces, point_block, rules, locator, history, .. } = self;
+        let Arena { constraints, near, near_faces, strict, touches, .. } = self;
+        let check = Check { points, faces };
+        for i in 0..locator.watched().len() {
+            let point = locator.watched()[i];
+            let past = &mut history[point as usize];
+            locator.near(i, points, faces, past, near);
+            if near.is_empty() {
+                *past = UNTOUCHED;
+                continue;
+            }
+            near_faces.clear();
+            near_faces.extend(near.iter().map(|near| near.face));
+            strict.clear();
+            strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
+            check.point(point, near_faces, strict, past, touches);
+            let before = std::mem::replace(past, UNTOUCHED);
+            for (place, touch) in touches.iter().enumerate() {
+                let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
+                let rule = rules[interface as usize];
+                let pairing = pairings.of(rule, point_block[point as usize], faces.block[touch.face as usize]);
+                if let Some(mut constraint) = super::constraint(faces, pairing, point, touch) {
+                    (constraint.push, constraint.drag) = push_before(faces, &before, touches, touch);
+                    constraint.origin = Origin::Face(point, place as u32);
+                    constraints.push(constraint);
+                }
+                past[place] = Past { face: touch.face, allowed: touch.allowed, ..UNTOUCHED[0] };
+            }
+        }
+    }
+
+    /// The check of every pair of edges that may cross.
+    fn check_edges(&mut self, pairings: &Pairings) {
+        let Arena { points, faces, locator, edges, edge_history, constraints, .. } = self;
+        let check = EdgeCheck { points, faces, edges };
+        let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
+        let before = std::mem::take(edge_history);
+        for &pair in locator.edge_pairs() {
+            let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
+            let mut pairing = pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
+            // Neither edge is the master.
+            pairing.share = 0.5;
+            if let Some((now, constraint)) = check.pair(pair, past, pairing) {
+                edge_history.push(now);
+                constraints.push(constraint);
+            }
+        }
+    }
+
+    fn enforce(&mut self, setting: &Setting, step: &StepTimes, others: &mut dyn Others) -> Outcome {
+        let Arena { constraints, enforcer, points, .. } = self;
+        enforcer.prepare(constraints, points);
+        let own = constraints.len();
+        others.copy(constraints, enforcer.states());
+        let order = enforcer.merge(constraints, own);
+        let outcome = enforcer.solve(constraints, points, step, setting.limits, others);
+        match order {
+            None => (0..own).for_each(|i| self.remember(i)),
+            Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
+        }
+        outcome
+    }
+
+    /// Keeps the force of a constraint: the passes of the next step begin with it.
+    fn remember(&mut self, constraint: usize) {
+        let c = self.constraints[constraint];
+        match c.origin {
+            Origin::Face(_, place) => {
+                let past = &mut self.history[c.members[0] as usize][place as usize];
+                (past.push, past.drag) = (c.push, c.drag);
+            }
+            Origin::Edges(first, second) => {
+                let pair = [first, second].map(|edge| place(&self.cast.edges, edge));
+                if let Ok(i) = self.edge_history.binary_search_by(|past| past.pair.cmp(&pair)) {
+                    (self.edge_history[i].push, self.edge_history[i].drag) = (c.push, c.drag);
+                }
+            }
+            Origin::Plane(number) => {
+                if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
+                    self.planes[watch].remember(c.push, c.drag);
+                }
+            }
+        }
+    }
+
+    /// Says what contact does to each point: forces, gap, status (0 free, 1 pushed, 2 pushed by its own contact with a
+    /// face), the face, and the force of planes.
+    fn answer(&mut self) {
+        self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+        for c in self.constraints.iter().filter(|c| c.push > 0.0) {
+            for (point, _) in c.parts() {
+                let answer = &mut self.answers[point];
+                if answer[7] == 0.0 {
+                    self.pushed.push(point as u32);
+                    let ([a, b, c], [d, e, f]) =
+                        (self.enforcer.normal_force[point], self.enforcer.friction_force[point]);
+                    answer[..8].copy_from_slice(&[a, b, c, d, e, f, 0.0, 1.0]);
+                }
+            }
+            let first = &mut self.answers[c.members[0] as usize];
+            first[6] = first[6].min(c.gap);
+            match c.origin {
+                Origin::Face(..) => {
+                    let past = self.history.get(c.members[0] as usize).map_or(NONE, |pasts| pasts[0].face);
+                    if past != NONE {
+                        (first[7], first[8]) = (2.0, f64::from(self.faces.number[past as usize]));
+                    }
+                }
+                Origin::Plane(_) => (0..3).for_each(|i| first[9 + i] += c.push * c.normal[i] + c.drag[i]),
+                Origin::Edges(..) => (),
+            }
+        }
+        self.pushed.sort_unstable();
+    }
+
+    /// Forgets the forces of this step.
+    pub fn forget(&mut self) {
+        self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+        self.constraints.clear();
+    }
+}
+
+/// Place of a number in an ascending list, or [`ABSENT`].
+fn place(list: &[u32], number: u32) -> u32 {
+    // Where a list is whole, every number is its own place.
+    if list.get(number as usize) == Some(&number) {
+        return number;
+    }
+    list.binary_search(&number).map_or(ABSENT, |place| place as u32)
+}
+
+/// The force of the last step at a touch. A point that has slid on to the next face takes the force along.
+fn push_before(faces: &Faces, before: &[Past; TOUCHES], touches: &[Touch], touch: &Touch) -> (f64, [f64; 3]) {
+    let same = before.iter().find(|past| past.face == touch.face);
+    let left = |past: &&Past| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
+    let beside = || before.iter().filter(left).find(|past| faces.touch(past.face, touch.face));
+    same.or_else(beside).map_or((0.0, [0.0; 3]), |past| (past.push, past.drag))
+}
+
+/// Pasts with the faces that are left first.
+fn tidy(mut pasts: [Past; TOUCHES]) -> [Past; TOUCHES] {
+    pasts.sort_by_key(|past| past.face == NONE);
+    pasts
+}

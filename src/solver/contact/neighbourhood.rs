@@ -1,0 +1,158 @@
+//! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
+
+use super::edges;
+use super::locate::{Interface, Near};
+use super::search::{Box3, Candidates, Search};
+use super::setup::Layout;
+use super::sites::Sites;
+
+/// Numbers, ascending, and their boxes.
+#[derive(Debug, Clone, Default)]
+pub struct Boxes {
+    /// Numbers of points, faces or edges in the layout.
+    pub ids: Vec<u32>,
+    /// The box of each.
+    pub boxes: Vec<Box3>,
+}
+
+impl Boxes {
+    /// Adds one.
+    pub fn push(&mut self, id: u32, of: Box3) {
+        self.ids.push(id);
+        self.boxes.push(of);
+    }
+}
+
+/// What a search finds, by the numbers of the layout.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Found {
+    /// Points with candidates, ascending.
+    pub watched: Vec<u32>,
+    /// Where the candidates of each begin in `near`; one more than there are points.
+    pub first: Vec<u32>,
+    /// Candidates, faces ascending.
+    pub near: Vec<Near>,
+    /// Pairs of edges that may cross, ascending.
+    pub pairs: Vec<[u32; 2]>,
+}
+
+/// Box in which a site stays until the next search.
+fn around(sites: &Sites, site: usize) -> Box3 {
+    let (position, allowance) = sites.reach(site);
+    Box3::around(&[position]).grown(allowance)
+}
+
+/// Boxes of some sites.
+pub fn point_boxes(sites: &Sites) -> Boxes {
+    let mut points = Boxes::default();
+    for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
+        points.push(site.point, around(sites, i));
+    }
+    points
+}
+
+/// Boxes of some faces, whose corners are sites.
+pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
+    let mut all = Boxes::default();
+    for face in faces {
+        let corners = layout.faces.corners[face as usize].map(|corner| sites.of(corner));
+        let of = corners.iter().flatten().fold(Box3::empty(), |all, &site| all.joined(&around(sites, site)));
+        all.push(face, of.grown(layout.faces.depth[face as usize]));
+    }
+    all
+}
+
+/// Boxes of some edges, whose ends are sites.
+pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
+    let mut all = Boxes::default();
+    for edge in edges {
+        let one = &layout.edges[edge as usize];
+        let of = one.ends.iter().filter_map(|&end| sites.of(end));
+        let of = of.fold(Box3::empty(), |all, site| all.joined(&around(sites, site)));
+        all.push(edge, of.grown(edges::keep(&layout.faces, one)));
+    }
+    all
+}
+
+/// Finds all candidates of these points among these faces, and the crossings of `mine` among these edges with all of them.
+pub fn find(
+    search: &mut dyn Search,
+    [points, faces, edges]: [&Boxes; 3],
+    mine: impl Fn(u32) -> bool,
+    layout: &Layout,
+) -> Found {
+    let candidates: Vec<(Vec<u32>, Candidates)> =
+        (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
+    let mut found = Found { pairs: crossings(search, edges, mine, layout), ..Default::default() };
+    for (place, &point) in points.ids.iter().enumerate() {
+        let begin = found.near.len();
+        for (number, (faces, candidates)) in candidates.iter().enumerate() {
+            let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
+            let strangers = near.filter(|&face| !layout.faces.same_element(face, point));
+            found.near.extend(strangers.map(|face| Near { face, interface: number as u32 }));
+        }
+        if found.near.len() > begin {
+            keep_first(&mut found.near, begin);
+            found.watched.push(point);
+            found.first.push(begin as u32);
+        }
+    }
+    found.first.push(found.near.len() as u32);
+    found
+}
+
+/// Candidates of one interface, and the faces among which they count.
+fn of_interface(
+    search: &mut dyn Search,
+    points: &Boxes,
+    faces: &Boxes,
+    interface: &Interface,
+) -> (Vec<u32>, Candidates) {
+    let takes_part = |(&point, of): (&u32, &Box3)| if interface.points[point as usize] { *of } else { Box3::empty() };
+    let nodes: Vec<Box3> = points.ids.iter().zip(&points.boxes).map(takes_part).collect();
+    let mut chosen = Boxes::default();
+    let mut list = interface.faces.iter().peekable();
+    for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
+        while list.next_if(|&&other| other < face).is_some() {}
+        if list.next_if(|&&other| other == face).is_some() {
+            chosen.push(face, *of);
+        }
+    }
+    // Corners are left out with all nodes of the element.
+    let corners = vec![[u32::MAX; 4]; chosen.ids.len()];
+    let mut found = Candidates::default();
+    search.find(&nodes, &chosen.boxes, &corners, &mut found);
+    (chosen.ids, found)
+}
+
+/// Puts the candidates of one point in order. Of interfaces that name the same pair, the first holds.
+fn keep_first(near: &mut Vec<Near>, begin: usize) {
+    near[begin..].sort_by_key(|near| (near.face, near.interface));
+    let mut kept = begin + 1;
+    for i in begin + 1..near.len() {
+        if near[i].face != near[kept - 1].face {
+            near[kept] = near[i];
+            kept += 1;
+        }
+    }
+    near.truncate(kept);
+}
+
+fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool, layout: &Layout) -> Vec<[u32; 2]> {
+    if edges.ids.is_empty() {
+        return Vec::new();
+    }
+    let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if mine(edge) { *of } else { Box3::empty() });
+    let own: Vec<Box3> = own.collect();
+    let selves: Vec<[u32; 4]> = (0..own.len() as u32).map(|edge| [edge; 4]).collect();
+    let mut found = Candidates::default();
+    search.find(&own, &edges.boxes, &selves, &mut found);
+    let mut pairs = Vec::new();
+    for (place, &first) in edges.ids.iter().enumerate() {
+        let others = found.of(place).iter().map(|&other| edges.ids[other as usize]).filter(|&other| other > first);
+        let one = &layout.edges[first as usize];
+        let strangers = others.filter(|&other| edges::strangers(one, &layout.edges[other as usize], &layout.faces));
+        pairs.extend(strangers.map(|second| [first, second]));
+    }
+    pairs
+}

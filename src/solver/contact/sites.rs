@@ -1,0 +1,155 @@
+//! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
+
+use super::points::Points;
+use super::setup::ABSENT;
+use crate::solver::constraints::StepTimes;
+use crate::solver::nodes::{Nodes, dot};
+
+/// A point that is a node here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Site {
+    /// The point.
+    pub point: u32,
+    /// The local node.
+    pub node: u32,
+    /// For each axis, the constraint that holds the node, or [`ABSENT`].
+    pub holder: [u32; 3],
+    /// Whether this rank answers for the node.
+    pub owned: bool,
+}
+
+/// What contact says about a site: normal force, friction force, gap, status, face, force of rigid planes.
+pub const ANSWER: usize = 12;
+
+/// Points of this rank, in the order of their numbers.
+#[derive(Debug, Clone, Default)]
+pub struct Sites {
+    /// Who they are.
+    pub list: Vec<Site>,
+    /// Where they are, would go, and how heavy they are.
+    pub points: Points,
+    /// Where each was at the last search, and how far it may go from there along each axis; empty before the first.
+    reference: Vec<[f64; 3]>,
+    allowance: Vec<f64>,
+    /// What contact says of each.
+    pub answers: Vec<[f64; ANSWER]>,
+    /// Sites with a force now, ascending.
+    pub pushed: Vec<u32>,
+    /// Work of normal and of friction forces so far.
+    pub works: Vec<[f64; 2]>,
+}
+
+impl Sites {
+    /// Sites at these points; `here` gives the local node of a point, or [`ABSENT`], `held` the constraints of nodes.
+    pub fn new(points: usize, here: impl Fn(u32) -> u32, held: &[[u32; 3]], nodes: &Nodes) -> Sites {
+        let site = |point: u32| {
+            let node = here(point);
+            (node != ABSENT).then(|| Site {
+                point,
+                node,
+                holder: held.get(node as usize).copied().unwrap_or([ABSENT; 3]),
+                owned: nodes.owned[node as usize],
+            })
+        };
+        let list: Vec<Site> = (0..points as u32).filter_map(site).collect();
+        let count = list.len();
+        let mut sites = Sites {
+            list,
+            points: Points::new(count),
+            answers: vec![[0.0; ANSWER]; count],
+            works: vec![[0.0; 2]; count],
+            ..Default::default()
+        };
+        for (i, site) in sites.list.iter().enumerate() {
+            let inverse = nodes.rows[site.node as usize].0[7];
+            sites.points.inverse_mass[i] = site.holder.map(|holder| if holder == ABSENT { inverse } else { 0.0 });
+        }
+        sites
+    }
+
+    /// All points as sites at rest.
+    pub fn still(points: &Points) -> Sites {
+        let site = |point: u32| Site { point, node: point, holder: [ABSENT; 3], owned: true };
+        let mut sites =
+            Sites { list: (0..points.len() as u32).map(site).collect(), points: points.clone(), ..Default::default() };
+        sites.renew(1.0, 0.0);
+        sites
+    }
+
+    /// The site of a point.
+    pub fn of(&self, point: u32) -> Option<usize> {
+        // On one rank all points are sites.
+        let at_its_place = self.list.get(point as usize).is_some_and(|site| site.point == point);
+        if at_its_place { Some(point as usize) } else { self.list.binary_search_by_key(&point, |site| site.point).ok() }
+    }
+
+    /// Where the sites would go without contact.
+    pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
+        for (i, site) in self.list.iter().enumerate() {
+            let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
+            let velocity = [0, 1, 2].map(|i| row[4 + i] + step.kick * (force[i] * row[7]));
+            self.points.set(i, [row[0], row[1], row[2]], velocity, step.drift);
+        }
+    }
+
+    /// Whether a site has left the box that the last search gave it, or there was no search.
+    pub fn expired(&self) -> bool {
+        if self.reference.len() != self.list.len() {
+            return true;
+        }
+        let positions = self.points.start.iter().zip(&self.points.end);
+        self.reference.iter().zip(&self.allowance).zip(positions).any(|((reference, allowance), (start, end))| {
+            // A position that is not a number is not away.
+            let away = |i: usize| {
+                ((start[i] - reference[i]).abs() > *allowance) | ((end[i] - reference[i]).abs() > *allowance)
+            };
+            away(0) | away(1) | away(2)
+        })
+    }
+
+    /// Gives every site a new box: as far as it would go in `steps` of the present one, but at least `least`.
+    pub fn renew(&mut self, steps: f64, least: f64) {
+        let Points { start, end, .. } = &self.points;
+        self.reference.clone_from(start);
+        let way = |(start, end): (&[f64; 3], &[f64; 3])| (0..3).map(|i| (end[i] - start[i]).abs()).fold(0.0, f64::max);
+        self.allowance.clear();
+        self.allowance.extend(start.iter().zip(end).map(|ends| (steps * way(ends)).max(least)));
+    }
+
+    /// Where a site is, and how far it may go along each axis.
+    pub fn reach(&self, site: usize) -> ([f64; 3], f64) {
+        (self.points.start[site], self.allowance[site])
+    }
+
+    /// Force on a site, normal and friction apart.
+    pub fn forces(&self, site: usize) -> [[f64; 3]; 2] {
+        let a = &self.answers[site];
+        [[a[0], a[1], a[2]], [a[3], a[4], a[5]]]
+    }
+
+    /// Adds the forces to the nodes; what a constraint holds, its reaction takes up.
+    pub fn hand_over(&self, nodes: &mut Nodes, mut react: impl FnMut(u32, f64)) {
+        for &i in &self.pushed {
+            let (site, answer) = (&self.list[i as usize], &self.answers[i as usize]);
+            let sum = &mut nodes.forces[site.node as usize].0;
+            for axis in 0..3 {
+                let force = answer[axis] + answer[3 + axis];
+                match site.holder[axis] {
+                    ABSENT => sum[axis] += force,
+                    holder => react(holder, force),
+                }
+            }
+        }
+    }
+
+    /// Books half the step's work with the present velocities.
+    pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
+        for &i in &self.pushed {
+            let v = nodes.velocity(self.list[i as usize].node);
+            let [normal, friction] = self.forces(i as usize);
+            let work = &mut self.works[i as usize];
+            work[0] += half_step * dot(normal, v);
+            work[1] += half_step * dot(friction, v);
+        }
+    }
+}

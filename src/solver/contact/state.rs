@@ -1,0 +1,220 @@
+//! What contact carries from step to step: which faces hold which points, which edges touch, works, and the surface.
+//!
+//! Points are told by their node in the mesh file, faces by element and side there, edges by their two nodes, so that
+//! neither erosion nor the decomposition has a say. What touches is saved by the rank that computes it, works by the rank
+//! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
+
+use super::arena::History;
+use super::detect::{NONE, Past, UNTOUCHED};
+use super::edges::PastPair;
+use super::setup::Layout;
+use super::{Contact, Tally};
+use crate::restart::{Archive, compare_rows};
+use crate::solver::erosion::Erosion;
+use crate::solver::nodes::Nodes;
+
+/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, force.
+const TOUCH: usize = 9;
+/// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, force.
+const PAIR: usize = 10;
+/// Columns of a point that a plane pushes: node, number of the plane, force.
+const PLANE: usize = 6;
+/// Columns of a point's work: node, work of normal forces, work of friction.
+const WORK: usize = 3;
+
+impl Contact {
+    /// Visits the state between two steps. `dead` are the elements that are gone, when loading: canonical numbers,
+    /// ascending; the nodes have been loaded before.
+    pub fn visit_state(&mut self, archive: &mut dyn Archive, dead: &[u32], erosion: Option<&Erosion>, nodes: &Nodes) {
+        let Contact {
+            // Visited below.
+            arena: _,
+            carried: _,
+            sites: _,
+            watches: _,
+            lost_work: _,
+            tally: Tally { steps, passes, capped, left },
+            searches,
+            skin,
+            // Made anew by `take_up`, from the surface as it is.
+            layout,
+            remote: _,
+            // Of the last search.
+            counts: _,
+            search: _,
+            // Of the problem.
+            pairings: _,
+            held: _,
+            elements: _,
+            reach: _,
+            planes: _,
+            mean_size: _,
+            limits: _,
+        } = self;
+        // Of planes alone each rank knows its own, and the log tells nothing.
+        if !layout.interfaces.is_empty() {
+            archive.count("CONTSTEPS", steps);
+            archive.count("CONTPASSES", passes);
+            archive.count("CONTCAPPED", capped);
+            archive.number("CONTLEFT", left);
+            archive.count("CONTSEARCHES", searches);
+        }
+        // Every rank knows all free nodes.
+        let first = archive.comm().rank() == 0;
+        let mut free: Vec<f64> = Vec::new();
+        if first {
+            free.extend(skin.free.iter().flat_map(|&(node, block)| [f64::from(node), f64::from(block)]));
+        }
+        archive.list("CONTFREE", 2, &mut free);
+        if let Some(erosion) = erosion.filter(|_| archive.loading() && !dead.is_empty()) {
+            self.skin.free = free.chunks_exact(2).map(|row| (row[0] as u32, row[1] as u32)).collect();
+            self.take_up(dead, erosion, nodes, archive);
+        }
+        self.visit_history(archive);
+        self.visit_works(archive);
+    }
+
+    /// Makes the surface that is left when elements have gone before.
+    fn take_up(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, archive: &mut dyn Archive) {
+        // Free nodes are known: no surface of before has to tell them.
+        let free = std::mem::take(&mut self.skin.free);
+        self.skin.delete(dead, &Layout::default(), |_| false);
+        self.skin.free = free;
+        let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        let new = &self.layout;
+        self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
+        self.meet(|node| erosion.local()[node as usize], nodes, archive.comm());
+    }
+
+    /// What touches, in the arena or on its way to the next.
+    fn visit_history(&mut self, archive: &mut dyn Archive) {
+        let now = self.carried.clone().unwrap_or_else(|| self.arena.history());
+        let mut come = History {
+            points: self.visit_touches(archive, &now),
+            edges: self.visit_pairs(archive, &now),
+            planes: self.visit_planes(archive, &now),
+        };
+        if !archive.loading() {
+            return;
+        }
+        if self.layout.interfaces.is_empty() {
+            return self.arena.restore(come);
+        }
+        let mine = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
+        come.points.retain(|(point, _)| mine(*point));
+        come.edges.retain(|past| mine(self.layout.edges[past.pair[0] as usize].ends[0]));
+        come.planes.retain(|(number, ..)| mine(self.watches[*number as usize].point));
+        self.carried = Some(come);
+    }
+
+    fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [Past; 3])> {
+        let mut rows = Vec::new();
+        for (point, pasts) in &now.points {
+            for (slot, Past { face, allowed, push, drag }) in
+                pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
+            {
+                let node = f64::from(self.layout.nodes[*point as usize]);
+                rows.extend([[node, slot as f64].as_slice(), &self.face_key(*face), &[*allowed, *push], drag].concat());
+            }
+        }
+        archive.list("CONTTOUCH", TOUCH, &mut rows);
+        if !archive.loading() {
+            return Vec::new();
+        }
+        let mut faces: Vec<([f64; 2], u32)> =
+            (0..self.layout.faces.len() as u32).map(|face| (self.face_key(face), face)).collect();
+        faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
+        let mut points: Vec<(u32, [Past; 3])> = Vec::new();
+        // Rows are sorted by their nodes.
+        for row in rows.chunks_exact(TOUCH) {
+            let point = self.layout.point(row[0] as u32);
+            if points.last().is_none_or(|(last, _)| *last != point) {
+                points.push((point, UNTOUCHED));
+            }
+            let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
+            let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
+            if let (Ok(face), Some(past)) = (face, pasts) {
+                *past = Past { face: faces[face].1, allowed: row[4], push: row[5], drag: [row[6], row[7], row[8]] };
+            }
+        }
+        points
+    }
+
+    /// A face by the place of its element in the mesh file and its side.
+    fn face_key(&self, face: u32) -> [f64; 2] {
+        let number = self.layout.faces.number[face as usize];
+        [self.skin.file_number(number), f64::from(number % 6)]
+    }
+
+    fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<PastPair> {
+        let mut rows = Vec::new();
+        for PastPair { pair, sense, allowed, push, drag } in &now.edges {
+            let [[a, b], [c, d]] = pair.map(|edge| self.layout.edges[edge as usize].ends);
+            rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
+            rows.extend([*sense, *allowed, *push]);
+            rows.extend(drag);
+        }
+        archive.list("CONTEDGES", PAIR, &mut rows);
+        if !archive.loading() {
+            return Vec::new();
+        }
+        let edge = |ends: [f64; 2]| {
+            let ends = ends.map(|node| self.layout.point(node as u32));
+            self.layout.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
+        };
+        let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
+            let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
+            Some(PastPair { pair, sense: row[4], allowed: row[5], push: row[6], drag: [row[7], row[8], row[9]] })
+        });
+        pairs.collect()
+    }
+
+    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, f64, [f64; 3])> {
+        // Planes alone are with every rank that has the node.
+        let alone = self.layout.interfaces.is_empty();
+        let answers = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
+        let mut rows = Vec::new();
+        for (number, push, drag) in &now.planes {
+            let watch = &self.watches[*number as usize];
+            if !alone || answers(watch.point) {
+                rows.extend([f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane), *push]);
+                rows.extend(drag);
+            }
+        }
+        archive.list("CONTPLANE", PLANE, &mut rows);
+        if !archive.loading() {
+            return Vec::new();
+        }
+        let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
+        let force = |watch: &super::PlanePoint| {
+            let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
+            let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
+            Some((watch.number, row[2], [row[3], row[4], row[5]]))
+        };
+        self.watches.iter().filter_map(force).collect()
+    }
+
+    fn visit_works(&mut self, archive: &mut dyn Archive) {
+        let mut rows = Vec::new();
+        for (site, work) in self.sites.list.iter().zip(&self.sites.works) {
+            if site.owned && *work != [0.0; 2] {
+                rows.extend([f64::from(self.layout.nodes[site.point as usize]), work[0], work[1]]);
+            }
+        }
+        archive.list("CONTWORK", WORK, &mut rows);
+        let mut lost: Vec<f64> = self.lost_work.concat();
+        archive.list("CONTLOST", 2, &mut lost);
+        if !archive.loading() {
+            return;
+        }
+        self.sites.works.fill([0.0; 2]);
+        for row in rows.chunks_exact(WORK) {
+            if let Some(site) = self.sites.of(self.layout.point(row[0] as u32)) {
+                self.sites.works[site] = [row[1], row[2]];
+            }
+        }
+        // Sums do not depend on which rank keeps these.
+        let first = archive.comm().rank() == 0;
+        self.lost_work = if first { lost.chunks_exact(2).map(|row| [row[0], row[1]]).collect() } else { Vec::new() };
+    }
+}

@@ -1,0 +1,82 @@
+//! What erosion carries from step to step.
+
+use super::Erosion;
+use crate::restart::Archive;
+use crate::solver::domain::ABSENT;
+use crate::solver::elements::ElementBlock;
+
+impl Erosion {
+    /// Visits which elements are gone and their energy, and takes them away when loading; returns the canonical numbers of
+    /// those that are gone on any rank, ascending, when loading. `file` and `canonical` tell of each local element its
+    /// place in the mesh file and its number in the whole body.
+    pub fn visit_state(
+        &mut self,
+        archive: &mut dyn Archive,
+        blocks: &mut [ElementBlock],
+        file: &[u32],
+        canonical: &[u32],
+    ) -> Vec<u32> {
+        let Erosion {
+            energy,
+            gone,
+            element_order,
+            deletions,
+            keeps,
+            element_nodes,
+            // Of the problem, or counted anew by `take_away`.
+            rules: _,
+            local: _,
+            left: _,
+            stand_in: _,
+            edge: _,
+        } = self;
+        archive.heap("DEADE", energy);
+        let mut deleted: Vec<f64> = Vec::new();
+        if archive.comm().rank() == 0 {
+            deleted.extend(deletions.gone.iter().map(|&block| block as f64));
+        }
+        archive.list("DELETED", 1, &mut deleted);
+        if archive.loading() {
+            deletions.gone = deleted.iter().map(|&block| block as i64).collect();
+            deletions.to_come.retain(|one| deletions.gone.binary_search(&one.block).is_err());
+            *keeps = deletions.keeps(element_nodes, keeps.len());
+        }
+        let groups = blocks.iter().flat_map(|block| block.groups());
+        let mut dead: Vec<f64> = groups
+            .flat_map(|group| (0..group.len()).filter(|&i| !group.is_alive(i)).map(|i| group.places[i]))
+            .map(|place| f64::from(file[place as usize]))
+            .collect();
+        archive.list("DEAD", 1, &mut dead);
+        if !archive.loading() {
+            return Vec::new();
+        }
+        *gone = dead.len() as u64;
+        let is_dead = |file: &u32| dead.binary_search_by(|d| d.total_cmp(&f64::from(*file))).is_ok();
+        let dead: Vec<u32> =
+            (0u32..).zip(element_order.iter()).filter(|(_, file)| is_dead(file)).map(|(number, _)| number).collect();
+        self.take_away(&dead, blocks, canonical);
+        dead
+    }
+
+    /// Takes elements away that went before, with energies and nodes that are known.
+    fn take_away(&mut self, dead: &[u32], blocks: &mut [ElementBlock], canonical: &[u32]) {
+        for block in blocks {
+            let mass = self.stand_in_mass(block);
+            for group in [&mut block.border, &mut block.interior] {
+                for i in 0..group.len() {
+                    if dead.binary_search(&canonical[group.places[i] as usize]).is_ok() {
+                        group.retire(i, self.stand_in, mass);
+                    }
+                }
+            }
+        }
+        for &element in dead {
+            for node in self.element_nodes[element as usize] {
+                let here = self.local[node as usize];
+                if here != ABSENT {
+                    self.left[here as usize] -= 1;
+                }
+            }
+        }
+    }
+}

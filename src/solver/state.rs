@@ -1,0 +1,121 @@
+//! What the solver carries from one step to the next: visited to write a restart, and in the same way to go on from one.
+//!
+//! The state is that between two steps, after [`Solver::advance`] and before [`Solver::prepare`]: no forces exist then.
+//! Every struct is taken apart field by field, without a rest, so that a new field does not compile until somebody has
+//! said whether it belongs to the state (visited), to the problem, or to the step (`_`).
+
+mod elements;
+mod works;
+
+use super::nodes::Nodes;
+use super::{Domain, Solver};
+use crate::comm::Communicator;
+use crate::restart::{Archive, Loader, Snapshot, TIME};
+use works::Works;
+
+impl Solver {
+    /// Visits the state between two steps. All ranks call it.
+    pub fn visit_state(&mut self, archive: &mut dyn Archive) {
+        let Solver {
+            domain,
+            step,
+            time,
+            previous_time,
+            time_step,
+            initial_energy,
+            first_stable_step,
+            supplied_peak,
+            last_totals,
+            // Of the step: found anew by `prepare`.
+            stable_step: _,
+            kick: _,
+            local: _,
+            pass: _,
+            // Of the problem.
+            clock: _,
+            energy_floor: _,
+            stored_energy: _,
+            control: _,
+            functions: _,
+        } = self;
+        archive.count("NSTEPS", step);
+        archive.number(TIME, time);
+        archive.number("LASTTIME", previous_time);
+        archive.number("TMSTEP", time_step);
+        archive.number("INITIALE", initial_energy);
+        archive.number("SUPPLIED", supplied_peak);
+        let mut first = first_stable_step.unwrap_or(f64::INFINITY);
+        archive.number("FIRSTSTEP", &mut first);
+        *first_stable_step = first.is_finite().then_some(first);
+        if archive.loading() {
+            *last_totals = None;
+        }
+        domain.visit_state(archive);
+    }
+
+    /// Goes on from a state, of this problem but of any number of ranks. All ranks call it.
+    ///
+    /// # Errors
+    /// The names of what the state should hold and does not.
+    pub fn restore(&mut self, snapshot: &Snapshot, comm: &mut dyn Communicator) -> Result<(), Vec<String>> {
+        let mut loader = Loader::new(snapshot, &self.domain.nodes.file, &self.domain.element_file, comm);
+        self.visit_state(&mut loader);
+        let missing = loader.missing();
+        if missing.is_empty() { Ok(()) } else { Err(missing) }
+    }
+}
+
+impl Domain {
+    fn visit_state(&mut self, archive: &mut dyn Archive) {
+        let Domain {
+            nodes,
+            blocks,
+            element_file,
+            element_canonical,
+            law_states,
+            pressure_faces,
+            node_forces,
+            gravity,
+            silent,
+            constraints,
+            carried_work,
+            contact,
+            erosion,
+            // Of the problem and its cut.
+            element_id: _,
+            exchange: _,
+        } = self;
+        nodes.visit_state(archive);
+        let mut dead = Vec::new();
+        if let Some(erosion) = erosion {
+            dead = erosion.visit_state(archive, blocks, element_file, element_canonical);
+        }
+        elements::visit(archive, blocks, law_states, element_file.len());
+        archive.heap("CARRIEDW", carried_work);
+        let works = Works::new(nodes, [element_file, element_canonical]);
+        let left = [
+            works.faces(archive, pressure_faces, &dead),
+            works.forces(archive, node_forces),
+            works.constraints(archive, constraints),
+            works.dashpots(archive, silent),
+            works.gravity(archive, gravity),
+        ];
+        carried_work.extend(left.concat());
+        if let Some(contact) = contact {
+            contact.visit_state(archive, &dead, erosion.as_ref(), nodes);
+        }
+    }
+}
+
+impl Nodes {
+    fn visit_state(&mut self, archive: &mut dyn Archive) {
+        // Forces are zero between steps; the others are of the problem and its cut.
+        let Nodes { rows, forces: _, initial: _, file: _, owned: _ } = self;
+        const NAMES: [&str; 8] = ["POSX", "POSY", "POSZ", "NODMASS", "VELX", "VELY", "VELZ", "INVMASS"];
+        for (i, name) in NAMES.into_iter().enumerate() {
+            let mut values: Vec<f64> = rows.iter().map(|row| row.0[i]).collect();
+            archive.nodal(name, &mut values);
+            rows.iter_mut().zip(values).for_each(|(row, value)| row.0[i] = value);
+        }
+    }
+}
