@@ -5,7 +5,7 @@ URTO     = target/release/urto
 # MPI is built in where the machine has it; URTO_MPI=no leaves it out.
 FEATURES = $$(.ci/packages features)
 
-.PHONY: demo test build mpi bench verify man install clean packages needed
+.PHONY: demo test build mpi bench scale verify man install clean packages needed
 
 demo: build            # crushes a can under a plate, half a minute on two cores, and draws it
 	@mkdir -p out
@@ -29,6 +29,23 @@ mpi: needed            # the program with MPI, or the reason why not
 
 bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench
+
+# A study is priced for both machines; out/*.csv has the numbers.
+STUDY = $(URTO) scale --ranks $(RANKS) --steps $(STEPS)
+RANKS = 1,2,4,8,16,32,64,128,256
+STEPS = 50
+
+scale: build           # the scaling studies of docs/performance.md: what hundreds of ranks would do, and what it would cost
+	@mkdir -p out
+	for machine in paragon cluster; do \
+	  in="--machine $$machine --csv out/$$machine"; \
+	  $(STUDY) $${in}_beam.csv decks/bending_beam.i && \
+	  $(STUDY) $${in}_beam_scaled.csv --scaled decks/bending_beam_scaled.i && \
+	  $(STUDY) $${in}_wall.csv decks/brick_wall.i && \
+	  $(STUDY) $${in}_wall_scaled.csv --scaled decks/brick_wall.i --mesh meshes/brick_wall_scaled.mesh && \
+	  $(STUDY) $${in}_can.csv decks/can_crush_paper.i && \
+	  $(STUDY) $${in}_can_scaled.csv --scaled decks/can_crush_paper.i --mesh meshes/can_crush_scaled.mesh || exit 1; \
+	done
 
 verify: needed         # the problems with known answers only, at full size, with what they found
 	cargo test --release --test 'verif*' -- --nocapture --include-ignored

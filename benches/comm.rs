@@ -3,7 +3,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use urto::comm::{Communicator, ExactSum, Peer, run_threads};
+use urto::comm::{Communicator, Counted, ExactSum, Peer, run_threads};
 use urto::partition::{Contributors, Decomposition, rcb, space_filling_order};
 
 fn main() {
@@ -39,11 +39,14 @@ fn rank_calls(ranks: usize) {
         let mut values = [1.0, 2.0];
         let minimum = seconds(count, || communicator.all_min(&mut values));
         let halos = [300, 3_000, 30_000].map(|length| halo(communicator, length, count));
-        Ok::<_, ()>((minimum, halos))
+        let counted = &mut Counted::new(communicator);
+        let counted = [seconds(count, || counted.all_min(&mut values)), halo(counted, 300, count)];
+        Ok::<_, ()>((minimum, halos, counted))
     });
     if let Ok(times) = times {
-        let (minimum, halos) = times[0];
-        println!("{ranks:2} ranks: all_min {:8.2} us", minimum * 1e6);
+        let (minimum, halos, [counted_minimum, counted_halo]) = times[0];
+        println!("{ranks:2} ranks: all_min {:8.2} us, counted {:8.2} us", minimum * 1e6, counted_minimum * 1e6);
+        println!("{ranks:2} ranks: exchange of 2.4 kB counted {:8.2} us", counted_halo * 1e6);
         let [small, medium, large] = halos.map(|time| time * 1e6);
         println!(
             "{ranks:2} ranks: exchange with 2 neighbours, 2.4 kB {small:8.2} us, 24 kB {medium:8.2} us, 240 kB {large:8.2} us"

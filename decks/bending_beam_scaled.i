@@ -1,7 +1,7 @@
 $ Bending beam, scaled form: the part of one rank, 6480 elements. Half of a pinned beam in plane strain, suddenly pressed.
 $ Source      SAND96-0593C, "Bending Beam", after Flanagan and Belytschko (1982); span 20 in, depth 1 in.
 $             Timoshenko's series gives a first peak of 4.722E-3 in at 4.254 ms (docs/verification.md, V-11)
-$ Run         urto bending_beam_scaled          6480 elements; refine the mesh across for more ranks
+$ Run         urto bending_beam_scaled          6480 elements; urto scale bending_beam_scaled --scaled for more ranks
 $ Look        colour bending_beam_scaled.e by SIGXX, displacements magnified: urto view bending_beam_scaled.e -v SIGXX --magnify 200
 $ Units       in, lbf, s
 $ Mesh        meshes/bending_beam_scaled.mesh: node sets 1 symmetry plane, 2 pin line, 3 front and back; side set 100 top

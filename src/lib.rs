@@ -18,5 +18,6 @@ pub mod output;
 pub mod partition;
 pub mod restart;
 pub mod run;
+pub mod scale;
 pub mod solver;
 pub mod view;

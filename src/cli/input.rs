@@ -27,7 +27,12 @@ pub struct Given {
 impl Given {
     /// Reads both, or returns every mistake of both.
     pub fn read(input: &options::Input) -> Result<Given, Failure> {
-        Given::read_with(input, &mut |path| read_or_make(path, &mut read_mesh))
+        Given::read_for(input, None)
+    }
+
+    /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
+    pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
+        Given::read_with(input, ranks, &mut |path| read_or_make(path, ranks, &mut read_mesh))
     }
 
     /// The same on every process of a job; they read the mesh together.
@@ -40,15 +45,18 @@ impl Given {
         if !together.same(ready.then_some(0)) {
             return Given::read(input);
         }
-        Given::read_with(input, &mut |path| read_or_make(path, &mut |path| read_mesh_together(path, together)))
+        Given::read_with(input, None, &mut |path| {
+            read_or_make(path, None, &mut |path| read_mesh_together(path, together))
+        })
     }
 
     fn read_with(
         input: &options::Input,
+        ranks: Option<u32>,
         read: &mut dyn FnMut(&Path) -> Result<Mesh, Failure>,
     ) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
-        let source = Source::open(&deck)
+        let source = open(&deck, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
@@ -107,9 +115,22 @@ pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
         .ok_or_else(|| Failure::input(missing()))
 }
 
+/// Reads a text, in whose expressions the name `ranks` has this value, if there is one.
+fn open(path: &Path, ranks: Option<u32>) -> std::io::Result<Source> {
+    let source = Source::open(path)?;
+    Ok(match ranks {
+        Some(ranks) => source.with_value("ranks", ranks),
+        None => source,
+    })
+}
+
 /// The mesh of a file: read, or made when the file is a recipe.
-fn read_or_make(path: &Path, read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>) -> Result<Mesh, Failure> {
-    if is_recipe(path) { make_mesh(path, 1) } else { read(path).map_err(Failure::input) }
+fn read_or_make(
+    path: &Path,
+    ranks: Option<u32>,
+    read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
+) -> Result<Mesh, Failure> {
+    if is_recipe(path) { make_mesh(path, 1, ranks) } else { read(path).map_err(Failure::input) }
 }
 
 fn is_recipe(path: &Path) -> bool {
@@ -117,8 +138,8 @@ fn is_recipe(path: &Path) -> bool {
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
-pub fn make_mesh(recipe: &Path, refine: u32) -> Result<Mesh, Failure> {
-    let source = Source::open(recipe)
+pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh, Failure> {
+    let source = open(recipe, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
     let (mesh, found) =
         mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))?;

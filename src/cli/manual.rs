@@ -110,7 +110,8 @@ makes BASE.g, see
 .BR urto\-mesh (5).
 .TP
 .B BASE.o
-The print log: the deck, what is modelled, masses, one line per OUTPUT TIME, the energy balance, where the time went.
+The print log: the deck, what is modelled, masses, one line per OUTPUT TIME, the energy balance, where the time went, and
+how evenly elements, contact and messages were spread over the ranks.
 Older ones are kept as BASE.o.1, BASE.o.2 and so on.
 .TP
 .B BASE.e
@@ -187,6 +188,13 @@ A command of the deck: form, fields, units, defaults, an example.
 .TP
 .B urto mesh meshes/taylor_bar.mesh \-o fine.g \-\-refine 2
 A mesh with twice as many elements along each edge.
+.TP
+.B urto scale decks/bending_beam.i \-\-ranks 1,16,256 \-\-machine paragon \-\-csv beam.csv
+What each rank would do and say on so many ranks, and what a step would cost on an Intel Paragon.
+.TP
+.B urto scale decks/bending_beam_scaled.i \-\-scaled
+The same with a mesh that grows: its recipe uses the name
+.BR ranks .
 .TP
 .B mpiexec \-n 16 urto decks/taylor_bar.i \-\-split; urto join taylor_bar.e
 Every process writes its own results, which then become one file.

@@ -8,6 +8,7 @@ mod manual;
 mod options;
 mod restart;
 mod run;
+mod scale;
 mod signals;
 mod terminal;
 mod verbs;
@@ -119,6 +120,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::View(options) => verbs::view(&options),
         Verb::Diff(options) => verbs::diff(&options),
+        Verb::Scale(options) => scale::scale(&options),
         Verb::Join(options) => verbs::join(&options),
         Verb::Generate(options) => verbs::generate(&options),
     }

@@ -43,6 +43,7 @@ pub enum Verb {
     Mesh(Mesh),
     View(View),
     Diff(Diff),
+    Scale(Scale),
     Join(Join),
     #[command(hide = true)]
     Generate(Generate),
@@ -122,6 +123,9 @@ pub struct Mesh {
     /// Multiplies every number of elements along an edge
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
+    /// Value of the name `ranks` in the recipe's expressions
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub ranks: Option<u32>,
 }
 
 /// Draws a picture of results
@@ -184,6 +188,62 @@ pub struct Diff {
     /// Values both below this count as equal
     #[arg(long, value_name = "F", default_value_t = 0.0)]
     pub floor: f64,
+}
+
+/// Counts what a run would do on many ranks, and what that would cost
+///
+/// Takes the first steps of a deck on each number of ranks, as threads of this process however few cores there are,
+/// writes no results, and counts each rank's elements, contact work, messages and bytes. Times of crowded threads mean
+/// nothing: instead a machine is assumed on which every rank has a core of its own. A step takes there: elements x
+/// element cost + messages x latency + bytes / bandwidth, on the slowest rank; plus the same for contact; plus the
+/// collective calls, each of log2(ranks) messages. A message counts where it is sent or received, whichever is more.
+/// Messages do not overlap with computing, and output is left out. Speed-up and efficiency are relative to the first
+/// number of ranks, and per element where the mesh grows.
+#[derive(Debug, Args)]
+pub struct Scale {
+    /// Where deck and mesh are.
+    #[command(flatten)]
+    pub input: Input,
+    /// Numbers of ranks, with commas between
+    #[arg(short, long, value_name = "LIST", value_delimiter = ',', default_value = "1,2,4,8,16,32,64",
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub ranks: Vec<u32>,
+    /// Steps to count
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..))]
+    pub steps: u32,
+    /// Makes the mesh anew for each number of ranks, whose recipe must use the name `ranks` in an expression
+    #[arg(long)]
+    pub scaled: bool,
+    /// Machine to price for; the options below replace single costs of it
+    #[arg(long, value_name = "NAME", default_value = "cluster")]
+    pub machine: MachineName,
+    /// Microseconds for an element in a step; the costs of contact change in proportion
+    #[arg(long, value_name = "US", value_parser = cost, allow_negative_numbers = true)]
+    pub element_cost: Option<f64>,
+    /// Microseconds for a message, whatever its length
+    #[arg(long, value_name = "US", value_parser = cost, allow_negative_numbers = true)]
+    pub latency: Option<f64>,
+    /// Megabytes a second that one rank can send while all others send too
+    #[arg(long, value_name = "MB/S", value_parser = cost, allow_negative_numbers = true)]
+    pub bandwidth: Option<f64>,
+    /// Writes the table as comma-separated values too, in seconds and bytes
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+/// Machines that `scale` knows.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum MachineName {
+    /// Intel Paragon of 1995: element 435 us, latency 70 us, 170 MB/s
+    Paragon,
+    /// A present cluster: element 0.08 us, latency 1.5 us, 10 GB/s of a node shared by 32 cores
+    Cluster,
+}
+
+/// A positive, finite number.
+fn cost(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "expected a number above 0".to_string())
 }
 
 /// Joins the pieces that `run --split` wrote

@@ -39,7 +39,7 @@ fn overview() -> String {
 /// `urto mesh`
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
-    let mesh = super::input::make_mesh(recipe, options.refine)?;
+    let mesh = super::input::make_mesh(recipe, options.refine, options.ranks)?;
     let output = options
         .output
         .clone()

@@ -1,6 +1,7 @@
 //! Ranks that exchange messages. The solver is written once against [`Communicator`]; threads of one process and
 //! MPI processes both provide it.
 
+mod counted;
 mod exact_sum;
 mod launch;
 #[cfg(feature = "mpi")]
@@ -9,12 +10,15 @@ pub mod mpi;
 mod pending;
 pub(crate) mod reduce;
 mod serial;
+mod spread;
 mod threads;
 mod wait;
 
+pub use counted::{Count, Counted, Counts, Flow, Traffic, rounds};
 pub use exact_sum::ExactSum;
 pub use launch::{RankFailure, launched_by_mpi, run_threads};
 pub use serial::Serial;
+pub use spread::{Spread, spreads};
 pub use threads::{RankLost, Threads, threads};
 
 /// What one rank can say to the others. Every call but the point-to-point exchange is collective: all ranks make
@@ -24,6 +28,8 @@ pub trait Communicator: Send {
     fn rank(&self) -> usize;
     /// Number of ranks.
     fn size(&self) -> usize;
+    /// Says which part of a run the calls from here on serve; only a communicator that counts listens.
+    fn enter(&mut self, _: Traffic) {}
     /// Starts sending every peer's `send` buffer; returns at once so that work can overlap. Until the exchange is
     /// finished both buffers belong to the communicator: their contents and lengths mean nothing. One exchange may
     /// be under way at a time; other calls may come before it is finished. Each rank comes once among the peers.

@@ -12,6 +12,8 @@ pub struct Source {
     text: String,
     line_starts: Vec<usize>,
     origin: Option<Arc<Origin>>,
+    /// Names that have a value in its expressions from the start.
+    names: Vec<(String, u32)>,
 }
 
 /// A stretch of the text, from byte `start` up to but not including byte `end`.
@@ -35,7 +37,7 @@ impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
         let text = text.into();
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Source { name: name.into(), text, line_starts, origin: None }
+        Source { name: name.into(), text, line_starts, origin: None, names: Vec::new() }
     }
 
     /// Evaluated text.
@@ -51,6 +53,17 @@ impl Source {
     /// Reads a file.
     pub fn open(path: &std::path::Path) -> std::io::Result<Source> {
         Ok(Source::from_bytes(path.display().to_string(), &std::fs::read(path)?))
+    }
+
+    /// The same text, in whose expressions a name has this value from the start.
+    pub fn with_value(mut self, name: &str, value: u32) -> Source {
+        self.names.push((name.to_string(), value));
+        self
+    }
+
+    /// Names that have a value in its expressions from the start.
+    pub(super) fn names(&self) -> &[(String, u32)] {
+        &self.names
     }
 
     /// The name that messages use.

@@ -6,17 +6,18 @@ mod memory;
 mod plots;
 mod report;
 mod restart;
+mod table;
 
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, told};
 pub use report::{Display, Quiet};
 pub use restart::{Continuation, states_beside};
 
-use crate::comm::Communicator;
+use crate::comm::{Communicator, Counted};
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::Model;
-use crate::output::print::{self, Echo, Ending, PrintLog, StepLine, TimeTable};
+use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
 use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
@@ -118,6 +119,7 @@ pub enum RunError {
 /// # Errors
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
+    let comm = &mut Counted::new(comm);
     let share = job.decomposition.share(comm.rank());
     let mut solver = Solver::new(job.mesh, job.model, job.body, &share, comm);
     if let Some(continuation) = job.continuation {
@@ -393,15 +395,14 @@ impl<'a> Writer<'a> {
     fn finish(
         mut self,
         solver: &mut Solver,
-        comm: &mut dyn Communicator,
+        comm: &mut Counted,
         begun: Instant,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
         let (step, time, time_step, totals) = (solver.step, solver.time, solver.time_step, solver.totals(comm));
         let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
         let wall = begun.elapsed().as_secs_f64();
-        let cycles = (step - self.first_step) as f64 * self.elements as f64;
-        let table = time_table(solver, comm, wall, cycles);
+        let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
         let states = self.plots.states();
         let initial_energy = solver.initial_energy;
         let ending = Ending {
@@ -476,28 +477,4 @@ fn same_qa(own: &[String; 4], comm: &mut dyn Communicator) -> [String; 4] {
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let mut lines = text.split('\n').map(String::from);
     std::array::from_fn(|_| lines.next().unwrap_or_default())
-}
-
-fn time_table(solver: &Solver, comm: &mut dyn Communicator, wall: f64, element_cycles: f64) -> TimeTable {
-    let mut sections = Vec::new();
-    for (section, name) in Section::ALL {
-        let mine = solver.clock.spent(section).as_secs_f64();
-        // Microseconds, as integers: their sum does not depend on the order.
-        let mut sum = [(mine * 1e6) as u64];
-        comm.all_sum(&mut sum);
-        let mut extremes = [mine, -mine];
-        comm.all_min(&mut extremes);
-        sections.push((name, extremes[0], sum[0] as f64 * 1e-6 / comm.size() as f64, -extremes[1]));
-    }
-    let own = solver.domain.element_file.len() as f64;
-    let mut extremes = [own, -own];
-    comm.all_min(&mut extremes);
-    TimeTable {
-        sections,
-        wall,
-        ranks: comm.size(),
-        elements_of_a_rank: [extremes[0] as u64, -extremes[1] as u64],
-        element_cycles,
-        memory: memory::resident().map(|(_, most)| most),
-    }
 }

@@ -26,7 +26,7 @@ pub use domain::{Domain, state_names};
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
 
-use crate::comm::Communicator;
+use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
 use crate::mesh::Mesh;
 use crate::model::{Function, Model, TimeStepControl};
@@ -133,8 +133,11 @@ impl Solver {
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
     /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
     pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
+        comm.enter(Traffic::Erosion);
         self.erode(comm);
+        comm.enter(Traffic::Elements);
         self.internal_forces(comm);
+        comm.enter(Traffic::Step);
         let agreed = match self.agree(request, comm) {
             Ok(agreed) => agreed,
             Err(stop) => {
@@ -145,6 +148,8 @@ impl Solver {
             }
         };
         self.external_forces(comm);
+        // Until the next step, all that is said is for sums, log and files.
+        comm.enter(Traffic::Output);
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
             self.last_totals = Some((0, totals::totals(&self.domain, 0.0, comm)));
@@ -227,6 +232,7 @@ impl Solver {
         if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
             pressure_faces.iter_mut().for_each(|face| face.gone |= dead.binary_search(&face.element).is_ok());
             if let Some(contact) = contact {
+                comm.enter(Traffic::ContactSearch);
                 contact.erode(&dead, erosion, nodes, comm);
             }
         }

@@ -111,6 +111,14 @@ mod tests {
     }
 
     #[test]
+    fn names_may_have_a_value_from_the_start() {
+        let deck = "{ifndef(ranks)}\n{ranks = 1}\n{endif}\n{18 * ranks}";
+        assert_eq!(text(deck), "1\n18");
+        let given = evaluate(Source::new("t.i", deck).with_value("ranks", 4));
+        assert_eq!(given.source.text(), "72");
+    }
+
+    #[test]
     fn blocks_take_leave_and_repeat_lines() {
         let deck = |n: &str| {
             format!("{{n={n}}}\n{{if(n > 2)}}\nlarge\n{{elseif(n > 1)}}\nmiddle\n$ {{else}}\nsmall\n{{endif}}\nend\n")

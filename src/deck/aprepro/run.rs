@@ -34,8 +34,10 @@ const STAND_IN: &str = "1";
 pub(super) fn run(deck: Source) -> Evaluated {
     let name = deck.name().to_string();
     let identity = Path::new(&name).canonicalize().unwrap_or_else(|_| PathBuf::from(&name));
+    let mut names = Names::new();
+    deck.names().iter().for_each(|(name, value)| names.set(name, Value::Number(f64::from(*value))));
     let mut run = Run {
-        names: Names::new(),
+        names,
         text: String::new(),
         origin: Origin { files: vec![File { source: deck, included_at: None }], pieces: Vec::new() },
         open: vec![identity],

@@ -11,7 +11,7 @@ mod summary;
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};
-pub use summary::{Ending, TimeTable, closing};
+pub use summary::{Balance, Ending, TimeTable, closing};
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

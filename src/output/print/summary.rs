@@ -1,24 +1,33 @@
 //! The end of the print log.
 
 use super::{heading, leader, number, scientific};
+use crate::comm::Spread;
 use crate::solver::Totals;
 use crate::solver::contact::Report;
 use std::fmt::Write;
 
 /// Where the time of a run went, and over how many ranks.
 pub struct TimeTable {
-    /// Name of each section of the step; its seconds: minimum, mean and maximum over the ranks.
-    pub sections: Vec<(&'static str, f64, f64, f64)>,
+    /// Seconds of each section of the step.
+    pub sections: Vec<Balance>,
+    /// Work and messages of a step.
+    pub balance: Vec<Balance>,
     /// Wall-clock seconds of the whole step loop.
     pub wall: f64,
     /// Number of ranks.
     pub ranks: usize,
-    /// Least and most elements of a rank.
-    pub elements_of_a_rank: [u64; 2],
     /// Elements times steps.
     pub element_cycles: f64,
     /// Most memory held by this process, in bytes, where the system tells.
     pub memory: Option<f64>,
+}
+
+/// How a quantity is spread over the ranks.
+pub struct Balance {
+    /// What it is.
+    pub name: String,
+    /// Over the ranks.
+    pub spread: Spread,
 }
 
 impl TimeTable {
@@ -52,10 +61,9 @@ pub fn closing(table: &TimeTable, ending: &Ending) -> String {
     out += &ending.contact.as_ref().map_or(String::new(), |report| contact(report, ending.steps));
     out += &ending.gone.map_or(String::new(), |gone| leader("ELEMENTS TAKEN AWAY", &gone.to_string()));
     out += &sections(table);
+    out += &balance_of_ranks(table);
     out += "\n";
-    let [least, most] = table.elements_of_a_rank;
     out += &leader("NUMBER OF RANKS", &table.ranks.to_string());
-    out += &leader("ELEMENTS OF A RANK, LEAST AND MOST", &format!("{least} {most}"));
     out += &leader("TIME STEPS TAKEN", &ending.steps.to_string());
     out += &leader("PLOT STATES WRITTEN", &ending.states.to_string());
     out += &leader("SECONDS PER ELEMENT CYCLE (GRIND TIME)", &scientific(table.grind(), 3));
@@ -116,13 +124,23 @@ fn sections(table: &TimeTable) -> String {
         "              {:<20}{:>12}{:>12}{:>12}{:>10}",
         "SECTION", "MIN s", "MEAN s", "MAX s", "% OF ALL"
     );
-    for (name, least, mean, most) in &table.sections {
+    for Balance { name, spread: Spread { least, mean, most } } in &table.sections {
         let percent = share(*mean);
         let _ = writeln!(out, "              {name:<20}{least:>12.3}{mean:>12.3}{most:>12.3}{percent:>10.1}");
     }
-    let accounted: f64 = table.sections.iter().map(|(_, _, mean, _)| mean).sum();
+    let accounted: f64 = table.sections.iter().map(|section| section.spread.mean).sum();
     let rest = (table.wall - accounted).max(0.0);
     let _ = writeln!(out, "              {:<20}{:>12}{rest:>12.3}{:>12}{:>10.1}", "OTHER", "", "", share(rest));
     let _ = writeln!(out, "              {:<20}{:>12}{:>12.3}", "TOTAL", "", table.wall);
+    out
+}
+
+/// How evenly the work is spread, and what ranks have to say to each other.
+fn balance_of_ranks(table: &TimeTable) -> String {
+    let mut out = heading("WHAT A RANK HAS TO DO IN A STEP");
+    let _ = writeln!(out, "              {:<32}{:>14}{:>14}{:>14}", "OVER ALL RANKS", "MIN", "MEAN", "MAX");
+    for Balance { name, spread: Spread { least, mean, most } } in &table.balance {
+        let _ = writeln!(out, "              {name:<32}{least:>14.2}{mean:>14.2}{most:>14.2}");
+    }
     out
 }

@@ -57,7 +57,8 @@ pub struct Arena {
     history: Vec<[Past; TOUCHES]>,
     edge_history: Vec<PastPair>,
     planes: Vec<PlanePoint>,
-    constraints: Vec<Constraint>,
+    /// Constraints of this step.
+    pub constraints: Vec<Constraint>,
     enforcer: Enforcer,
     /// What has come out for each point, and of which points that is not nothing.
     pub answers: Vec<[f64; ANSWER]>,

@@ -25,12 +25,13 @@ mod sites;
 mod state;
 pub mod surface;
 mod traffic;
+mod work;
 
 use super::body::Body;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
 use super::erosion::Erosion;
 use super::nodes::Nodes;
-use crate::comm::Communicator;
+use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactSearch, Model, RigidSurface};
 use arena::{Arena, Cast, History, Setting};
@@ -46,6 +47,7 @@ use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
 
 pub use overlap::{Overlap, remove as remove_overlap};
+pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {
@@ -202,17 +204,21 @@ impl Contact {
         comm: &mut dyn Communicator,
     ) {
         self.sites.predict(nodes, step);
+        comm.enter(Traffic::ContactSearch);
         if !self.layout.interfaces.is_empty() && self.expired(comm) {
             self.search(comm);
         }
+        comm.enter(Traffic::ContactMotion);
         let Contact { sites, arena, remote, .. } = self;
         match remote {
             Some(remote) => remote.send_motion(sites, arena, step.drift, comm),
             // The arena's points are the sites.
             None => arena.points.clone_from(&sites.points),
         }
+        comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
         self.count(outcome);
+        comm.enter(Traffic::ContactMotion);
         let Contact { sites, arena, remote, .. } = self;
         match remote {
             Some(remote) => remote.send_answers(sites, arena, comm),
