@@ -458,10 +458,10 @@ fields! {
         Reaction = "REACTION", ["RX", "RY", "RZ"], "force that holds or drives a node: constraints, prescribed motion, rigid surfaces";
         /// m
         Mass = "MASS", ["NODMASS"], "lumped nodal mass";
-        /// home
-        ContactRank = "CONTACT RANK", ["CONTRANK"], "rank that computes the contact of a node, −1 where there is none";
         /// contact
         Contact = "CONTACT", ["CONTX", "CONTY", "CONTZ", "CONTGAP", "CONTSTAT", "CONTFACE"], "contact force, of rigid surfaces too; overlap that is closed in the coming step; 0 free, 1 pushed, 2 pushed as a node on a face; element of that face";
+        /// home
+        ContactRank = "CONTACT RANK", ["CONTRANK"], "rank that computes the contact of a node, −1 where there is none";
     }
 }
 
