@@ -14,8 +14,8 @@ const PASSING: [&str; 7] = [
     "ELEMENTS OF A RANK",
 ];
 
-/// Heads of the parts that are left out: the deck, which stands elsewhere, and the time table.
-const LEFT_OUT: [&str; 2] = ["INPUTSTREAMIMAGES", "WHERETHETIMEWENT"];
+/// Heads of the parts that are left out: the deck, which stands elsewhere, and the tables of time and of ranks.
+const LEFT_OUT: [&str; 3] = ["INPUTSTREAMIMAGES", "WHERETHETIMEWENT", "WHATARANKHASTODOINASTEP"];
 
 /// Lines of the banner: program and version; day, machine and ranks; names of the files.
 const BANNER: usize = 3;

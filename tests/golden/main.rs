@@ -29,7 +29,7 @@ struct Lighter {
 /// The decks that take more than a second as they are.
 const LIGHTER: &[Lighter] = &[
     Lighter { deck: "bending_beam", until: None, mesh: &[("65, 30, 10", "16, 6, 2")] },
-    Lighter { deck: "bending_beam_scaled", until: None, mesh: &[("60, 18, 6", "30, 9, 2")] },
+    Lighter { deck: "bending_beam_scaled", until: None, mesh: &[("60, {18 * ranks}, 6", "30, 9, 2")] },
     Lighter {
         deck: "brick_wall",
         until: Some(5e-3),
