@@ -1,8 +1,8 @@
 //! Contact: a predictor finds where nodes would go, and forces take the overlaps out (Attaway et al. 1996).
 //!
 //! [`Contact::apply`] is steps 1.6 to 1.9 of the paper's figure 1: predict, locate, check in detail, enforce. Nodes of this
-//! rank are [`sites::Sites`]; check and enforcement happen in an [`arena::Arena`], of whole bodies on one rank, of a region
-//! of space on many ([`remote`]). Nothing that comes out depends on how many there are.
+//! rank are `Sites`; check and enforcement happen in an `Arena`, of whole bodies on one rank, of a region
+//! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
 mod arena;
 mod bounds;
