@@ -62,8 +62,8 @@ pub struct Locator {
     gone: f64,
     /// How much of that in the present step.
     last_way: f64,
-    /// Points that are watched or corners of candidates, and where each was at the last step.
-    moving: Vec<(u32, [f64; 3])>,
+    /// Points that are watched or corners of candidates, and where each was at the last step, if there was one.
+    moving: Vec<(u32, Option<[f64; 3]>)>,
     ways: Ways,
     edge_pairs: Vec<[u32; 2]>,
 }
@@ -119,8 +119,7 @@ impl Locator {
         Locator {
             depth,
             due: vec![0.0; found.watched.len()],
-            // The first step begins from nowhere, which looks like a long way and does no harm.
-            moving: moving.map(|point| (point, [0.0; 3])).collect(),
+            moving: moving.map(|point| (point, None)).collect(),
             watched: found.watched,
             first: found.first,
             near: found.near,
@@ -142,13 +141,13 @@ impl Locator {
         let mut sound = true;
         for (point, before) in &mut self.moving {
             let (start, end) = (&points.start[*point as usize], &points.end[*point as usize]);
+            let before = before.replace(*start).unwrap_or(*start);
             for i in 0..3 {
                 let (last, next) = ((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
                 let way = if last > next { last } else { next };
                 sound &= way <= f64::MAX;
                 farthest[i] = if way > farthest[i] { way } else { farthest[i] };
             }
-            *before = *start;
         }
         // A way that is not a number leaves nobody at rest.
         if sound { farthest[0].max(farthest[1]).max(farthest[2]) } else { f64::INFINITY }

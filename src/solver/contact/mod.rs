@@ -212,8 +212,8 @@ impl Contact {
         let Contact { sites, arena, remote, .. } = self;
         match remote {
             Some(remote) => remote.send_motion(sites, arena, step.drift, comm),
-            // The arena's points are the sites.
-            None => arena.points.clone_from(&sites.points),
+            // The arena's points are the sites: lent, not copied.
+            None => std::mem::swap(&mut arena.points, &mut sites.points),
         }
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
@@ -223,6 +223,7 @@ impl Contact {
         match remote {
             Some(remote) => remote.send_answers(sites, arena, comm),
             None => {
+                std::mem::swap(&mut arena.points, &mut sites.points);
                 sites.pushed.clone_from(&arena.pushed);
                 for &point in &arena.pushed {
                     sites.answers[point as usize] = arena.answers[point as usize];
