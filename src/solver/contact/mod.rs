@@ -6,6 +6,7 @@
 
 mod arena;
 mod bounds;
+mod contract;
 mod cubic;
 pub mod detect;
 mod edges;
@@ -13,12 +14,15 @@ pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
+mod links;
 mod locate;
 mod neighbourhood;
 mod overlap;
 mod planes;
 pub mod points;
+mod regional;
 mod remote;
+mod routing;
 pub mod search;
 mod setup;
 mod sites;
