@@ -1,7 +1,7 @@
 //! Contact on many ranks: two decompositions and the messages between them (Attaway et al. 1996, "Parallel contact").
 //!
-//! Elements and nodes stay where they are. At every search the points of contact are shared out anew by recursive
-//! bisection; each goes, with its history, to the rank of its region, its home, and faces and edges go to every rank whose
+//! Elements and nodes stay where they are. At every search the points of contact are shared out anew, by recursive
+//! bisection unless CONTACT DECOMPOSITION says otherwise; each goes, with its history, to the rank of its region, its home, and faces and edges go to every rank whose
 //! points they may meet. That rank searches, and checks and enforces until the next search. In between, only motion
 //! travels to the homes, changes of velocity between homes in the passes, and forces back.
 //!
@@ -17,11 +17,19 @@ use super::regional::Regional;
 use super::routing::route;
 use super::search::Search;
 use super::setup::Layout;
-use super::sites::{ANSWER, Sites};
+use super::sites::{ANSWER, FORCES, STATUS, Sites};
 use super::traffic::{Lists, Pattern};
 use crate::comm::{Communicator, numbers_of_others};
-use crate::partition::dynamic::{self, Axes, Bisection, Parcels, Records};
+use crate::model::ContactDecomposition;
+use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
+/// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
+const SLACK: f64 = 0.05;
+
+/// A point that is not pushed. No sum that begins with +0 comes out as −0.
+const AT_REST: [f64; FORCES] = [-0.0; FORCES];
 
 /// What one rank knows of the others.
 pub struct Remote {
@@ -33,6 +41,8 @@ pub struct Remote {
     /// Faces and edges of elements that are here.
     faces: Vec<u32>,
     edges: Vec<u32>,
+    /// How points are shared out, and the cuts of the last time.
+    method: ContactDecomposition,
     cuts: Option<Bisection>,
     motion: Pattern,
     answers: Pattern,
@@ -41,7 +51,12 @@ pub struct Remote {
 
 impl Remote {
     /// Gets to know the others. `is_here` says whether the element of a face is on this rank. All ranks call it.
-    pub fn new(layout: &Layout, sites: &Sites, is_here: impl Fn(u32) -> bool, comm: &mut dyn Communicator) -> Remote {
+    pub fn new(
+        (layout, sites): (&Layout, &Sites),
+        method: ContactDecomposition,
+        is_here: impl Fn(u32) -> bool,
+        comm: &mut dyn Communicator,
+    ) -> Remote {
         let count = layout.nodes.len();
         let own: Vec<u32> = sites.list.iter().map(|site| 2 * site.point + u32::from(site.owned)).collect();
         let mut all = numbers_of_others(&own, comm);
@@ -65,6 +80,7 @@ impl Remote {
             owner,
             faces: (0..layout.faces.len() as u32).filter(here).collect(),
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
+            method,
             cuts: None,
             motion: Pattern::default(),
             answers: Pattern::default(),
@@ -90,21 +106,37 @@ impl Remote {
         );
     }
 
-    /// Brings what contact has found to the nodes.
-    pub fn send_answers(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
+    /// Brings the forces that contact has found to the nodes.
+    pub fn send_forces(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
         sites.pushed.clear();
         self.answers.exchange(
             &mut (&mut *sites, arena),
-            |(_, arena), point| arena.answers[point as usize],
-            |(sites, _), site, answer: [f64; ANSWER]| {
-                if answer[7] != 0.0 {
-                    sites.answers[site as usize] = answer;
+            |(_, arena), point| {
+                let answer = &arena.answers[point as usize];
+                if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
+            },
+            |(sites, _), site, forces| {
+                if forces.map(f64::to_bits) != AT_REST.map(f64::to_bits) {
+                    let answer = &mut sites.answers[site as usize];
+                    (answer[..FORCES].copy_from_slice(&forces), answer[FORCES..].fill(0.0));
                     sites.pushed.push(site);
                 }
             },
             comm,
         );
         sites.pushed.sort_unstable();
+    }
+
+    /// Brings the rest of what contact has found in this step to the nodes that are pushed: only output asks for it.
+    pub fn send_rest(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
+        self.answers.exchange(
+            &mut (sites, arena),
+            |(_, arena), point| -> [f64; ANSWER - FORCES] {
+                std::array::from_fn(|i| arena.answers[point as usize][FORCES + i])
+            },
+            |(sites, _), site, rest| sites.answers[site as usize][FORCES..].copy_from_slice(&rest),
+            comm,
+        );
     }
 
     /// What homes tell each other, for one step.
@@ -140,9 +172,17 @@ impl Remote {
 
     /// The new home of every site.
     fn find_homes(&mut self, sites: &Sites, comm: &mut dyn Communicator) -> Vec<u32> {
+        let axes = match self.method {
+            ContactDecomposition::Bisection => Axes::Longest,
+            ContactDecomposition::Slices => Axes::One,
+            ContactDecomposition::Static => {
+                return sites.list.iter().map(|site| self.owner[site.point as usize]).collect();
+            }
+        };
         let own = sites.list.iter().enumerate().filter(|(_, site)| site.owned);
         let (places, ids): (Vec<[f64; 3]>, Vec<u32>) = own.map(|(i, site)| (sites.points.start[i], site.point)).unzip();
-        let balanced = dynamic::balance(&places, &ids, &[], Axes::Longest, self.cuts.as_ref(), comm);
+        let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
+        let balanced = dynamic::balance(&places, &ids, &[], axes, earlier, comm);
         let cuts = self.cuts.insert(balanced.bisection);
         sites.list.iter().zip(&sites.points.start).map(|(site, at)| cuts.owner(*at, site.point)).collect()
     }
