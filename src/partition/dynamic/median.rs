@@ -174,9 +174,6 @@ impl Median {
 
     /// Sets the bins of the next round: trials about where the cut is expected, `closer` on either side, and even ones.
     pub fn choose_trials(&mut self, closer: usize) {
-        // Among few points the closest trials would have nothing between them.
-        let digits = u64::BITS - self.inside.count.leading_zeros();
-        let closer = closer.min(digits.div_ceil(2) as usize);
         let mut trials = self.expected();
         // Where the cut may be kept there is no need of others yet.
         if self.guess.is_none_or(|guess| guess.slack == 0.0) {
