@@ -173,7 +173,8 @@ fn breaks(part: Traffic, after: u32) -> bool {
     let model = problem.unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false))).model;
     let ended = run(4, move |inner| {
         let body = Body::new(&mesh, &model);
-        let contributors = body.contributors(&body.cut(inner.size()));
+        let cut = body.cut(inner.size());
+        let contributors = body.contributors(&cut);
         let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), inner.size());
         let left = (inner.rank() == BROKEN).then_some(after);
         let comm = &mut Breaking { inner, part, now: Traffic::Setup, left };
