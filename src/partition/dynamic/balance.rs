@@ -228,7 +228,9 @@ impl Work<'_> {
     fn advance(&mut self, cuttings: &mut [Cutting]) -> bool {
         let mut active: Vec<&mut Cutting> =
             cuttings.iter_mut().filter(|cutting| cutting.median.found.is_none()).collect();
-        let closer = closer_trials(active.len());
+        // Cuts with slack are kept at first; the few that are not shall cost few bytes rather than few rounds.
+        let has_slack = self.earlier.is_some_and(|earlier| earlier.slack > 0.0);
+        let closer = if has_slack { CLOSER_TRIALS.start } else { closer_trials(active.len()) };
         let mut sums = Vec::new();
         for cutting in &mut active {
             cutting.median.choose_trials(closer);
@@ -318,9 +320,12 @@ impl Extent {
     }
 }
 
+/// Fewest and most trials on either side of an expected cut.
+const CLOSER_TRIALS: Range<usize> = 3..8;
+
 /// Trials on either side of the expected cut for so many searches at once: what all of them send stays small.
 fn closer_trials(searches: usize) -> usize {
-    (512 / searches.max(1)).clamp(3, 8)
+    (512 / searches.max(1)).clamp(CLOSER_TRIALS.start, CLOSER_TRIALS.end)
 }
 
 /// Brings the points for which `before` holds to the front and returns their number.

@@ -26,7 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
 /// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
-const SLACK: f64 = 0.05;
+const SLACK: f64 = 0.1;
 
 /// A point that is not pushed. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
