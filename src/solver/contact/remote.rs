@@ -118,7 +118,8 @@ impl Remote {
             |(sites, _), site, forces| {
                 if forces.map(f64::to_bits) != AT_REST.map(f64::to_bits) {
                     let answer = &mut sites.answers[site as usize];
-                    (answer[..FORCES].copy_from_slice(&forces), answer[FORCES..].fill(0.0));
+                    answer[..FORCES].copy_from_slice(&forces);
+                    answer[FORCES..].fill(0.0);
                     sites.pushed.push(site);
                 }
             },
