@@ -1,8 +1,8 @@
 //! Contact and rigid planes.
 
 use super::{
-    ContactData, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable, ElementField, Friction,
-    RigidSurface,
+    ContactData, ContactDecomposition, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable,
+    ElementField, Friction, RigidSurface,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, spelling};
@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),
+    ("CONTACT DECOMPOSITION", contact_decomposition),
     ("DEATH", death),
 ];
 
@@ -136,6 +137,14 @@ fn contact_search(card: &Card, draft: &mut Draft) {
 
 fn contact_edges(card: &Card, draft: &mut Draft) {
     draft.model.contact.control.edges = card.text("switch") == "ON";
+}
+
+fn contact_decomposition(card: &Card, draft: &mut Draft) {
+    draft.model.contact.control.decomposition = match card.text("method") {
+        "SLICES" => ContactDecomposition::Slices,
+        "STATIC" => ContactDecomposition::Static,
+        _ => ContactDecomposition::Bisection,
+    };
 }
 
 fn rigid_surface(card: &Card, draft: &mut Draft) {

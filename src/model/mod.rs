@@ -375,7 +375,7 @@ pub struct Friction {
     pub decay: f64,
 }
 
-/// CONTACT PASSES, CONTACT SEARCH and CONTACT EDGES: how contact is found and enforced.
+/// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES and CONTACT DECOMPOSITION: how contact is found and enforced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
@@ -390,6 +390,8 @@ pub struct ContactControl {
     pub margin: f64,
     /// Whether edges may touch edges.
     pub edges: bool,
+    /// How points are shared out among many ranks.
+    pub decomposition: ContactDecomposition,
 }
 
 impl Default for ContactControl {
@@ -401,8 +403,20 @@ impl Default for ContactControl {
             reach: 45.0,
             margin: 0.1,
             edges: true,
+            decomposition: ContactDecomposition::Bisection,
         }
     }
+}
+
+/// Ways to share out the points of contact among ranks; all give the same results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactDecomposition {
+    /// Recursive coordinate bisection of where the points are.
+    Bisection,
+    /// Slices across one axis, of equally many points.
+    Slices,
+    /// Every point stays with the rank that owns its node.
+    Static,
 }
 
 /// Ways to find faces near a point; all find the same.

@@ -6,6 +6,7 @@
 
 mod arena;
 mod bounds;
+mod contract;
 mod cubic;
 pub mod detect;
 mod edges;
@@ -13,12 +14,15 @@ pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
+mod links;
 mod locate;
 mod neighbourhood;
 mod overlap;
 mod planes;
 pub mod points;
+mod regional;
 mod remote;
+mod routing;
 pub mod search;
 mod setup;
 mod sites;
@@ -33,7 +37,7 @@ use super::erosion::Erosion;
 use super::nodes::Nodes;
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
-use crate::model::{ContactSearch, Model, RigidSurface};
+use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
 use arena::{Arena, Cast, History, Setting};
 use detect::{NONE, Past, Touch};
 use edges::PastPair;
@@ -66,6 +70,7 @@ pub struct Contact {
     /// Canonical numbers of the elements that are here, ascending.
     elements: Vec<u32>,
     search: Box<dyn Search>,
+    decomposition: ContactDecomposition,
     reach: Reach,
     planes: Vec<RigidSurface>,
     /// Mean size of the faces: what overlaps with planes are small against.
@@ -140,6 +145,7 @@ impl Contact {
             remote: None,
             carried: None,
             search: kind(model.contact.control.search).make(),
+            decomposition: model.contact.control.decomposition,
             reach: reach(model, &layout),
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
@@ -171,7 +177,7 @@ impl Contact {
             self.arena.restore(self.carried.take().unwrap_or_default());
         } else if comm.size() > 1 {
             let is_here = |face: u32| elements.binary_search(&(face / 6)).is_ok();
-            self.remote = Some(Remote::new(layout, &self.sites, is_here, comm));
+            self.remote = Some(Remote::new((layout, &self.sites), self.decomposition, is_here, comm));
         }
     }
 
@@ -221,7 +227,7 @@ impl Contact {
         comm.enter(Traffic::ContactMotion);
         let Contact { sites, arena, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_answers(sites, arena, comm),
+            Some(remote) => remote.send_forces(sites, arena, comm),
             None => {
                 std::mem::swap(&mut arena.points, &mut sites.points);
                 sites.pushed.clone_from(&arena.pushed);
@@ -231,6 +237,15 @@ impl Contact {
             }
         }
         sites.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
+    }
+
+    /// Brings what [`Contact::node_values`] and [`Contact::plane_forces`] tell beside forces to the nodes; before them,
+    /// and all ranks call it.
+    pub fn complete(&mut self, comm: &mut dyn Communicator) {
+        let Contact { sites, arena, remote, .. } = self;
+        if let Some(remote) = remote {
+            remote.send_rest(sites, arena, comm);
+        }
     }
 
     /// Whether any rank needs a search.

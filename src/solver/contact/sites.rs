@@ -19,6 +19,12 @@ pub struct Site {
 /// What contact says about a site: normal force, friction force, gap, status, face, force of rigid planes.
 pub const ANSWER: usize = 12;
 
+/// How many of these are forces on the site, and come first.
+pub const FORCES: usize = 6;
+
+/// Which of these is the status; 0 where nothing pushes.
+pub const STATUS: usize = 7;
+
 /// Points of this rank, in the order of their numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Sites {

@@ -50,6 +50,7 @@ impl Contact {
             planes: _,
             mean_size: _,
             limits: _,
+            decomposition: _,
         } = self;
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
