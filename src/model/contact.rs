@@ -1,7 +1,7 @@
 //! Contact and rigid planes.
 
 use super::{
-    ContactData, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable, ElementField, Friction,
+    ContactData, ContactEdges, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable, ElementField, Friction,
     RigidSurface,
     problem::{Draft, Setter},
 };
@@ -135,7 +135,11 @@ fn contact_search(card: &Card, draft: &mut Draft) {
 }
 
 fn contact_edges(card: &Card, draft: &mut Draft) {
-    draft.model.contact.control.edges = card.text("switch") == "ON";
+    draft.model.contact.control.edges = match card.text("switch") {
+        "OFF" => ContactEdges::None,
+        "SHARP" => ContactEdges::Sharp,
+        _ => ContactEdges::All,
+    };
 }
 
 fn rigid_surface(card: &Card, draft: &mut Draft) {

@@ -1,7 +1,7 @@
 //! What the front part of the log says of contact and of the removal of elements.
 
 use super::{echo::table, number};
-use crate::model::{ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
+use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
 use crate::solver::contact::Overlap;
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
@@ -55,8 +55,16 @@ fn control(model: &Model) -> Vec<String> {
     vec![
         format!("AT MOST {} PASSES, TO AN OVERLAP OF {} FACE SIZES", control.passes, number(control.tolerance)),
         format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
-        format!("EDGES TOUCH EDGES: {}", if control.edges { "YES" } else { "NO" }),
+        format!("EDGES TOUCH EDGES: {}", edges(control.edges)),
     ]
+}
+
+fn edges(edges: ContactEdges) -> &'static str {
+    match edges {
+        ContactEdges::None => "NO",
+        ContactEdges::Sharp => "THOSE THAT STAND OUT",
+        ContactEdges::All => "YES",
+    }
 }
 
 fn overlaps(overlap: Overlap) -> Vec<String> {

@@ -26,6 +26,16 @@ const KEEP: f64 = 0.01;
 /// Pairs that overlap by more than this part of an edge did not come through each other.
 const DEEP: f64 = 0.25;
 
+/// Part of a line's length scale by which an edge may sink in before the line answers. Where an edge lies on a face its nodes
+/// and those of the face hold it; only what sinks in between them is left to the lines, so that what rests is held once.
+const SLACK: f64 = 0.005;
+
+/// Part of that scale within which a line looks for edges. One that has slid in deeper than the slack is pushed out slowly.
+const SUNK: f64 = 0.05;
+
+/// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
+const STEEP: f64 = 0.8;
+
 /// An edge of the outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
@@ -33,12 +43,15 @@ pub struct Edge {
     pub ends: [u32; 2],
     /// The faces on both sides.
     pub faces: [u32; 2],
+    /// Whether it stands out. The others are lines within a face that is flat or bends a little: they meet only edges that
+    /// stand out.
+    pub stands_out: bool,
 }
 
 /// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PastPair {
-    /// The edges, ascending.
+    /// The edges: ascending where both stand out, else the line second.
     pub pair: [u32; 2],
     /// +1 or −1.
     pub sense: f64,
@@ -50,8 +63,9 @@ pub struct PastPair {
     pub drag: [f64; 3],
 }
 
-/// Edges of some faces that stand out, in ascending order of their ends.
-pub fn standing_out(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edge> {
+/// Edges of some faces that may touch edges, in ascending order of their ends: those that stand out, and with `lines` those
+/// on which the faces go on with little or no bend. Hollows take no part: the faces beside them are met first.
+pub fn of_outside(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], lines: bool) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * chosen.len());
     for &face in chosen {
         let corners = faces.corners[face as usize];
@@ -64,15 +78,20 @@ pub fn standing_out(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Ve
     }
     sides.sort_unstable();
     let corners = |face: u32| faces.corners[face as usize].map(|p| positions[p as usize]);
-    let sharp = |first: u32, second: u32| {
+    let stands_out = |first: u32, second: u32| {
         let (a, b) = (corners(first), corners(second));
         let (n, m) = (area_normal(&a), area_normal(&b));
         let lengths = (dot(n, n) * dot(m, m)).sqrt();
-        dot(n, m) < SHARP * lengths && dot(subtract(centre(&b), centre(&a)), n) < 0.0
+        if dot(n, m) >= SHARP * lengths {
+            return lines.then_some(false);
+        }
+        (dot(subtract(centre(&b), centre(&a)), n) < 0.0).then_some(true)
     };
     (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| match same {
-            &[(ends, first), (_, second)] if sharp(first, second) => Some(Edge { ends, faces: [first, second] }),
+            &[(ends, first), (_, second)] => {
+                Some(Edge { ends, faces: [first, second], stands_out: stands_out(first, second)? })
+            }
             _ => None,
         })
         .collect()
@@ -139,6 +158,9 @@ impl EdgeCheck<'_> {
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
     pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+        if !self.edges[pair[1] as usize].stands_out {
+            return self.on_line(pair, past, pairing);
+        }
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
@@ -157,6 +179,57 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint(pair, &end, &now, gap, pairing)))
     }
 
+    /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
+    /// there, so motion need not be asked.
+    fn on_line(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+        let scale = self.scale(pair[1]);
+        if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
+            return None;
+        }
+        let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
+        if !end.between_ends(0.0) {
+            return None;
+        }
+        let (line, edge) = (self.outwards(pair[1]), self.outwards(pair[0]));
+        let up = dot(end.normal, line);
+        let sense = up.signum();
+        // The line looks out along the normal, and the edge's own body is not pushed further in.
+        if up * up <= STEEP * STEEP * dot(line, line) || sense * dot(end.normal, edge) >= 0.0 {
+            return None;
+        }
+        let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
+        let allowed = match past {
+            Some(past) => (FADE * past.allowed).max(gap.min(0.0)).min(tolerated),
+            None => {
+                let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+                let before = dot(start.normal, end.normal).signum() * sense * start.gap;
+                if gap >= tolerated || before <= -SUNK * scale {
+                    return None;
+                }
+                before.min(tolerated)
+            }
+        };
+        let now = past.map_or(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] }, |past| {
+            PastPair { sense, allowed, ..*past }
+        });
+        let beyond = gap - allowed;
+        if beyond > SLACK * scale || beyond < -DEEP * scale {
+            return None;
+        }
+        Some((now, self.constraint(pair, &end, &now, beyond, pairing)))
+    }
+
+    /// Length that what sinks in at a line is small against: the size of the faces, or what half the element beneath allows.
+    fn scale(&self, line: u32) -> f64 {
+        scale(self.faces, &self.edges[line as usize])
+    }
+
+    /// Sum of the normals of the faces at an edge, at the beginning of the step.
+    fn outwards(&self, edge: u32) -> [f64; 3] {
+        let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.points)));
+        add(a, b)
+    }
+
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
         let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
@@ -165,12 +238,8 @@ impl EdgeCheck<'_> {
             return None;
         }
         let outwards = |sense: f64, normal: [f64; 3]| {
-            let out = |edge: u32| {
-                let [a, b] = self.edges[edge as usize].faces;
-                add(area_normal(&self.faces.start(a, self.points)), area_normal(&self.faces.start(b, self.points)))
-            };
             // Pushed along the normal, the first edge goes back into its own body.
-            sense * dot(normal, out(pair[0])) < 0.0 && sense * dot(normal, out(pair[1])) > 0.0
+            sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
         let touch = |sense, allowed| PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] };
@@ -227,7 +296,13 @@ impl EdgeCheck<'_> {
 
 /// How far around itself an edge looks for others.
 pub fn keep(faces: &Faces, edge: &Edge) -> f64 {
-    KEEP * faces.size[edge.faces[0] as usize]
+    if edge.stands_out { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
+}
+
+/// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.
+fn scale(faces: &Faces, line: &Edge) -> f64 {
+    let of = |face: u32| faces.size[face as usize].min(faces.depth[face as usize] / SUNK);
+    of(line.faces[0]).min(of(line.faces[1]))
 }
 
 /// Whether two edges may ever touch: they have no end in common and belong to different elements.

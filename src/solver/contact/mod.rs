@@ -336,7 +336,7 @@ impl Contact {
         (!self.layout.interfaces.is_empty()).then_some(Report {
             points: self.layout.nodes.len(),
             faces: self.layout.faces.len(),
-            edges: self.layout.edges.len(),
+            edges: self.layout.edges.iter().filter(|edge| edge.stands_out).count(),
             watched,
             pairs,
             searches: self.searches,

@@ -5,7 +5,7 @@ use super::faces::Faces;
 use super::locate::{Interface, Rule};
 use super::surface::{Surface, face_nodes};
 use crate::mesh::Mesh;
-use crate::model::{Contact, ContactMaterials, Friction, Model};
+use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
 use crate::solver::Body;
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ pub struct Layout {
     pub faces: Arc<Faces>,
     /// Interfaces; explicit pairs first.
     pub interfaces: Vec<Interface>,
-    /// Edges that stand out, of the faces that CONTACT MATERIAL lets touch.
+    /// Edges that may touch edges, of the faces that CONTACT MATERIAL lets touch.
     pub edges: Vec<Edge>,
 }
 
@@ -116,8 +116,8 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
-    /// Whether edges may touch edges.
-    edges_wanted: bool,
+    /// Which edges may touch edges.
+    edges_wanted: ContactEdges,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
     pub(super) free: Vec<(u32, u32)>,
 }
@@ -180,9 +180,10 @@ impl Skin {
         }
         layout.interfaces = self.interfaces(&layout, &automatic);
         // As sharp as they are in the mesh.
-        if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted) {
+        if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
-            layout.edges = edges::standing_out(&automatic.faces, &layout.faces, &positions);
+            let lines = self.edges_wanted == ContactEdges::All;
+            layout.edges = edges::of_outside(&automatic.faces, &layout.faces, &positions, lines);
         }
         layout
     }
