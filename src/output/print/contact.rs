@@ -2,7 +2,7 @@
 
 use super::{echo::table, number};
 use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
-use crate::solver::contact::Overlap;
+use crate::solver::contact::{Left, Overlap};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
 pub fn tables(model: &Model, overlap: Overlap) -> String {
@@ -23,6 +23,7 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table("CONTACT", "BETWEEN          FIRST  SECOND    PARTITION     FRICTION   HIGH SPEED        DECAY", lines),
         table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
         table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
+        table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.left)),
         table(
             "REMOVAL OF ELEMENTS",
             "BLOCK   VARIABLE      BOUND        VALUE   NODES",
@@ -70,6 +71,11 @@ fn edges(edges: ContactEdges) -> &'static str {
 fn overlaps(overlap: Overlap) -> Vec<String> {
     let moved = (overlap.nodes > 0).then(|| format!("{:>11}{:>13}", overlap.nodes, number(overlap.farthest)));
     moved.into_iter().collect()
+}
+
+fn left(left: Left) -> Vec<String> {
+    let some = (left.nodes > 0).then(|| format!("{:>21}{:>13}", left.nodes, number(left.deepest)));
+    some.into_iter().collect()
 }
 
 fn death(death: &Death) -> String {

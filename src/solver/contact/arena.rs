@@ -95,8 +95,9 @@ impl Arena {
         };
         let local = |point: u32| place(&cast.points, point);
         let edges = cast.edges.iter().map(|&edge| {
-            let Edge { ends, faces, stands_out } = layout.edges[edge as usize];
-            Edge { ends: ends.map(local), faces: faces.map(|face| place(&cast.faces, face)), stands_out }
+            let edge = layout.edges[edge as usize];
+            let faces = edge.faces.map(|face| place(&cast.faces, face));
+            Edge { ends: edge.ends.map(local), faces, ..edge }
         });
         let edges = edges.collect();
         let found = Found {

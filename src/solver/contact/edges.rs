@@ -1,8 +1,9 @@
 //! Edges against edges: two edges that cross meet where no node meets a face, as when a corner hits an edge.
 //!
-//! Only edges that stand out take part, those between faces that turn away from each other by more than a third of a
-//! right angle at the start or when erosion lays them bare. The check is that of nodes and faces: by motion for a pair that
-//! comes anew, where it would be at the end of the step for one that has touched before.
+//! Edges stand out between faces that turn away from each other by more than a third of a right angle. They meet each other,
+//! and the lines of the mesh in faces that are flat or nearly so, into which they would sink between the nodes. The check of
+//! the former is that of nodes and faces: by motion for a pair that comes anew, where it would be at the end of the step for
+//! one that has touched before.
 
 use super::cubic;
 use super::detect::FADE;
@@ -17,6 +18,9 @@ use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;
 
+/// The same at an edge that has stood out before: 20 degrees.
+const BLUNT: f64 = 0.94;
+
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
 const CROSSING: f64 = 0.05;
 
@@ -30,11 +34,57 @@ const DEEP: f64 = 0.25;
 /// and those of the face hold it; only what sinks in between them is left to the lines, so that what rests is held once.
 const SLACK: f64 = 0.005;
 
-/// Part of that scale within which a line looks for edges. One that has slid in deeper than the slack is pushed out slowly.
+/// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
 const SUNK: f64 = 0.05;
 
 /// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
 const STEEP: f64 = 0.8;
+
+/// How the faces at an edge lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// They turn away from each other: the edge stands out.
+    StandsOut,
+    /// They go on with little or no bend: a line of the mesh, which meets only edges that stand out.
+    Line,
+    /// They fold towards each other, and are met before their edge, which takes no part.
+    Hollow,
+}
+
+/// Area normal and middle of a face.
+pub type Side = ([f64; 3], [f64; 3]);
+
+impl Shape {
+    /// A number for each.
+    pub fn code(self) -> u32 {
+        match self {
+            Shape::StandsOut => 0,
+            Shape::Line => 1,
+            Shape::Hollow => 2,
+        }
+    }
+
+    /// The shape of a number.
+    pub fn from_code(code: u32) -> Shape {
+        match code {
+            0 => Shape::StandsOut,
+            1 => Shape::Line,
+            _ => Shape::Hollow,
+        }
+    }
+
+    /// The shape of an edge between two faces. One that `stood_out` before does so a little longer, lest it come and go.
+    pub fn of((n, a): Side, (m, b): Side, stood_out: bool) -> Shape {
+        let least = if stood_out { BLUNT } else { SHARP };
+        if dot(n, m) >= least * (dot(n, n) * dot(m, m)).sqrt() {
+            Shape::Line
+        } else if dot(subtract(b, a), n) < 0.0 {
+            Shape::StandsOut
+        } else {
+            Shape::Hollow
+        }
+    }
+}
 
 /// An edge of the outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,9 +93,10 @@ pub struct Edge {
     pub ends: [u32; 2],
     /// The faces on both sides.
     pub faces: [u32; 2],
-    /// Whether it stands out. The others are lines within a face that is flat or bends a little: they meet only edges that
-    /// stand out.
-    pub stands_out: bool,
+    /// How the faces lie.
+    pub shape: Shape,
+    /// How they lie in the mesh.
+    pub in_mesh: Shape,
 }
 
 /// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
@@ -63,9 +114,15 @@ pub struct PastPair {
     pub drag: [f64; 3],
 }
 
-/// Edges of some faces that may touch edges, in ascending order of their ends: those that stand out, and with `lines` those
-/// on which the faces go on with little or no bend. Hollows take no part: the faces beside them are met first.
-pub fn of_outside(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], lines: bool) -> Vec<Edge> {
+impl Edge {
+    /// Whether it stands out.
+    pub fn stands_out(&self) -> bool {
+        self.shape == Shape::StandsOut
+    }
+}
+
+/// Edges between two of some faces, in ascending order of their ends.
+pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * chosen.len());
     for &face in chosen {
         let corners = faces.corners[face as usize];
@@ -77,24 +134,34 @@ pub fn of_outside(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], lines: 
         }
     }
     sides.sort_unstable();
-    let corners = |face: u32| faces.corners[face as usize].map(|p| positions[p as usize]);
-    let stands_out = |first: u32, second: u32| {
-        let (a, b) = (corners(first), corners(second));
-        let (n, m) = (area_normal(&a), area_normal(&b));
-        let lengths = (dot(n, n) * dot(m, m)).sqrt();
-        if dot(n, m) >= SHARP * lengths {
-            return lines.then_some(false);
-        }
-        (dot(subtract(centre(&b), centre(&a)), n) < 0.0).then_some(true)
-    };
+    let side = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
     (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| match same {
             &[(ends, first), (_, second)] => {
-                Some(Edge { ends, faces: [first, second], stands_out: stands_out(first, second)? })
+                let shape = Shape::of(side(first), side(second), false);
+                Some(Edge { ends, faces: [first, second], shape, in_mesh: shape })
             }
             _ => None,
         })
         .collect()
+}
+
+/// Area normal and middle of a face.
+pub fn side(corners: &[[f64; 3]; 4]) -> Side {
+    (area_normal(corners), centre(corners))
+}
+
+/// A pair in the order that its edges have now; `None` where they no longer meet.
+pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
+    let [a, b] = past.pair;
+    let swaps = match [a, b].map(|edge| edges[edge as usize].shape) {
+        [Shape::StandsOut, Shape::StandsOut] => a > b,
+        [Shape::StandsOut, Shape::Line] => false,
+        [Shape::Line, Shape::StandsOut] => true,
+        _ => return None,
+    };
+    // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
+    Some(if swaps { PastPair { pair: [b, a], drag: scaled(past.drag, -1.0), ..past } } else { past })
 }
 
 /// Where two edges are nearest to each other.
@@ -158,7 +225,7 @@ impl EdgeCheck<'_> {
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
     pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
-        if !self.edges[pair[1] as usize].stands_out {
+        if !self.edges[pair[1] as usize].stands_out() {
             return self.on_line(pair, past, pairing);
         }
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
@@ -199,9 +266,11 @@ impl EdgeCheck<'_> {
         }
         let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
         let allowed = match past {
-            Some(past) => (FADE * past.allowed).max(gap.min(0.0)).min(tolerated),
+            // Pushed out without a blow it would still gain the velocity of being pushed out: left where it is, until it goes.
+            Some(past) => past.allowed.max(gap).min(tolerated),
             None => {
-                let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+                let start =
+                    Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
                 let before = dot(start.normal, end.normal).signum() * sense * start.gap;
                 if gap >= tolerated || before <= -SUNK * scale {
                     return None;
@@ -209,8 +278,10 @@ impl EdgeCheck<'_> {
                 before.min(tolerated)
             }
         };
-        let now = past.map_or(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] }, |past| {
-            PastPair { sense, allowed, ..*past }
+        let now = past.map_or(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] }, |past| PastPair {
+            sense,
+            allowed,
+            ..*past
         });
         let beyond = gap - allowed;
         if beyond > SLACK * scale || beyond < -DEEP * scale {
@@ -296,7 +367,7 @@ impl EdgeCheck<'_> {
 
 /// How far around itself an edge looks for others.
 pub fn keep(faces: &Faces, edge: &Edge) -> f64 {
-    if edge.stands_out { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
+    if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
 }
 
 /// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.

@@ -62,10 +62,10 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &Sit
     all
 }
 
-/// Boxes of some edges, whose ends are sites.
+/// Boxes of those of some edges that take part, whose ends are sites.
 pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
     let mut all = Boxes::default();
-    for edge in edges {
+    for edge in edges.filter(|&edge| layout.takes_part(edge)) {
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| sites.of(end));
         let of = of.fold(Box3::empty(), |all, site| all.joined(&around(sites, site)));
@@ -142,7 +142,7 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
     if edges.ids.is_empty() {
         return Vec::new();
     }
-    let stands_out = |edge: u32| layout.edges[edge as usize].stands_out;
+    let stands_out = |edge: u32| layout.edges[edge as usize].stands_out();
     let asks = |edge: u32| mine(edge) && stands_out(edge);
     let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if asks(edge) { *of } else { Box3::empty() });
     let own: Vec<Box3> = own.collect();

@@ -1,6 +1,6 @@
 //! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
 
-use super::edges::{self, Edge};
+use super::edges::{self, Edge, Shape};
 use super::faces::Faces;
 use super::locate::{Interface, Rule};
 use super::surface::{Surface, face_nodes};
@@ -82,14 +82,31 @@ pub struct Layout {
     pub faces: Arc<Faces>,
     /// Interfaces; explicit pairs first.
     pub interfaces: Vec<Interface>,
-    /// Edges that may touch edges, of the faces that CONTACT MATERIAL lets touch.
+    /// Edges of the faces that CONTACT MATERIAL lets touch, ascending; none where edges touch nothing.
     pub edges: Vec<Edge>,
+    /// Whether lines of the mesh meet edges that stand out.
+    pub lines: bool,
 }
 
 impl Layout {
     /// The interface of CONTACT MATERIAL.
     pub fn automatic(&self) -> Option<&Interface> {
         self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
+    }
+
+    /// Whether an edge may touch others.
+    pub fn takes_part(&self, edge: u32) -> bool {
+        match self.edges[edge as usize].shape {
+            Shape::StandsOut => true,
+            Shape::Line => self.lines,
+            Shape::Hollow => false,
+        }
+    }
+
+    /// The edge between two nodes of the mesh.
+    pub fn edge(&self, nodes: [u32; 2]) -> Option<u32> {
+        let ends = nodes.map(|node| self.point(node));
+        self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
     }
 
     /// The point of a node of the mesh, or [`ABSENT`].
@@ -167,7 +184,7 @@ impl Skin {
         nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
         nodes.sort_unstable();
         nodes.dedup();
-        let mut layout = Layout { nodes, ..Default::default() };
+        let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         let points = layout.nodes.len();
         let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
         layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));
@@ -179,11 +196,9 @@ impl Skin {
             layout.point_block[point] = block;
         }
         layout.interfaces = self.interfaces(&layout, &automatic);
-        // As sharp as they are in the mesh.
         if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
-            let lines = self.edges_wanted == ContactEdges::All;
-            layout.edges = edges::of_outside(&automatic.faces, &layout.faces, &positions, lines);
+            layout.edges = edges::between(&automatic.faces, &layout.faces, &positions);
         }
         layout
     }
