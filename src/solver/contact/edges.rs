@@ -223,6 +223,15 @@ impl EdgeCheck<'_> {
         Box3::around(&[a, b, c, d])
     }
 
+    /// How far apart the ways of two edges are along an axis, beyond where they are near; 0 where they are near.
+    pub fn apart(&self, pair: [u32; 2]) -> f64 {
+        let [a, b] = pair.map(|edge| self.way(edge));
+        let between = |i: usize| (b.low[i] - a.high[i]).max(a.low[i] - b.high[i]);
+        let margin = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
+        let rest = between(0).max(between(1)).max(between(2)) - margin[0].max(margin[1]);
+        if rest > 0.0 { rest } else { 0.0 }
+    }
+
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
     pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
         if !self.edges[pair[1] as usize].stands_out() {
@@ -254,17 +263,22 @@ impl EdgeCheck<'_> {
             return None;
         }
         let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
-        if !end.between_ends(0.0) {
+        let tolerated = -SLACK * scale;
+        if !end.between_ends(0.0) || past.is_none() && end.gap.abs() <= -tolerated {
             return None;
         }
-        let (line, edge) = (self.outwards(pair[1]), self.outwards(pair[0]));
+        let line = self.outwards(pair[1]);
         let up = dot(end.normal, line);
         let sense = up.signum();
-        // The line looks out along the normal, and the edge's own body is not pushed further in.
-        if up * up <= STEEP * STEEP * dot(line, line) || sense * dot(end.normal, edge) >= 0.0 {
+        let gap = sense * end.gap;
+        // The line looks out along the normal.
+        if up * up <= STEEP * STEEP * dot(line, line) || past.is_none() && gap >= tolerated {
             return None;
         }
-        let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
+        // Pushed along it, the edge goes back into its own body.
+        if sense * dot(end.normal, self.outwards(pair[0])) >= 0.0 {
+            return None;
+        }
         let allowed = match past {
             // Pushed out without a blow it would still gain the velocity of being pushed out: left where it is, until it goes.
             Some(past) => past.allowed.max(gap).min(tolerated),
@@ -272,7 +286,7 @@ impl EdgeCheck<'_> {
                 let start =
                     Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
                 let before = dot(start.normal, end.normal).signum() * sense * start.gap;
-                if gap >= tolerated || before <= -SUNK * scale {
+                if before <= -SUNK * scale {
                     return None;
                 }
                 before.min(tolerated)

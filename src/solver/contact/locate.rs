@@ -65,7 +65,6 @@ pub struct Locator {
     /// Points that are watched or corners of candidates, and where each was at the last step, if there was one.
     moving: Vec<(u32, Option<[f64; 3]>)>,
     ways: Ways,
-    edge_pairs: Vec<[u32; 2]>,
 }
 
 /// Boxes around the ways of the present step, made when they are first asked for.
@@ -123,7 +122,6 @@ impl Locator {
             watched: found.watched,
             first: found.first,
             near: found.near,
-            edge_pairs: found.pairs,
             ..Default::default()
         }
     }
@@ -151,11 +149,6 @@ impl Locator {
         }
         // A way that is not a number leaves nobody at rest.
         if sound { farthest[0].max(farthest[1]).max(farthest[2]) } else { f64::INFINITY }
-    }
-
-    /// Pairs of edges that may cross, ascending.
-    pub fn edge_pairs(&self) -> &[[u32; 2]] {
-        &self.edge_pairs
     }
 
     /// Points with candidates, ascending.

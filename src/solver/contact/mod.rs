@@ -16,6 +16,7 @@ mod friction;
 mod locate;
 mod neighbourhood;
 mod overlap;
+mod pairs;
 mod planes;
 pub mod points;
 mod remote;
