@@ -163,8 +163,8 @@ fn contact_search(card: &Card, draft: &mut Draft) {
 fn contact_edges(card: &Card, draft: &mut Draft) {
     draft.model.contact.control.edges = match card.text("switch") {
         "OFF" => ContactEdges::None,
-        "SHARP" => ContactEdges::Sharp,
-        _ => ContactEdges::All,
+        "ALL" => ContactEdges::All,
+        _ => ContactEdges::Sharp,
     };
 }
 

@@ -411,7 +411,7 @@ impl Default for ContactControl {
             search: ContactSearch::Grid,
             reach: 45.0,
             margin: 0.1,
-            edges: ContactEdges::All,
+            edges: ContactEdges::Sharp,
         }
     }
 }

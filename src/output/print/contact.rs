@@ -63,8 +63,8 @@ fn control(model: &Model) -> Vec<String> {
 fn edges(edges: ContactEdges) -> &'static str {
     match edges {
         ContactEdges::None => "NO",
-        ContactEdges::Sharp => "THOSE THAT STAND OUT",
-        ContactEdges::All => "YES",
+        ContactEdges::Sharp => "YES",
+        ContactEdges::All => "YES, AND THE LINES IN FLAT FACES",
     }
 }
 

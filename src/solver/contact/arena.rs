@@ -4,7 +4,7 @@
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
 use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
-use super::edges::{Edge, EdgeCheck, PastPair};
+use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
 use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
 use super::faces::Faces;
 use super::locate::{Locator, Near, Rule};
@@ -268,12 +268,13 @@ impl Arena {
             // Neither edge is the master.
             pairing.share = 0.5;
             match check.pair(pair, past, pairing) {
-                Some((now, constraint)) => {
+                Verdict::Touch(now, constraint) => {
                     pairs.wait(place, 0.0);
                     edge_history.push(now);
-                    constraints.push(constraint);
+                    constraints.push(*constraint);
                 }
-                None => pairs.wait(place, check.apart(pair)),
+                Verdict::Near => pairs.wait(place, 0.0),
+                Verdict::Beside => pairs.wait(place, check.apart(pair)),
             }
         }
     }

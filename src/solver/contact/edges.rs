@@ -202,6 +202,26 @@ impl Crossing {
     }
 }
 
+/// What the check says of a pair.
+pub enum Verdict {
+    /// They touch.
+    Touch(PastPair, Box<Constraint>),
+    /// They do not, but an edge is so near a line that they may in the next step.
+    Near,
+    /// Neither, as far as was looked.
+    Beside,
+}
+
+/// Where an edge is, seen from a line.
+enum Glance {
+    /// They do not cross.
+    Beside,
+    /// It crosses on the outside, or hardly inside.
+    Above,
+    /// It has sunk in.
+    Below,
+}
+
 /// The check of edges against edges.
 pub struct EdgeCheck<'a> {
     /// Points.
@@ -233,10 +253,29 @@ impl EdgeCheck<'_> {
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
-    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
-        if !self.edges[pair[1] as usize].stands_out() {
-            return self.on_line(pair, past, pairing);
-        }
+    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Verdict {
+        let found = if self.edges[pair[1] as usize].stands_out() {
+            self.standing_out(pair, past, pairing)
+        } else {
+            if past.is_none() {
+                match self.at_a_glance(pair) {
+                    Glance::Beside => return Verdict::Beside,
+                    Glance::Above => return Verdict::Near,
+                    Glance::Below => (),
+                }
+            }
+            self.on_line(pair, past, pairing)
+        };
+        found.map_or(Verdict::Beside, |(now, constraint)| Verdict::Touch(now, Box::new(constraint)))
+    }
+
+    /// Two edges that stand out.
+    fn standing_out(
+        &self,
+        pair: [u32; 2],
+        past: Option<&PastPair>,
+        pairing: Pairing,
+    ) -> Option<(PastPair, Constraint)> {
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
@@ -255,6 +294,23 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint(pair, &end, &now, gap, pairing)))
     }
 
+    /// Where an edge is at the end of the step, seen from a line: without a root or a quotient, since nearly all pairs on
+    /// bodies that rest on each other go no further.
+    fn at_a_glance(&self, pair: [u32; 2]) -> Glance {
+        let [a, b] = pair.map(|edge| self.ends(edge, &self.points.end));
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let product = cross(u, v);
+        let square = dot(product, product);
+        let within = |place: f64| place >= 0.0 && place <= square;
+        if !within(dot(cross(r, v), product)) || !within(dot(cross(r, u), product)) {
+            return Glance::Beside;
+        }
+        let (fall, slack) = (dot(r, product), SLACK * self.scale(pair[1]));
+        let up = || dot(product, area_normal(&self.faces.start(self.edges[pair[1] as usize].faces[0], self.points)));
+        let above = fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0);
+        if above { Glance::Above } else { Glance::Below }
+    }
+
     /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
     /// there, so motion need not be asked.
     fn on_line(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
@@ -263,45 +319,39 @@ impl EdgeCheck<'_> {
             return None;
         }
         let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
-        let tolerated = -SLACK * scale;
-        if !end.between_ends(0.0) || past.is_none() && end.gap.abs() <= -tolerated {
+        if !end.between_ends(0.0) {
             return None;
         }
         let line = self.outwards(pair[1]);
         let up = dot(end.normal, line);
         let sense = up.signum();
-        let gap = sense * end.gap;
-        // The line looks out along the normal.
-        if up * up <= STEEP * STEEP * dot(line, line) || past.is_none() && gap >= tolerated {
+        let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
+        // The line looks out along the normal; pushed along it, the edge goes back into its own body.
+        if up * up <= STEEP * STEEP * dot(line, line) || sense * dot(end.normal, self.outwards(pair[0])) >= 0.0 {
             return None;
         }
-        // Pushed along it, the edge goes back into its own body.
-        if sense * dot(end.normal, self.outwards(pair[0])) >= 0.0 {
-            return None;
-        }
-        let allowed = match past {
-            // Pushed out without a blow it would still gain the velocity of being pushed out: left where it is, until it goes.
-            Some(past) => past.allowed.max(gap).min(tolerated),
+        let now = match past {
+            // To be pushed out would give it velocity: it is left where it is until it goes by itself.
+            Some(past) => PastPair { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
             None => {
-                let start =
-                    Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
-                let before = dot(start.normal, end.normal).signum() * sense * start.gap;
-                if before <= -SUNK * scale {
+                let before = self.gap_before(pair, &end, sense)?;
+                if gap >= tolerated || before <= -SUNK * scale {
                     return None;
                 }
-                before.min(tolerated)
+                PastPair { pair, sense, allowed: before.min(tolerated), push: 0.0, drag: [0.0; 3] }
             }
         };
-        let now = past.map_or(PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] }, |past| PastPair {
-            sense,
-            allowed,
-            ..*past
-        });
-        let beyond = gap - allowed;
+        let beyond = gap - now.allowed;
         if beyond > SLACK * scale || beyond < -DEEP * scale {
             return None;
         }
         Some((now, self.constraint(pair, &end, &now, beyond, pairing)))
+    }
+
+    /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
+    fn gap_before(&self, pair: [u32; 2], end: &Crossing, sense: f64) -> Option<f64> {
+        let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+        Some(dot(start.normal, end.normal).signum() * sense * start.gap)
     }
 
     /// Length that what sinks in at a line is small against: the size of the faces, or what half the element beneath allows.
