@@ -52,7 +52,9 @@ fn a_long_edge_does_not_sink_in_between_the_nodes() {
     at_least(case, "the same where edges meet only edges that stand out", deepest_edge(&without, &mesh), 0.03);
     between(case, "worst energy balance", with.worst_balance(), 0.0, 1e-4);
     let taken = -with.last().totals.contact / with.initial_energy;
-    between(case, "work of contact over initial energy", taken, -1e-6, 0.05);
+    // Nodes that meet something still lose what a plastic impact of their masses would: at most that of the edge's nodes,
+    // a sixteenth of the brick's mass.
+    between(case, "work of contact over initial energy", taken, -1e-6, 0.0625);
     let first = with.lines[0].totals.momentum[2];
     let drift = |line: &support::run::Line| ((line.totals.momentum[2] - first) / first).abs();
     between(case, "drift of momentum", with.lines.iter().map(drift).fold(0.0, f64::max), 0.0, 1e-12);

@@ -3,7 +3,7 @@
 use super::detect::{Check, UNTOUCHED};
 use super::enforce::{Alone, Enforcer, Limits};
 use super::face;
-use super::locate::{Interface, Locator, Near};
+use super::locate::{Locator, Near};
 use super::neighbourhood::{self, Boxes};
 use super::points::Points;
 use super::search::{Box3, Candidates, SearchKind};
@@ -114,6 +114,7 @@ fn left(body: &Body, layout: &Layout) -> Left {
     let mut candidates = Candidates::default();
     SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
     let mut left = Left::default();
+    let mut bodies: Option<Vec<u32>> = None;
     for (point, &node) in layout.nodes.iter().enumerate() {
         let near = candidates.of(point).iter().map(|&place| elements[place as usize]);
         let holds = |&element: &u32| {
@@ -125,7 +126,14 @@ fn left(body: &Body, layout: &Layout) -> Left {
         left.nodes += 1;
         // A great number says enough: the depth of those that come first.
         if left.nodes <= MEASURED {
-            let depth = depth(body, layout, automatic, at(point));
+            let bodies = bodies.get_or_insert_with(|| bodies_of(body));
+            let inside = bodies[body.element_nodes[element as usize][0] as usize];
+            let of_body = |face: u32| {
+                let corner = layout.faces.corners[face as usize][0];
+                bodies[layout.nodes[corner as usize] as usize] == inside
+            };
+            let faces = automatic.faces.iter().copied().filter(|&face| of_body(face));
+            let depth = depth(body, layout, faces, at(point));
             if depth > left.deepest {
                 left = Left { deepest: depth, node, element: body.element_order[element as usize], ..left };
             }
@@ -146,13 +154,33 @@ fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
     layout.faces.corners[face as usize].map(|corner| body.positions[layout.nodes[corner as usize] as usize])
 }
 
-/// Distance of a point to the nearest face behind which it is.
-fn depth(body: &Body, layout: &Layout, automatic: &Interface, point: [f64; 3]) -> f64 {
-    let behind = |&face: &u32| {
+/// For each node one of its body's: elements that share nodes are one body.
+fn bodies_of(body: &Body) -> Vec<u32> {
+    fn root(parent: &mut [u32], mut node: u32) -> u32 {
+        while parent[node as usize] != node {
+            parent[node as usize] = parent[parent[node as usize] as usize];
+            node = parent[node as usize];
+        }
+        node
+    }
+    let mut parent: Vec<u32> = (0..body.positions.len() as u32).collect();
+    for nodes in body.element_nodes.iter() {
+        let first = root(&mut parent, nodes[0]);
+        for &node in &nodes[1..] {
+            let other = root(&mut parent, node);
+            parent[other as usize] = first;
+        }
+    }
+    (0..body.positions.len() as u32).map(|node| root(&mut parent, node)).collect()
+}
+
+/// Distance of a point to the nearest of some faces behind which it is.
+fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
+    let behind = |face: u32| {
         let stand = face::stand(&corners_of(body, layout, face), point)?;
         (stand.gap < 0.0 && stand.outside <= -stand.gap).then(|| stand.gap.hypot(stand.outside))
     };
-    let nearest = automatic.faces.iter().filter_map(behind).fold(f64::INFINITY, f64::min);
+    let nearest = faces.filter_map(behind).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() { nearest } else { 0.0 }
 }
 
