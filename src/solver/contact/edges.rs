@@ -233,13 +233,19 @@ pub struct EdgeCheck<'a> {
 }
 
 impl EdgeCheck<'_> {
-    fn ends(&self, edge: u32, positions: &[[f64; 3]]) -> [[f64; 3]; 2] {
-        self.edges[edge as usize].ends.map(|p| positions[p as usize])
+    fn start(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.start[a as usize], self.points.start[b as usize]]
+    }
+
+    fn end(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.end(a), self.points.end(b)]
     }
 
     /// Box around the way of an edge over the step.
     fn way(&self, edge: u32) -> Box3 {
-        let ([a, b], [c, d]) = (self.ends(edge, &self.points.start), self.ends(edge, &self.points.end));
+        let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
         Box3::around(&[a, b, c, d])
     }
 
@@ -280,7 +286,7 @@ impl EdgeCheck<'_> {
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
         }
-        let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
             Some(past) => PastPair { allowed: (FADE * past.allowed).max((past.sense * end.gap).min(0.0)), ..*past },
@@ -297,7 +303,7 @@ impl EdgeCheck<'_> {
     /// Where an edge is at the end of the step, seen from a line: without a root or a quotient, since nearly all pairs on
     /// bodies that rest on each other go no further.
     fn at_a_glance(&self, pair: [u32; 2]) -> Glance {
-        let [a, b] = pair.map(|edge| self.ends(edge, &self.points.end));
+        let [a, b] = pair.map(|edge| self.end(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
@@ -318,7 +324,7 @@ impl EdgeCheck<'_> {
         if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
             return None;
         }
-        let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         if !end.between_ends(0.0) {
             return None;
         }
@@ -350,7 +356,7 @@ impl EdgeCheck<'_> {
 
     /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
     fn gap_before(&self, pair: [u32; 2], end: &Crossing, sense: f64) -> Option<f64> {
-        let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
         Some(dot(start.normal, end.normal).signum() * sense * start.gap)
     }
 
@@ -367,7 +373,7 @@ impl EdgeCheck<'_> {
 
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
-        let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
         // Turning through parallel within a step leaves no sense to compare.
         if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
             return None;
@@ -403,7 +409,7 @@ impl EdgeCheck<'_> {
     /// Places where the edges see each other at the beginning of the step, along the normal of its end: forces there have
     /// no moment.
     fn places_along(&self, pair: [u32; 2], end: &Crossing) -> [f64; 2] {
-        let [a, b] = pair.map(|edge| self.ends(edge, &self.points.start));
+        let [a, b] = pair.map(|edge| self.start(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let volume = dot(end.normal, cross(u, v));
         let places = [dot(end.normal, cross(r, v)) / volume, dot(end.normal, cross(r, u)) / volume];

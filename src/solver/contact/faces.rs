@@ -121,12 +121,16 @@ impl Faces {
 
     /// Corner positions at the present state.
     pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        self.corners[face as usize].map(|p| points.start[p as usize])
+        // Written out, as `map` would be a call for every corner.
+        let [a, b, c, d] = self.corners[face as usize];
+        let start = |point: u32| points.start[point as usize];
+        [start(a), start(b), start(c), start(d)]
     }
 
     /// Corner positions at the end of the step without contact.
     pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        self.corners[face as usize].map(|p| points.end[p as usize])
+        let [a, b, c, d] = self.corners[face as usize];
+        [points.end(a), points.end(b), points.end(c), points.end(d)]
     }
 
     /// Sum of the area normals of the faces around a point: which way its body faces there.

@@ -242,7 +242,7 @@ impl Contact {
 
     /// Whether any rank needs a search.
     fn expired(&self, comm: &mut dyn Communicator) -> bool {
-        let expired = self.sites.expired();
+        let expired = self.sites.expired;
         if self.remote.is_none() {
             return expired;
         }
@@ -272,6 +272,8 @@ impl Contact {
                 arena.renew(found, depth);
             }
         }
+        let points = if remote.is_some() { &mut arena.points } else { &mut sites.points };
+        points.count(arena.locator.moving().iter().copied());
         self.counts = self.arena.locator.counts().map(|count| count as u64);
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);

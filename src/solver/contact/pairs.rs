@@ -42,7 +42,7 @@ impl Pairs {
         let mut farthest: f64 = 0.0;
         let mut sound = true;
         for (point, before) in &mut self.moving {
-            let (start, end) = (points.start[*point as usize], points.end[*point as usize]);
+            let (start, end) = (points.start[*point as usize], points.end(*point));
             let before = before.replace(start).unwrap_or(start);
             for i in 0..3 {
                 let way = (start[i] - before[i]).abs().max((end[i] - start[i]).abs());
