@@ -375,6 +375,17 @@ pub struct Friction {
     pub decay: f64,
 }
 
+/// CONTACT EDGES: which edges of the outside may touch edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactEdges {
+    /// None.
+    None,
+    /// Those that stand out touch each other.
+    Sharp,
+    /// Those that stand out touch each other and the lines of the mesh within faces.
+    All,
+}
+
 /// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES and CONTACT DECOMPOSITION: how contact is found and enforced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactControl {
@@ -388,8 +399,8 @@ pub struct ContactControl {
     pub reach: f64,
     /// Smallest reach of a search, as a part of the mean face size.
     pub margin: f64,
-    /// Whether edges may touch edges.
-    pub edges: bool,
+    /// Which edges may touch edges.
+    pub edges: ContactEdges,
     /// How points are shared out among many ranks.
     pub decomposition: ContactDecomposition,
 }
@@ -402,7 +413,7 @@ impl Default for ContactControl {
             search: ContactSearch::Grid,
             reach: 45.0,
             margin: 0.1,
-            edges: true,
+            edges: ContactEdges::Sharp,
             decomposition: ContactDecomposition::Bisection,
         }
     }

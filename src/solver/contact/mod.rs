@@ -18,10 +18,12 @@ mod links;
 mod locate;
 mod neighbourhood;
 mod overlap;
+mod pairs;
 mod planes;
 pub mod points;
 mod regional;
 mod remote;
+mod reshape;
 mod routing;
 pub mod search;
 mod setup;
@@ -50,7 +52,7 @@ use search::{Search, SearchKind};
 use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
 
-pub use overlap::{Overlap, remove as remove_overlap};
+pub use overlap::{Left, Overlap, remove as remove_overlap};
 pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
@@ -84,6 +86,8 @@ pub struct Contact {
     pub tally: Tally,
     /// Number of searches so far.
     searches: u64,
+    /// Number of steps so far.
+    age: u64,
     /// Watched points and pairs of the last search, of all ranks.
     counts: [u64; 2],
 }
@@ -154,6 +158,7 @@ impl Contact {
             lost_work: Vec::new(),
             tally: Tally::default(),
             searches: 0,
+            age: 0,
             counts: [0; 2],
             pairings: Pairings::new(mesh, model, body),
             elements: elements.to_vec(),
@@ -186,6 +191,7 @@ impl Contact {
         let history = self.carried.take().unwrap_or_else(|| self.arena.history());
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        reshape::take_over(&mut self.layout, &old);
         let old_sites = std::mem::take(&mut self.sites);
         let new = &self.layout;
         self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
@@ -211,7 +217,8 @@ impl Contact {
     ) {
         self.sites.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
-        if !self.layout.interfaces.is_empty() && self.expired(comm) {
+        let reshaped = self.reshape(comm);
+        if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
             self.search(comm);
         }
         comm.enter(Traffic::ContactMotion);
@@ -353,7 +360,7 @@ impl Contact {
         (!self.layout.interfaces.is_empty()).then_some(Report {
             points: self.layout.nodes.len(),
             faces: self.layout.faces.len(),
-            edges: self.layout.edges.len(),
+            edges: self.layout.edges.iter().filter(|edge| edge.stands_out()).count(),
             watched,
             pairs,
             searches: self.searches,
@@ -381,15 +388,13 @@ fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
         NONE => past,
         face => Past { face: new.face(old.faces.number[face as usize]), ..past },
     };
-    let edge = |edge: u32| {
-        let ends = old.edges[edge as usize].ends.map(point);
-        new.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
-    };
+    let edge = |edge: u32| new.edge(old.edges[edge as usize].ends.map(|point| old.nodes[point as usize]));
     let points = history.points.into_iter().map(|(p, pasts)| (point(p), pasts.map(face)));
     let edges = history
         .edges
         .into_iter()
-        .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }));
+        .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }))
+        .filter_map(|past| edges::in_order(past, &new.edges));
     History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
         edges: edges.collect(),

@@ -89,7 +89,7 @@ impl Remote {
     }
 
     /// Ranks of which a point is a node.
-    fn holders(&self, point: u32) -> &[u32] {
+    pub fn holders(&self, point: u32) -> &[u32] {
         &self.holders[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
     }
 
