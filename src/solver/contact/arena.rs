@@ -3,6 +3,7 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
+use super::contract::inverse;
 use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
 use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
 use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
@@ -51,6 +52,8 @@ pub struct Arena {
     pub locator: Locator,
     /// Who is here.
     pub cast: Cast,
+    /// Where each point of the layout is here.
+    places: Vec<u32>,
     faces: Arc<Faces>,
     edges: Vec<Edge>,
     point_block: Vec<u32>,
@@ -89,25 +92,29 @@ impl Arena {
     /// answers for.
     pub fn new(cast: Cast, found: Found, depth: f64, layout: &Layout, watches: &[PlanePoint]) -> Arena {
         let points = cast.points.len();
+        let mut places = inverse(&cast.points, layout.nodes.len());
+        let face_places = inverse(&cast.faces, layout.faces.len());
         let whole = points == layout.nodes.len() && cast.faces.len() == layout.faces.len();
         let faces = if whole {
             layout.faces.clone()
         } else {
-            Arc::new(layout.faces.subset(&cast.faces, |point| place(&cast.points, point), points))
+            Arc::new(layout.faces.subset(&cast.faces, |point| places[point as usize], points))
         };
-        let local = |point: u32| place(&cast.points, point);
+        let local = |point: u32| places[point as usize];
         let edges = cast.edges.iter().map(|&edge| {
             let edge = layout.edges[edge as usize];
-            let faces = edge.faces.map(|face| place(&cast.faces, face));
+            let faces = edge.faces.map(|face| face_places[face as usize]);
             Edge { ends: edge.ends.map(local), faces, ..edge }
         });
         let edges: Vec<Edge> = edges.collect();
         let mut found = Found {
             watched: found.watched.into_iter().map(local).collect(),
             first: found.first,
-            near: found.near.into_iter().map(|near| Near { face: place(&cast.faces, near.face), ..near }).collect(),
+            near: found.near.into_iter().map(|near| Near { face: face_places[near.face as usize], ..near }).collect(),
             pairs: found.pairs.into_iter().map(|pair| pair.map(|edge| place(&cast.edges, edge))).collect(),
         };
+        let planes = watches.iter().map(|watch| PlanePoint { point: local(watch.point), ..*watch }).collect();
+        (points as u32..).zip(&cast.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + cast.ghosts.len();
         let values = Points::new(points);
         Arena {
@@ -118,7 +125,8 @@ impl Arena {
             point_block: cast.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
             history: vec![UNTOUCHED; points],
-            planes: watches.iter().map(|watch| PlanePoint { point: local(watch.point), ..*watch }).collect(),
+            planes,
+            places,
             enforcer: Enforcer::new(all),
             answers: vec![[0.0; ANSWER]; all],
             faces,
@@ -129,13 +137,7 @@ impl Arena {
 
     /// Place of a point of the layout here, or [`ABSENT`].
     pub fn place(&self, point: u32) -> u32 {
-        match self.cast.points.binary_search(&point) {
-            Ok(place) => place as u32,
-            Err(_) => match self.cast.ghosts.binary_search(&point) {
-                Ok(ghost) => (self.cast.points.len() + ghost) as u32,
-                Err(_) => ABSENT,
-            },
-        }
+        self.places.get(point as usize).copied().unwrap_or(ABSENT)
     }
 
     /// The candidates of the last search are replaced; history is kept of points that still have any.

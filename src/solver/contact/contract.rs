@@ -4,7 +4,7 @@ use super::arena::{Arena, Cast};
 use super::neighbourhood::Found;
 use super::planes::PlanePoint;
 use super::regional::Regional;
-use super::setup::Layout;
+use super::setup::{ABSENT, Layout};
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,32 +13,59 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Default)]
 pub struct Contract {
     /// Points that this rank is the home of, and on which constraints may act.
-    pub here: BTreeSet<u32>,
+    pub here: Chosen,
     /// Points that go to each rank, and that come from each.
     pub send: BTreeMap<u32, BTreeSet<u32>>,
     pub receive: BTreeMap<u32, BTreeSet<u32>>,
     /// Ranks with constraints that act on points of both.
     pub partners: BTreeSet<u32>,
-    /// Corners of candidate faces, and homes of ends of candidate edges.
-    pub corners: BTreeMap<u32, [u32; 4]>,
-    pub end_homes: BTreeMap<u32, u32>,
+    /// Candidate faces, and homes of ends of candidate edges.
+    faces: Chosen,
+    end_homes: BTreeMap<u32, u32>,
+    /// Homes that must know points of another: which home has the point, which must know it, and the point.
+    deliveries: Vec<(u32, u32, u32)>,
+}
+
+/// Some of the numbers below a bound.
+#[derive(Default)]
+pub struct Chosen(Vec<bool>);
+
+impl Chosen {
+    fn none_of(count: usize) -> Chosen {
+        Chosen(vec![false; count])
+    }
+
+    /// Chooses a number. Whether it was not chosen before.
+    pub fn choose(&mut self, number: u32) -> bool {
+        !std::mem::replace(&mut self.0[number as usize], true)
+    }
+
+    /// Those chosen, ascending.
+    pub fn list(&self) -> Vec<u32> {
+        let numbers = (0u32..).zip(&self.0);
+        numbers.filter(|(_, is_chosen)| **is_chosen).map(|(number, _)| number).collect()
+    }
 }
 
 impl Contract {
     /// From the candidates of this rank and what others say of theirs.
     pub fn new(layout: &Layout, found: &Found, regional: &Regional, comm: &mut dyn Communicator) -> Contract {
         let me = comm.rank() as u32;
-        let mut contract = Contract::default();
-        let mut deliveries: BTreeSet<(u32, u32, u32)> = BTreeSet::new();
+        let [points, faces] = [layout.nodes.len(), layout.faces.len()];
+        let mut contract =
+            Contract { here: Chosen::none_of(points), faces: Chosen::none_of(faces), ..Default::default() };
+        let face_places = inverse(&regional.faces.ids, faces);
         for (i, &point) in found.watched.iter().enumerate() {
-            contract.here.insert(point);
+            contract.here.choose(point);
             for near in &found.near[found.first[i] as usize..found.first[i + 1] as usize] {
+                let is_new = contract.faces.choose(near.face);
+                let Some(&homes) = regional.face_homes.get(face_places[near.face as usize] as usize) else { continue };
                 let corners = layout.faces.corners[near.face as usize];
-                contract.corners.insert(near.face, corners);
-                let Ok(place) = regional.faces.ids.binary_search(&near.face) else { continue };
-                let homes = regional.face_homes[place];
-                let members = corners.into_iter().zip(homes).chain([(point, me)]);
-                contract.agree(members, me, &mut deliveries);
+                if homes != [me; 4] {
+                    contract.agree(corners.into_iter().zip(homes).chain([(point, me)]), me);
+                } else if is_new {
+                    corners.iter().for_each(|&corner| _ = contract.here.choose(corner));
+                }
             }
         }
         for pair in &found.pairs {
@@ -48,62 +75,67 @@ impl Contract {
             });
             let members: Vec<(u32, u32)> = ends.flatten().collect();
             contract.end_homes.extend(members.iter().copied());
-            contract.agree(members.into_iter(), me, &mut deliveries);
+            contract.agree(members.into_iter(), me);
         }
+        contract.deliver(comm);
+        contract
+    }
+
+    /// Tells all homes what they must tell others of, and hears it from them.
+    fn deliver(&mut self, comm: &mut dyn Communicator) {
+        let me = comm.rank() as u32;
+        self.deliveries.sort_unstable();
+        self.deliveries.dedup();
         let mut parcels = Parcels::new(comm.size(), 2);
-        for (from, to, point) in deliveries {
+        for (from, to, point) in self.deliveries.drain(..) {
             parcels.add(from, point, &[0.0, f64::from(to)]);
             parcels.add(to, point, &[1.0, f64::from(from)]);
         }
         let records = parcels.exchange(comm);
         for (sender, range) in records.senders.clone() {
             if sender as u32 != me {
-                contract.partners.insert(sender as u32);
+                self.partners.insert(sender as u32);
             }
             for i in range {
                 let (point, v) = (records.ids[i], records.values(i));
-                let list = if v[0] == 0.0 { &mut contract.send } else { &mut contract.receive };
+                let list = if v[0] == 0.0 { &mut self.send } else { &mut self.receive };
                 list.entry(v[1] as u32).or_default().insert(point);
                 if v[0] == 0.0 {
-                    contract.here.insert(point);
+                    self.here.choose(point);
                 }
             }
         }
-        contract
     }
 
     /// The home of each point of an arena that constraints may act on, `me` for all others; by places in the arena.
-    pub fn homes(&self, me: u32, regional: &Regional, arena: &Arena) -> Vec<u32> {
+    pub fn homes(&self, me: u32, layout: &Layout, regional: &Regional, arena: &Arena) -> Vec<u32> {
         let mut homes = vec![me; arena.cast.points.len() + arena.cast.ghosts.len()];
         let mut note = |point: u32, home: u32| {
             if let Some(of) = homes.get_mut(arena.place(point) as usize) {
                 *of = home;
             }
         };
-        for (face, corners) in &self.corners {
-            let Ok(place) = regional.faces.ids.binary_search(face) else { continue };
-            corners.iter().zip(regional.face_homes[place]).for_each(|(&corner, home)| note(corner, home));
+        for (face, face_homes) in regional.faces.ids.iter().zip(&regional.face_homes) {
+            if self.faces.0[*face as usize] && *face_homes != [me; 4] {
+                let corners = layout.faces.corners[*face as usize];
+                corners.iter().zip(face_homes).for_each(|(&corner, &home)| note(corner, home));
+            }
         }
         self.end_homes.iter().for_each(|(&point, &home)| note(point, home));
         homes
     }
 
     /// The homes of all members of a constraint know all of them.
-    fn agree(
-        &mut self,
-        members: impl Iterator<Item = (u32, u32)> + Clone,
-        me: u32,
-        deliveries: &mut BTreeSet<(u32, u32, u32)>,
-    ) {
+    fn agree(&mut self, members: impl Iterator<Item = (u32, u32)> + Clone, me: u32) {
         let mut ranks: Vec<u32> = members.clone().map(|(_, home)| home).chain([me]).collect();
         ranks.sort_unstable();
         ranks.dedup();
         for (point, home) in members {
             if home == me {
-                self.here.insert(point);
+                self.here.choose(point);
             }
             for &rank in ranks.iter().filter(|&&rank| rank != home) {
-                deliveries.insert((home, rank, point));
+                self.deliveries.push((home, rank, point));
             }
         }
         self.partners.extend(ranks.into_iter().filter(|&rank| rank != me));
@@ -113,19 +145,31 @@ impl Contract {
 /// Everything that the check of these candidates looks at.
 pub fn cast(layout: &Layout, found: &Found, contract: &Contract, watches: &[PlanePoint]) -> Cast {
     let faces = &layout.faces;
-    let mut chosen: BTreeSet<u32> = BTreeSet::new();
-    found.watched.iter().for_each(|&point| chosen.extend(faces.around(point)));
-    found.near.iter().for_each(|near| chosen.extend(faces.of_same_element(near.face)));
-    let edges: BTreeSet<u32> = found.pairs.iter().flatten().copied().collect();
-    edges.iter().for_each(|&edge| chosen.extend(layout.edges[edge as usize].faces));
-    let mut points: BTreeSet<u32> = chosen.iter().flat_map(|&face| faces.corners[face as usize]).collect();
-    points.extend(found.watched.iter().chain(&contract.here));
-    points.extend(watches.iter().map(|watch| watch.point));
-    let come = contract.receive.values().flatten().copied();
-    Cast {
-        ghosts: come.filter(|point| !points.contains(point)).collect::<BTreeSet<u32>>().into_iter().collect(),
-        points: points.into_iter().collect(),
-        faces: chosen.into_iter().collect(),
-        edges: edges.into_iter().collect(),
+    let [mut chosen, mut points] = [faces.len(), layout.nodes.len()].map(Chosen::none_of);
+    let mut edges: Vec<u32> = found.pairs.iter().flatten().copied().collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let around = found.watched.iter().flat_map(|&point| faces.around(point).iter().copied());
+    let met = contract.faces.list();
+    let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
+    let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
+    for face in around.chain(of_elements).chain(beside) {
+        if chosen.choose(face) {
+            faces.corners[face as usize].iter().for_each(|&corner| _ = points.choose(corner));
+        }
     }
+    let others = contract.here.list().into_iter().chain(watches.iter().map(|watch| watch.point));
+    found.watched.iter().copied().chain(others).for_each(|point| _ = points.choose(point));
+    let come = contract.receive.values().flatten().copied();
+    let ghosts: BTreeSet<u32> = come.filter(|&point| !points.0[point as usize]).collect();
+    Cast { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }
+}
+
+/// Where each of `count` numbers is in an ascending list, [`ABSENT`] for those that are not.
+pub fn inverse(list: &[u32], count: usize) -> Vec<u32> {
+    let mut places = vec![ABSENT; count];
+    for (place, &number) in (0..).zip(list) {
+        places[number as usize] = place;
+    }
+    places
 }

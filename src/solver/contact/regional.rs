@@ -49,12 +49,14 @@ impl Regional {
         let mut ranks = Vec::new();
         for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
             regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let values = [&flat(of)[..], &layout.faces.corners[face as usize].map(home)].concat();
+            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(home));
+            let values = [a, b, c, d, e, f, g, h, i, j];
             ranks.iter().for_each(|&rank| face_parcels.add(rank, face, &values));
         }
         for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
             regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let values = [&flat(of)[..], &layout.edges[edge as usize].ends.map(home)].concat();
+            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(home));
+            let values = [a, b, c, d, e, f, g, h];
             ranks.iter().for_each(|&rank| edge_parcels.add(rank, edge, &values));
         }
         let (faces, face_homes) = sorted(face_parcels.exchange(comm));

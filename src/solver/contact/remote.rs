@@ -159,15 +159,14 @@ impl Remote {
         sites.homes = self.find_homes(sites, comm);
         let history = self.forward(layout, sites, watches, history, comm);
         let regional = Regional::gather((&self.faces, &self.edges), layout, sites, comm);
-        let mine: BTreeSet<u32> = regional.own_edges.iter().copied().collect();
         let lists = [&regional.points, &regional.faces, &regional.edges];
-        let found = neighbourhood::find(search, lists, |edge| mine.contains(&edge), layout);
+        let found = neighbourhood::find(search, lists, |edge| regional.own_edges.binary_search(&edge).is_ok(), layout);
         let contract = Contract::new(layout, &found, &regional, comm);
-        let own: BTreeSet<u32> = regional.points.ids.iter().copied().collect();
-        let watches: Vec<PlanePoint> = watches.iter().filter(|watch| own.contains(&watch.point)).copied().collect();
+        let is_own = |watch: &&PlanePoint| regional.points.ids.binary_search(&watch.point).is_ok();
+        let watches: Vec<PlanePoint> = watches.iter().filter(is_own).copied().collect();
         let cast = cast(layout, &found, &contract, &watches);
         let mut arena = Arena::new(cast, found, depth, layout, &watches);
-        self.connect(sites, &mut arena, &contract, &regional, &watches, comm);
+        self.connect((layout, sites), &mut arena, &contract, &regional, &watches, comm);
         arena.restore(history);
         arena
     }
@@ -207,7 +206,7 @@ impl Remote {
     /// Makes the patterns of messages until the next search.
     fn connect(
         &mut self,
-        sites: &Sites,
+        (layout, sites): (&Layout, &Sites),
         arena: &mut Arena,
         contract: &Contract,
         regional: &Regional,
@@ -215,20 +214,22 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) {
         self.connect_motion(sites, arena, comm);
-        let mut pushed = contract.here.clone();
+        let mut pushed = contract.here.list();
         pushed.extend(watches.iter().map(|watch| watch.point));
+        pushed.sort_unstable();
+        pushed.dedup();
         self.connect_answers(&pushed, sites, arena, comm);
         let rank = comm.rank();
         let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
             lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| arena.place(p)).collect())).collect()
         };
         let shares = Pattern::new(places(&contract.send), places(&contract.receive), rank);
-        let homes = contract.homes(rank as u32, regional, arena);
+        let homes = contract.homes(rank as u32, layout, regional, arena);
         self.links = Links::new(rank as u32, homes, &arena.cast, shares, contract);
     }
 
     /// Tells every rank that has the node of a point which may be pushed that forces will come for it.
-    fn connect_answers(&mut self, pushed: &BTreeSet<u32>, sites: &Sites, arena: &Arena, comm: &mut dyn Communicator) {
+    fn connect_answers(&mut self, pushed: &[u32], sites: &Sites, arena: &Arena, comm: &mut dyn Communicator) {
         let mut parcels = Parcels::new(comm.size(), 0);
         let mut send = Lists::new();
         for &point in pushed {
