@@ -1,9 +1,10 @@
 //! Contact on many ranks: two decompositions and the messages between them (Attaway et al. 1996, "Parallel contact").
 //!
 //! Elements and nodes stay where they are. At every search the points of contact are shared out anew, by recursive
-//! bisection unless CONTACT DECOMPOSITION says otherwise; each goes, with its history, to the rank of its region, its home, and faces and edges go to every rank whose
-//! points they may meet. That rank searches, and checks and enforces until the next search. In between, only motion
-//! travels to the homes, changes of velocity between homes in the passes, and forces back.
+//! bisection unless CONTACT DECOMPOSITION says otherwise; each goes, with its history, to the rank of its region, its
+//! home, and faces and edges go to every rank whose points they may meet. That rank searches, and checks and enforces
+//! until the next search. In between, only motion travels to the homes, changes of velocity between homes in the passes,
+//! and forces back.
 //!
 //! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`Contract`] says who must know of whose
 //! points in the passes, and [`Links`] are these messages.
@@ -27,6 +28,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
 /// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
 const SLACK: f64 = 0.1;
+
+/// What a point that was pushed in the last step weighs against one that was not: about what its check and its part in the
+/// passes cost against a point that is merely put where it is.
+const PUSHED: u32 = 12;
 
 /// A point that is not pushed. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
@@ -117,7 +122,9 @@ impl Remote {
                 if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
             },
             |(sites, _), site, forces| {
-                if forces.map(f64::to_bits) != AT_REST.map(f64::to_bits) {
+                // All bits at once: comparing the arrays would be a call for every point.
+                let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
+                if unlike != 0 {
                     let answer = &mut sites.answers[site as usize];
                     answer[..FORCES].copy_from_slice(&forces);
                     answer[FORCES..].fill(0.0);
@@ -180,10 +187,16 @@ impl Remote {
                 return sites.list.iter().map(|site| self.owner[site.point as usize]).collect();
             }
         };
-        let own = sites.list.iter().enumerate().filter(|(_, site)| site.owned);
-        let (places, ids): (Vec<[f64; 3]>, Vec<u32>) = own.map(|(i, site)| (sites.points.start[i], site.point)).unzip();
+        let mut weights = vec![1; sites.list.len()];
+        sites.pushed.iter().for_each(|&site| weights[site as usize] = PUSHED);
+        let (mut places, mut ids, mut own_weights) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
+            places.push(sites.points.start[i]);
+            ids.push(site.point);
+            own_weights.push(weights[i]);
+        }
         let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
-        let balanced = dynamic::balance(&places, &ids, &[], axes, earlier, comm);
+        let balanced = dynamic::balance(&places, &ids, &own_weights, axes, earlier, comm);
         let cuts = self.cuts.insert(balanced.bisection);
         sites.list.iter().zip(&sites.points.start).map(|(site, at)| cuts.owner(*at, site.point)).collect()
     }
