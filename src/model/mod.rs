@@ -33,6 +33,8 @@ pub struct Model {
     pub termination_time: f64,
     /// Interval between lines of the print log.
     pub output_interval: f64,
+    /// Columns of these lines after PRONTO's own.
+    pub step_log: Vec<StepColumns>,
     /// When plot states are written.
     pub plot: PlotSchedule,
     /// How the time step follows from the stable one.
@@ -425,6 +427,39 @@ pub struct PlotRequests {
     pub element: Vec<ElementField>,
     /// Names of material state variables.
     pub state: Vec<String>,
+}
+
+/// Groups of columns that STEP LOG can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepColumns {
+    /// None beside PRONTO's own.
+    Pronto,
+    /// The time step and the element that sets it.
+    TimeStep,
+    /// The energy accounts and their balance.
+    Energy,
+    /// The momentum of the body.
+    Momentum,
+    /// Seconds to the termination time.
+    ToGo,
+}
+
+impl StepColumns {
+    /// All of them.
+    pub const ALL: [StepColumns; 5] = [Self::Pronto, Self::TimeStep, Self::Energy, Self::Momentum, Self::ToGo];
+    /// What a log has when the deck does not say.
+    pub const USUAL: [StepColumns; 3] = [Self::TimeStep, Self::Energy, Self::ToGo];
+
+    /// The word that STEP LOG knows.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Pronto => "PRONTO",
+            Self::TimeStep => "TIME STEP",
+            Self::Energy => "ENERGY",
+            Self::Momentum => "MOMENTUM",
+            Self::ToGo => "TO GO",
+        }
+    }
 }
 
 macro_rules! fields {
