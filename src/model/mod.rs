@@ -517,6 +517,12 @@ fields! {
         Density = "DENSITY", ["DENSITY"], "current mass density";
         /// hourglass energy
         HourglassEnergy = "HOURGLASS", ["HGENERGY"], "hourglass energy per unit initial volume";
+        /// V
+        Stretch = "STRETCH", ["STRETXX", "STRETYY", "STRETZZ", "STRETXY", "STRETYZ", "STRETZX"], "left stretch V, the stretch seen in space";
+        /// R
+        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R";
+        /// q
+        BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank
