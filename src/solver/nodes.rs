@@ -24,7 +24,7 @@ pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// s a
 pub fn scaled(a: [f64; 3], s: f64) -> [f64; 3] {
-    a.map(|c| c * s)
+    [a[0] * s, a[1] * s, a[2] * s]
 }
 
 /// a + b

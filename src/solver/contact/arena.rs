@@ -223,7 +223,10 @@ impl Arena {
             let past = &mut history[point as usize];
             locator.near(i, points, faces, past, near);
             if near.is_empty() {
-                *past = UNTOUCHED;
+                if locator.is_held(i) {
+                    *past = UNTOUCHED;
+                    locator.set_held(i, false);
+                }
                 continue;
             }
             near_faces.clear();
@@ -231,6 +234,10 @@ impl Arena {
             strict.clear();
             strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
             check.point(point, near_faces, strict, past, touches);
+            if touches.is_empty() && !locator.is_held(i) {
+                continue;
+            }
+            locator.set_held(i, !touches.is_empty());
             let before = std::mem::replace(past, UNTOUCHED);
             for (place, touch) in touches.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);

@@ -34,7 +34,7 @@ impl Bounds {
 
     /// The box around four others, grown by a margin.
     #[inline]
-    pub fn joined([a, b, c, d]: &[Bounds; 4], margin: f32) -> Bounds {
+    pub fn joined([a, b, c, d]: [&Bounds; 4], margin: f32) -> Bounds {
         let margin = margin * (1.0 + OUTWARDS);
         Bounds(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
@@ -71,7 +71,7 @@ mod tests {
             prop_assert!(place.meets(&Bounds::around(a, b)) && Bounds::around(b, a).meets(&place));
             // A face with one corner exactly the margin away.
             let away = Bounds::around([a[0] + f64::from(margin), a[1], a[2]], [a[0] + f64::from(margin), a[1], a[2]]);
-            prop_assert!(Bounds::joined(&[away; 4], margin).meets(&place));
+            prop_assert!(Bounds::joined([&away; 4], margin).meets(&place));
         }
 
         #[test]

@@ -316,8 +316,8 @@ impl Enforcer {
             let sum = std::mem::take(&mut self.sums[p]);
             // What others answer for comes from them.
             let Some(m) = points.inverse_mass.get(p) else { continue };
-            let change = [0, 1, 2].map(|i| times.kick * (sum.change[i] * m[i]));
-            self.moved[p] = Moved { change, load: sum.load };
+            let ([x, y, z], k) = (sum.change, times.kick);
+            self.moved[p] = Moved { change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
         }
         others.share(&mut self.moved);
     }

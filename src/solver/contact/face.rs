@@ -58,11 +58,14 @@ pub fn is_in_front(corners: &[[f64; 3]; 4], point: [f64; 3]) -> bool {
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
 pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
     let middle = centre(corners);
-    let arms = corners.map(|corner| subtract(corner, middle));
+    // Written out: `map` of the arrays would be calls.
+    let &[a, b, c, d] = corners;
+    let arms = [subtract(a, middle), subtract(b, middle), subtract(c, middle), subtract(d, middle)];
     let r = subtract(point, middle);
-    let mean = area_normal(corners);
     // Which side of each arm the point is on, seen along the mean normal.
-    let turn = arms.map(|arm| dot(r, cross(mean, arm)));
+    let mean = area_normal(corners);
+    let turn_at = |arm| dot(r, cross(mean, arm));
+    let turn = [turn_at(arms[0]), turn_at(arms[1]), turn_at(arms[2]), turn_at(arms[3])];
     let sector = (0..4).find(|&k| turn[k] >= 0.0 && turn[(k + 1) % 4] < 0.0).unwrap_or(0);
     let next = (sector + 1) % 4;
     let (e1, e2) = (arms[sector], arms[next]);
@@ -158,7 +161,7 @@ fn at(path: Path, t: f64) -> [f64; 3] {
 
 /// Whether the volume falls at a root: the point passes from the front to the back.
 fn falls(g: &[f64; 4], t: f64) -> bool {
-    (3.0 * g[3] * t + 2.0 * g[2]) * t + g[1] < 0.0
+    cubic::slope(g, t) < 0.0
 }
 
 fn on_triangle(r: [f64; 3], e1: [f64; 3], e2: [f64; 3]) -> bool {

@@ -121,12 +121,12 @@ impl Faces {
 
     /// Corner positions at the present state.
     pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        self.corners[face as usize].map(|p| points.start[p as usize])
+        at(self.corners[face as usize], &points.start)
     }
 
     /// Corner positions at the end of the step without contact.
     pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        self.corners[face as usize].map(|p| points.end[p as usize])
+        at(self.corners[face as usize], &points.end)
     }
 
     /// Sum of the area normals of the faces around a point: which way its body faces there.
@@ -136,4 +136,10 @@ impl Faces {
             [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]
         })
     }
+}
+
+/// Written out, as `map` is a call for every corner here.
+#[inline]
+fn at([a, b, c, d]: [u32; 4], positions: &[[f64; 3]]) -> [[f64; 3]; 4] {
+    [positions[a as usize], positions[b as usize], positions[c as usize], positions[d as usize]]
 }

@@ -2,9 +2,11 @@
 
 use super::bounds::Bounds;
 use super::detect::{NONE, Past, TOUCHES};
+use super::face::area_normal;
 use super::faces::Faces;
 use super::neighbourhood::Found;
 use super::points::Points;
+use crate::solver::nodes::{dot, subtract};
 
 /// Points and faces that may touch.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,23 +58,40 @@ pub struct Locator {
     watched: Vec<u32>,
     first: Vec<u32>,
     near: Vec<Near>,
-    /// For each watched point, how far things must have gone in all until one of its candidates may be near.
-    due: Vec<f64>,
+    outlooks: Vec<Outlook>,
     /// How far things have gone in all, counted as if the fastest point of each step were always the same.
     gone: f64,
     /// How much of that in the present step.
     last_way: f64,
     /// Points that are watched or corners of candidates, and where each was at the last step, if there was one.
-    moving: Vec<(u32, Option<[f64; 3]>)>,
+    moving: Vec<u32>,
+    before: Vec<[f64; 3]>,
     ways: Ways,
     edge_pairs: Vec<[u32; 2]>,
 }
 
-/// Boxes around the ways of the present step, made when they are first asked for.
+/// What is to be expected of a watched point's candidates.
+#[derive(Debug, Clone, Copy, Default)]
+struct Outlook {
+    /// How far things must have gone in all until a candidate that sleeps may be near.
+    due: f64,
+    /// Candidates that do not sleep, a bit each. Those beyond the last bit never do.
+    awake: u64,
+    /// Whether a face held the point.
+    held: bool,
+}
+
+/// Steps at the present speed that candidates sleep at least: shorter sleep is not worth the looking.
+const SLEEP: f64 = 16.0;
+
+/// A foot this part of a face's size outside may count as on its border.
+const BORDER: f64 = 0.01;
+
+/// Boxes around the ways of the present step: of points that matter, and of faces, made when they are first asked for.
 #[derive(Default)]
 struct Ways {
     step: u32,
-    points: Vec<(u32, Bounds)>,
+    points: Vec<Bounds>,
     faces: Vec<(u32, Bounds)>,
 }
 
@@ -82,28 +101,28 @@ impl Ways {
         if self.step == 1 || self.points.len() != points || self.faces.len() != faces {
             self.step = 1;
             self.points.clear();
-            self.points.resize(points, (0, Bounds::EVERYTHING));
+            self.points.resize(points, Bounds::EVERYTHING);
             self.faces.clear();
             self.faces.resize(faces, (0, Bounds::EVERYTHING));
         }
     }
 
-    fn point(&mut self, points: &Points, point: u32) -> Bounds {
-        let (step, bounds) = &mut self.points[point as usize];
-        if std::mem::replace(step, self.step) != self.step {
-            *bounds = Bounds::around(points.start[point as usize], points.end[point as usize]);
+    /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
+    #[inline]
+    fn face(&mut self, faces: &Faces, face: u32, margin: f64) -> Bounds {
+        let (step, bounds) = &mut self.faces[face as usize];
+        if *step != self.step {
+            let [a, b, c, d] = faces.corners[face as usize];
+            let corners = [
+                &self.points[a as usize],
+                &self.points[b as usize],
+                &self.points[c as usize],
+                &self.points[d as usize],
+            ];
+            *bounds = Bounds::joined(corners, (margin * faces.depth[face as usize]) as f32);
+            *step = self.step;
         }
         *bounds
-    }
-
-    /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
-    fn face(&mut self, points: &Points, faces: &Faces, face: u32, margin: f64) -> Bounds {
-        if self.faces[face as usize].0 != self.step {
-            let corners = faces.corners[face as usize].map(|corner| self.point(points, corner));
-            let bounds = Bounds::joined(&corners, (margin * faces.depth[face as usize]) as f32);
-            self.faces[face as usize] = (self.step, bounds);
-        }
-        self.faces[face as usize].1
     }
 }
 
@@ -115,11 +134,10 @@ impl Locator {
         for near in &found.near {
             faces.corners[near.face as usize].iter().for_each(|&corner| is_moving[corner as usize] = true);
         }
-        let moving = (0..points.len() as u32).filter(|&point| is_moving[point as usize]);
         Locator {
             depth,
-            due: vec![0.0; found.watched.len()],
-            moving: moving.map(|point| (point, None)).collect(),
+            outlooks: vec![Outlook::default(); found.watched.len()],
+            moving: (0..points.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
             watched: found.watched,
             first: found.first,
             near: found.near,
@@ -131,22 +149,27 @@ impl Locator {
     /// Begins a step.
     pub fn step(&mut self, points: &Points, faces: &Faces) {
         self.ways.next_step(points.len(), faces.len());
-        self.last_way = self.longest_way(points);
+        self.last_way = self.measure_ways(points);
         self.gone += self.last_way;
     }
 
-    /// The farthest that a point which matters has gone since the last step or will go in this one, along an axis.
-    fn longest_way(&mut self, points: &Points) -> f64 {
+    /// Puts boxes around the ways of the points that matter. The farthest that one of them has gone since the last step or
+    /// will go in this one, along an axis.
+    fn measure_ways(&mut self, points: &Points) -> f64 {
+        if self.before.is_empty() {
+            self.before = self.moving.iter().map(|&point| points.start[point as usize]).collect();
+        }
         let mut farthest = [0.0; 3];
         let mut sound = true;
-        for (point, before) in &mut self.moving {
-            let (start, end) = (&points.start[*point as usize], &points.end[*point as usize]);
-            let before = before.replace(*start).unwrap_or(*start);
+        for (&point, before) in self.moving.iter().zip(&mut self.before) {
+            let (start, end) = (&points.start[point as usize], &points.end[point as usize]);
+            self.ways.points[point as usize] = Bounds::around(*start, *end);
             for i in 0..3 {
                 let (last, next) = ((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
                 let way = if last > next { last } else { next };
                 sound &= way <= f64::MAX;
                 farthest[i] = if way > farthest[i] { way } else { farthest[i] };
+                before[i] = start[i];
             }
         }
         // A way that is not a number leaves nobody at rest.
@@ -164,30 +187,95 @@ impl Locator {
     }
 
     /// Finds the candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that
-    /// have held it before.
+    /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
     pub fn near(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES], near: &mut Vec<Near>) {
         near.clear();
-        let held = past[0].face != NONE;
-        if !held && self.gone < self.due[i] {
+        // Written so that it does not rest where what has gone is not a number.
+        let rests = self.gone < self.outlooks[i].due;
+        if !rests {
+            self.look_out(i, points, faces, past);
+        }
+        let Outlook { mut awake, held, .. } = self.outlooks[i];
+        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = self.ways.point(points, self.watched[i]);
-        let mut nearest = f32::INFINITY;
-        for candidate in &self.near[self.first[i] as usize..self.first[i + 1] as usize] {
-            let way = self.ways.face(points, faces, candidate.face, self.depth);
-            let distance = own.distance(&way);
-            if distance <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
+        let own = self.ways.points[self.watched[i] as usize];
+        let ways = &mut self.ways;
+        let mut look = |candidate: &Near| {
+            let way = ways.face(faces, candidate.face, self.depth);
+            if own.distance(&way) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
-            nearest = nearest.min(distance);
+        };
+        while awake != 0 {
+            look(&candidates[awake.trailing_zeros() as usize]);
+            awake &= awake - 1;
         }
-        // Each side may come nearer by the way of this step, which boxes of the next do not begin with, and of all the others.
-        let rest = 0.5 * f64::from(nearest.max(0.0));
-        self.due[i] = self.gone - self.last_way + rest;
+        candidates.iter().skip(64).for_each(look);
+    }
+
+    /// Whether a face holds the `i`-th watched point.
+    pub fn is_held(&self, i: usize) -> bool {
+        self.outlooks[i].held
+    }
+
+    /// Hears whether a face holds the `i`-th watched point from now on.
+    pub fn set_held(&mut self, i: usize, held: bool) {
+        let outlook = &mut self.outlooks[i];
+        if outlook.held != held {
+            // Other candidates matter to it than before.
+            *outlook = Outlook { held, ..Outlook::default() };
+        }
+    }
+
+    /// Finds which candidates of the `i`-th watched point may sleep, and for how long.
+    fn look_out(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES]) {
+        let point = self.watched[i];
+        let held = past[0].face != NONE;
+        let own = self.ways.points[point as usize];
+        let (sleep, mut rest, mut awake) = (SLEEP * self.last_way, f64::INFINITY, 0);
+        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        for (bit, candidate) in candidates.iter().enumerate().take(64) {
+            let face = candidate.face;
+            // Both sides may come nearer, by the way of this step, too: boxes of the next do not begin with it.
+            let mut away = 0.5 * f64::from(own.distance(&self.ways.face(faces, face, self.depth)));
+            if !held && away <= sleep {
+                // Along an axis no way is longer than 1/√3 of what it can be along a normal.
+                away = away.max(separation(point, face, points, faces, self.depth) / 3.4642);
+            }
+            if away > sleep && past.iter().all(|past| past.face != face) {
+                rest = rest.min(away);
+            } else {
+                awake |= 1 << bit;
+            }
+        }
+        self.outlooks[i] = Outlook { due: self.gone - self.last_way + rest, awake, held };
     }
 
     /// Numbers of watched points and of candidate pairs.
     pub fn counts(&self) -> [usize; 2] {
         [self.watched.len(), self.near.len()]
     }
+}
+
+/// Distance along the normal of a face between a point and where it would matter to the face, over the whole step: in
+/// front farther than `depth`, a part of half the element, or behind by more than half the element. Not a number for a
+/// face without area.
+///
+/// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
+/// later, as long as nobody has gone half this distance.
+fn separation(point: u32, face: u32, points: &Points, faces: &Faces, depth: f64) -> f64 {
+    let (start, end) = (faces.start(face, points), faces.end(face, points));
+    let normal = area_normal(&start);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (corners, at) in [(start, points.start[point as usize]), (end, points.end[point as usize])] {
+        for corner in corners {
+            let height = dot(subtract(at, corner), normal);
+            (low, high) = (low.min(height), high.max(height));
+        }
+    }
+    let length = dot(normal, normal).sqrt();
+    let (deep, border) = (faces.depth[face as usize], BORDER * faces.size[face as usize]);
+    (low / length - depth * deep - border).max(-high / length - deep - border)
 }

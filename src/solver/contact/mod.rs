@@ -235,7 +235,7 @@ impl Contact {
 
     /// Whether any rank needs a search.
     fn expired(&self, comm: &mut dyn Communicator) -> bool {
-        let expired = self.sites.expired();
+        let expired = self.sites.expired;
         if self.remote.is_none() {
             return expired;
         }

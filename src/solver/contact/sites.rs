@@ -31,6 +31,8 @@ pub struct Sites {
     /// Where each was at the last search, and how far it may go from there along each axis; empty before the first.
     reference: Vec<[f64; 3]>,
     allowance: Vec<f64>,
+    /// Whether a site leaves that box in this step, or there was no search.
+    pub expired: bool,
     /// What contact says of each.
     pub answers: Vec<[f64; ANSWER]>,
     /// Sites with a force now, ascending.
@@ -85,28 +87,29 @@ impl Sites {
         if at_its_place { Some(point as usize) } else { self.list.binary_search_by_key(&point, |site| site.point).ok() }
     }
 
-    /// Where the sites would go without contact.
+    /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
-        for (i, site) in self.list.iter().enumerate() {
+        let searched = self.reference.len() == self.list.len();
+        let Points { start, velocity, end, .. } = &mut self.points;
+        let ways = start.iter_mut().zip(velocity).zip(end);
+        let mut away = false;
+        for (i, (site, ((start, velocity), end))) in self.list.iter().zip(ways).enumerate() {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
-            let velocity = [0, 1, 2].map(|i| row[4 + i] + step.kick * (force[i] * row[7]));
-            self.points.set(i, [row[0], row[1], row[2]], velocity, step.drift);
+            for i in 0..3 {
+                start[i] = row[i];
+                velocity[i] = row[4 + i] + step.kick * (force[i] * row[7]);
+                end[i] = start[i] + velocity[i] * step.drift;
+            }
+            if searched {
+                let (reference, allowance) = (&self.reference[i], self.allowance[i]);
+                for i in 0..3 {
+                    // A position that is not a number is not away.
+                    away |= (start[i] - reference[i]).abs() > allowance;
+                    away |= (end[i] - reference[i]).abs() > allowance;
+                }
+            }
         }
-    }
-
-    /// Whether a site has left the box that the last search gave it, or there was no search.
-    pub fn expired(&self) -> bool {
-        if self.reference.len() != self.list.len() {
-            return true;
-        }
-        let positions = self.points.start.iter().zip(&self.points.end);
-        self.reference.iter().zip(&self.allowance).zip(positions).any(|((reference, allowance), (start, end))| {
-            // A position that is not a number is not away.
-            let away = |i: usize| {
-                ((start[i] - reference[i]).abs() > *allowance) | ((end[i] - reference[i]).abs() > *allowance)
-            };
-            away(0) | away(1) | away(2)
-        })
+        self.expired = away || !searched;
     }
 
     /// Gives every site a new box: as far as it would go in `steps` of the present one, but at least `least`.
