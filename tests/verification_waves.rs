@@ -361,8 +361,8 @@ fn free_flight_is_rigid() {
 /// Radial displacement of Blake's cavity (1952) of radius 1 m in rock of ν = ¼, at a radius r and a time t after a step of
 /// pressure p: u = −f/r² − f'/(c r) with f'' + 2α f' + ω₀² f = −p a/ρ, ω₀² = 4μ/(ρa²), α = 2μ/(ρ c a), at τ = t − (r − a)/c.
 fn blake(r: f64, t: f64) -> f64 {
-    let (pressure, density, mu) = (1e6, 2000.0, 25e9);
-    let c = (3.0 * mu / density as f64).sqrt();
+    let (pressure, density, mu): (f64, f64, f64) = (1e6, 2000.0, 25e9);
+    let c = (3.0 * mu / density).sqrt();
     let (square, alpha) = (4.0 * mu / density, 2.0 * mu / (density * c));
     let omega = (square - alpha * alpha).sqrt();
     let tau = t - (r - 1.0) / c;
