@@ -20,14 +20,14 @@ impl Bounds {
     /// A box around the way from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> Bounds {
-        let outwards = |x: f64| {
-            let x = x as f32;
-            x - x.abs() * OUTWARDS - f32::MIN_POSITIVE
-        };
-        let mut bounds = [f32::NEG_INFINITY; 8];
-        for i in 0..3 {
-            let (low, high) = if end[i] < start[i] { (end[i], start[i]) } else { (start[i], end[i]) };
-            (bounds[i], bounds[4 + i]) = (outwards(low), outwards(-high));
+        // The fourth numbers are there to make whole vectors; they keep nothing apart.
+        let single = |x: [f64; 3]| [x[0] as f32, x[1] as f32, x[2] as f32, 0.0];
+        let (start, end) = (single(start), single(end));
+        let outwards = |x: f32| x - x.abs() * OUTWARDS - f32::MIN_POSITIVE;
+        let mut bounds = [0.0; 8];
+        for i in 0..4 {
+            bounds[i] = outwards(smaller(start[i], end[i]));
+            bounds[4 + i] = outwards(smaller(-start[i], -end[i]));
         }
         Bounds(bounds)
     }

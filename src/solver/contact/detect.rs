@@ -113,7 +113,7 @@ impl Check<'_> {
                 let end = self.faces.end(touch.face, self.points);
                 let foot = face::foot(&end, &shares);
                 touch.stand.weights = shares;
-                touch.stand.gap = dot(subtract(self.points.end[point as usize], foot), touch.stand.normal);
+                touch.stand.gap = dot(subtract(self.points.end(point), foot), touch.stand.normal);
             }
         }
     }
@@ -149,7 +149,7 @@ impl Check<'_> {
     }
 
     fn stand_at_end(&self, point: u32, face: u32) -> Option<Stand> {
-        face::stand(&self.faces.end(face, self.points), self.points.end[point as usize])
+        face::stand(&self.faces.end(face, self.points), self.points.end(point))
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
@@ -215,12 +215,12 @@ impl Check<'_> {
                 let corners = self.faces.end(face, self.points);
                 let hollow = dot(subtract(face::centre(&corners), middle), old.stand.normal) > 0.0;
                 if !hollow
-                    || face::is_in_front(&corners, self.points.end[point as usize])
+                    || face::is_in_front(&corners, self.points.end(point))
                     || touches.iter().any(|touch| touch.face == face)
                 {
                     continue;
                 }
-                let Some(stand) = face::stand(&corners, self.points.end[point as usize]) else { continue };
+                let Some(stand) = face::stand(&corners, self.points.end(point)) else { continue };
                 if stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
                     touches.push(self.held(face, stand, 0.0));
                 }
@@ -241,10 +241,10 @@ impl Check<'_> {
     /// A point that this face has not seen before.
     fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
         let corners = self.faces.end(face, self.points);
-        if face::is_in_front(&corners, self.points.end[point as usize]) {
+        if face::is_in_front(&corners, self.points.end(point)) {
             return None;
         }
-        let end = face::stand(&corners, self.points.end[point as usize]).filter(|stand| stand.gap < 0.0)?;
+        let end = face::stand(&corners, self.points.end(point)).filter(|stand| stand.gap < 0.0)?;
         let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {

@@ -127,13 +127,19 @@ pub struct EdgeCheck<'a> {
 }
 
 impl EdgeCheck<'_> {
-    fn ends(&self, edge: u32, positions: &[[f64; 3]]) -> [[f64; 3]; 2] {
-        self.edges[edge as usize].ends.map(|p| positions[p as usize])
+    fn start(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.start[a as usize], self.points.start[b as usize]]
+    }
+
+    fn end(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.end(a), self.points.end(b)]
     }
 
     /// Box around the way of an edge over the step.
     fn way(&self, edge: u32) -> Box3 {
-        let ([a, b], [c, d]) = (self.ends(edge, &self.points.start), self.ends(edge, &self.points.end));
+        let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
         Box3::around(&[a, b, c, d])
     }
 
@@ -143,7 +149,7 @@ impl EdgeCheck<'_> {
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
         }
-        let end = Crossing::of(self.ends(pair[0], &self.points.end), self.ends(pair[1], &self.points.end))?;
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
             Some(past) => PastPair { allowed: (FADE * past.allowed).max((past.sense * end.gap).min(0.0)), ..*past },
@@ -159,7 +165,7 @@ impl EdgeCheck<'_> {
 
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
-        let start = Crossing::of(self.ends(pair[0], &self.points.start), self.ends(pair[1], &self.points.start))?;
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
         // Turning through parallel within a step leaves no sense to compare.
         if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
             return None;
@@ -199,7 +205,7 @@ impl EdgeCheck<'_> {
     /// Places where the edges see each other at the beginning of the step, along the normal of its end: forces there have
     /// no moment.
     fn places_along(&self, pair: [u32; 2], end: &Crossing) -> [f64; 2] {
-        let [a, b] = pair.map(|edge| self.ends(edge, &self.points.start));
+        let [a, b] = pair.map(|edge| self.start(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let volume = dot(end.normal, cross(u, v));
         let places = [dot(end.normal, cross(r, v)) / volume, dot(end.normal, cross(r, u)) / volume];

@@ -121,12 +121,16 @@ impl Faces {
 
     /// Corner positions at the present state.
     pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        at(self.corners[face as usize], &points.start)
+        // Written out, as `map` would be a call for every corner.
+        let [a, b, c, d] = self.corners[face as usize];
+        let start = |point: u32| points.start[point as usize];
+        [start(a), start(b), start(c), start(d)]
     }
 
     /// Corner positions at the end of the step without contact.
     pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
-        at(self.corners[face as usize], &points.end)
+        let [a, b, c, d] = self.corners[face as usize];
+        [points.end(a), points.end(b), points.end(c), points.end(d)]
     }
 
     /// Sum of the area normals of the faces around a point: which way its body faces there.
@@ -136,10 +140,4 @@ impl Faces {
             [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]
         })
     }
-}
-
-/// Written out, as `map` is a call for every corner here.
-#[inline]
-fn at([a, b, c, d]: [u32; 4], positions: &[[f64; 3]]) -> [[f64; 3]; 4] {
-    [positions[a as usize], positions[b as usize], positions[c as usize], positions[d as usize]]
 }

@@ -63,10 +63,11 @@ pub struct Locator {
     gone: f64,
     /// How much of that in the present step.
     last_way: f64,
-    /// Points that are watched or corners of candidates, and where each was at the last step, if there was one.
+    /// Points that are watched or corners of candidates, ascending.
     moving: Vec<u32>,
-    before: Vec<[f64; 3]>,
-    ways: Ways,
+    /// Whether no step has been made yet.
+    fresh: bool,
+    capture_boxes: CaptureBoxes,
     edge_pairs: Vec<[u32; 2]>,
 }
 
@@ -87,21 +88,18 @@ const SLEEP: f64 = 16.0;
 /// A foot this part of a face's size outside may count as on its border.
 const BORDER: f64 = 0.01;
 
-/// Boxes around the ways of the present step: of points that matter, and of faces, made when they are first asked for.
+/// Boxes around faces over the present step, made when they are first asked for.
 #[derive(Default)]
-struct Ways {
+struct CaptureBoxes {
     step: u32,
-    points: Vec<Bounds>,
     faces: Vec<(u32, Bounds)>,
 }
 
-impl Ways {
-    fn next_step(&mut self, points: usize, faces: usize) {
+impl CaptureBoxes {
+    fn next_step(&mut self, faces: usize) {
         self.step = self.step.wrapping_add(1);
-        if self.step == 1 || self.points.len() != points || self.faces.len() != faces {
+        if self.step == 1 || self.faces.len() != faces {
             self.step = 1;
-            self.points.clear();
-            self.points.resize(points, Bounds::EVERYTHING);
             self.faces.clear();
             self.faces.resize(faces, (0, Bounds::EVERYTHING));
         }
@@ -109,17 +107,12 @@ impl Ways {
 
     /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
     #[inline]
-    fn face(&mut self, faces: &Faces, face: u32, margin: f64) -> Bounds {
+    fn of(&mut self, face: u32, faces: &Faces, points: &Points, margin: f64) -> Bounds {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
-            let corners = [
-                &self.points[a as usize],
-                &self.points[b as usize],
-                &self.points[c as usize],
-                &self.points[d as usize],
-            ];
-            *bounds = Bounds::joined(corners, (margin * faces.depth[face as usize]) as f32);
+            let way = |point: u32| &points.ways[point as usize];
+            *bounds = Bounds::joined([way(a), way(b), way(c), way(d)], (margin * faces.depth[face as usize]) as f32);
             *step = self.step;
         }
         *bounds
@@ -142,38 +135,30 @@ impl Locator {
             first: found.first,
             near: found.near,
             edge_pairs: found.pairs,
+            fresh: true,
             ..Default::default()
         }
     }
 
     /// Begins a step.
     pub fn step(&mut self, points: &Points, faces: &Faces) {
-        self.ways.next_step(points.len(), faces.len());
-        self.last_way = self.measure_ways(points);
+        self.capture_boxes.next_step(faces.len());
+        // What counts in the longest way is chosen after the first step's points have been put.
+        let first = std::mem::replace(&mut self.fresh, false);
+        self.last_way = if first { self.longest_way(points) } else { points.longest_way() };
         self.gone += self.last_way;
     }
 
-    /// Puts boxes around the ways of the points that matter. The farthest that one of them has gone since the last step or
-    /// will go in this one, along an axis.
-    fn measure_ways(&mut self, points: &Points) -> f64 {
-        if self.before.is_empty() {
-            self.before = self.moving.iter().map(|&point| points.start[point as usize]).collect();
-        }
-        let mut farthest = [0.0; 3];
-        let mut sound = true;
-        for (&point, before) in self.moving.iter().zip(&mut self.before) {
-            let (start, end) = (&points.start[point as usize], &points.end[point as usize]);
-            self.ways.points[point as usize] = Bounds::around(*start, *end);
-            for i in 0..3 {
-                let (last, next) = ((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
-                let way = if last > next { last } else { next };
-                sound &= way <= f64::MAX;
-                farthest[i] = if way > farthest[i] { way } else { farthest[i] };
-                before[i] = start[i];
-            }
-        }
+    /// The farthest that a point which matters will go in this step, along an axis.
+    fn longest_way(&self, points: &Points) -> f64 {
+        let ways = self.moving.iter().flat_map(|&point| points.path(point).1).map(f64::abs);
         // A way that is not a number leaves nobody at rest.
-        if sound { farthest[0].max(farthest[1]).max(farthest[2]) } else { f64::INFINITY }
+        ways.fold(0.0, |longest, way| if way <= f64::MAX { way.max(longest) } else { f64::INFINITY })
+    }
+
+    /// Points that are watched or corners of candidates, ascending.
+    pub fn moving(&self) -> &[u32] {
+        &self.moving
     }
 
     /// Pairs of edges that may cross, ascending.
@@ -200,10 +185,10 @@ impl Locator {
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = self.ways.points[self.watched[i] as usize];
-        let ways = &mut self.ways;
+        let own = points.ways[self.watched[i] as usize];
+        let capture_boxes = &mut self.capture_boxes;
         let mut look = |candidate: &Near| {
-            let way = ways.face(faces, candidate.face, self.depth);
+            let way = capture_boxes.of(candidate.face, faces, points, self.depth);
             if own.distance(&way) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
@@ -233,13 +218,13 @@ impl Locator {
     fn look_out(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES]) {
         let point = self.watched[i];
         let held = past[0].face != NONE;
-        let own = self.ways.points[point as usize];
+        let own = points.ways[point as usize];
         let (sleep, mut rest, mut awake) = (SLEEP * self.last_way, f64::INFINITY, 0);
         let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
         for (bit, candidate) in candidates.iter().enumerate().take(64) {
             let face = candidate.face;
             // Both sides may come nearer, by the way of this step, too: boxes of the next do not begin with it.
-            let mut away = 0.5 * f64::from(own.distance(&self.ways.face(faces, face, self.depth)));
+            let mut away = 0.5 * f64::from(own.distance(&self.capture_boxes.of(face, faces, points, self.depth)));
             if !held && away <= sleep {
                 // Along an axis no way is longer than 1/√3 of what it can be along a normal.
                 away = away.max(separation(point, face, points, faces, self.depth) / 3.4642);
@@ -269,7 +254,7 @@ fn separation(point: u32, face: u32, points: &Points, faces: &Faces, depth: f64)
     let (start, end) = (faces.start(face, points), faces.end(face, points));
     let normal = area_normal(&start);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (corners, at) in [(start, points.start[point as usize]), (end, points.end[point as usize])] {
+    for (corners, at) in [(start, points.start[point as usize]), (end, points.end(point))] {
         for corner in corners {
             let height = dot(subtract(at, corner), normal);
             (low, high) = (low.min(height), high.max(height));

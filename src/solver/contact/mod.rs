@@ -265,6 +265,8 @@ impl Contact {
                 arena.renew(found, depth);
             }
         }
+        let points = if remote.is_some() { &mut arena.points } else { &mut sites.points };
+        points.count(arena.locator.moving().iter().copied());
         self.counts = self.arena.locator.counts().map(|count| count as u64);
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);

@@ -42,8 +42,9 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(points.len());
     for _ in 0..ROUNDS {
+        points.begin(0.0);
         for (point, &node) in layout.nodes.iter().enumerate() {
-            points.set(point, body.positions[node as usize], [0.0; 3], 0.0);
+            points.set(point, body.positions[node as usize], [0.0; 3]);
         }
         let mut constraints = overlaps(&layout, &pairings, &points);
         if constraints.is_empty() {

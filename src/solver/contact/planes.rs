@@ -53,7 +53,7 @@ impl PlanePoint {
         always: bool,
     ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
-        let end = points.end[self.point as usize];
+        let end = points.end(self.point);
         let gap = gap(plane, end) - self.allowed;
         if gap >= 0.0 && !always {
             self.remember(0.0, [0.0; 3]);

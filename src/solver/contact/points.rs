@@ -1,5 +1,6 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
+use super::bounds::Bounds;
 use crate::solver::nodes::{add, scaled};
 
 /// Contact points, structure of arrays, in the order of the mesh's nodes.
@@ -9,17 +10,50 @@ pub struct Points {
     pub start: Vec<[f64; 3]>,
     /// Velocity over the coming step as it would be without contact.
     pub velocity: Vec<[f64; 3]>,
-    /// Position at the end of that step.
-    pub end: Vec<[f64; 3]>,
+    /// Box around the way over that step.
+    pub ways: Vec<Bounds>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
+    /// Length of the step, for ways.
+    drift: f64,
+    /// Whether a point counts in the longest way: all bits or none.
+    counts: Vec<u64>,
+    longest: Longest,
+}
+
+/// The longest way along each axis. Without branches, which nobody could foretell.
+#[derive(Debug, Clone, Copy, Default)]
+struct Longest {
+    ways: [f64; 3],
+    /// Not a number where a way is not one or has no end, else zero.
+    poison: f64,
+}
+
+impl Longest {
+    #[inline(always)]
+    fn take(&mut self, [before, start, end]: [&[f64; 3]; 3], counts: u64) {
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        for i in 0..3 {
+            let way = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
+            let way = f64::from_bits(way.to_bits() & counts);
+            self.poison += way - way;
+            self.ways[i] = larger(way, self.ways[i]);
+        }
+    }
 }
 
 impl Points {
     /// So many points at the origin.
     pub fn new(count: usize) -> Points {
         let zero = vec![[0.0; 3]; count];
-        Points { start: zero.clone(), velocity: zero.clone(), end: zero.clone(), inverse_mass: zero }
+        Points {
+            start: zero.clone(),
+            velocity: zero.clone(),
+            ways: vec![Bounds::EVERYTHING; count],
+            inverse_mass: zero,
+            counts: vec![0; count],
+            ..Default::default()
+        }
     }
 
     /// Number of points.
@@ -32,17 +66,54 @@ impl Points {
         self.start.is_empty()
     }
 
-    /// Puts a point where it is and lets it go its way for a step `drift`.
+    /// Begins a step of length `drift`, for which every point is to be put where it is.
+    pub fn begin(&mut self, drift: f64) {
+        (self.drift, self.longest) = (drift, Longest::default());
+    }
+
+    /// Puts a point where it is and lets it go its way.
     #[inline]
-    pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], drift: f64) {
-        self.start[point] = start;
-        self.velocity[point] = velocity;
-        self.end[point] = add(start, scaled(velocity, drift));
+    pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3]) {
+        let end = add(start, scaled(velocity, self.drift));
+        self.longest.take([&self.start[point], &start, &end], self.counts[point]);
+        (self.start[point], self.velocity[point]) = (start, velocity);
+        self.ways[point] = Bounds::around(start, end);
+    }
+
+    /// Puts all points where they are, each with its velocity, and lets them go their ways.
+    pub fn set_all(&mut self, motions: impl Iterator<Item = ([f64; 3], [f64; 3])>) {
+        let (drift, mut longest) = (self.drift, self.longest);
+        let places = self.start.iter_mut().zip(&mut self.velocity).zip(&mut self.ways).zip(&self.counts);
+        for ((((place, way_velocity), way), &counts), (start, velocity)) in places.zip(motions) {
+            let end = add(start, scaled(velocity, drift));
+            longest.take([place, &start, &end], counts);
+            (*place, *way_velocity, *way) = (start, velocity, Bounds::around(start, end));
+        }
+        self.longest = longest;
+    }
+
+    /// Chooses the points that count in the longest way.
+    pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
+        self.counts.fill(0);
+        chosen.for_each(|point| self.counts[point as usize] = u64::MAX);
+    }
+
+    /// The farthest that a point which counts has gone in the last step or will go in this one, along an axis.
+    pub fn longest_way(&self) -> f64 {
+        let Longest { ways: [x, y, z], poison } = self.longest;
+        // A way that is not a number leaves nobody at rest.
+        if poison == 0.0 { x.max(y).max(z) } else { f64::INFINITY }
+    }
+
+    /// Position at the end of the step without contact.
+    #[inline]
+    pub fn end(&self, point: u32) -> [f64; 3] {
+        add(self.start[point as usize], scaled(self.velocity[point as usize], self.drift))
     }
 
     /// How far a point goes.
     pub fn path(&self, point: u32) -> ([f64; 3], [f64; 3]) {
-        let (start, end) = (self.start[point as usize], self.end[point as usize]);
+        let (start, end) = (self.start[point as usize], self.end(point));
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])
     }
 }

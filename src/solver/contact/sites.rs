@@ -12,8 +12,6 @@ pub struct Site {
     pub point: u32,
     /// The local node.
     pub node: u32,
-    /// For each axis, the constraint that holds the node, or [`ABSENT`].
-    pub holder: [u32; 3],
     /// Whether this rank answers for the node.
     pub owned: bool,
 }
@@ -26,6 +24,8 @@ pub const ANSWER: usize = 12;
 pub struct Sites {
     /// Who they are.
     pub list: Vec<Site>,
+    /// For each axis of each, the constraint that holds the node, or [`ABSENT`].
+    holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub points: Points,
     /// Where each was at the last search, and how far it may go from there along each axis; empty before the first.
@@ -48,16 +48,13 @@ impl Sites {
     pub fn new(points: usize, here: impl Fn(u32) -> u32, held: &[[u32; 3]], nodes: &Nodes) -> Sites {
         let site = |point: u32| {
             let node = here(point);
-            (node != ABSENT).then(|| Site {
-                point,
-                node,
-                holder: held.get(node as usize).copied().unwrap_or([ABSENT; 3]),
-                owned: nodes.owned[node as usize],
-            })
+            (node != ABSENT).then(|| Site { point, node, owned: nodes.owned[node as usize] })
         };
         let list: Vec<Site> = (0..points as u32).filter_map(site).collect();
         let count = list.len();
+        let held = |site: &Site| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
         let mut sites = Sites {
+            holders: list.iter().map(held).collect(),
             list,
             points: Points::new(count),
             answers: vec![[0.0; ANSWER]; count],
@@ -66,16 +63,17 @@ impl Sites {
         };
         for (i, site) in sites.list.iter().enumerate() {
             let inverse = nodes.rows[site.node as usize].0[7];
-            sites.points.inverse_mass[i] = site.holder.map(|holder| if holder == ABSENT { inverse } else { 0.0 });
+            sites.points.inverse_mass[i] = sites.holders[i].map(|holder| if holder == ABSENT { inverse } else { 0.0 });
         }
         sites
     }
 
     /// All points as sites at rest.
     pub fn still(points: &Points) -> Sites {
-        let site = |point: u32| Site { point, node: point, holder: [ABSENT; 3], owned: true };
-        let mut sites =
-            Sites { list: (0..points.len() as u32).map(site).collect(), points: points.clone(), ..Default::default() };
+        let site = |point: u32| Site { point, node: point, owned: true };
+        let list: Vec<Site> = (0..points.len() as u32).map(site).collect();
+        let holders = vec![[ABSENT; 3]; list.len()];
+        let mut sites = Sites { list, holders, points: points.clone(), ..Default::default() };
         sites.renew(1.0, 0.0);
         sites
     }
@@ -90,35 +88,36 @@ impl Sites {
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
         let searched = self.reference.len() == self.list.len();
-        let Points { start, velocity, end, .. } = &mut self.points;
-        let ways = start.iter_mut().zip(velocity).zip(end);
+        // Nothing is away from what is not a number.
+        self.reference.resize(self.list.len(), [f64::NAN; 3]);
+        self.allowance.resize(self.list.len(), 0.0);
         let mut away = false;
-        for (i, (site, ((start, velocity), end))) in self.list.iter().zip(ways).enumerate() {
+        let sites = self.list.iter().zip(self.reference.iter().zip(&self.allowance));
+        self.points.begin(step.drift);
+        self.points.set_all(sites.map(|(site, (reference, &allowance))| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
-            for i in 0..3 {
-                start[i] = row[i];
-                velocity[i] = row[4 + i] + step.kick * (force[i] * row[7]);
-                end[i] = start[i] + velocity[i] * step.drift;
+            let start = [row[0], row[1], row[2]];
+            let predicted = |axis: usize| row[4 + axis] + step.kick * (force[axis] * row[7]);
+            let velocity = [predicted(0), predicted(1), predicted(2)];
+            for axis in 0..3 {
+                let end = start[axis] + velocity[axis] * step.drift;
+                away |= (start[axis] - reference[axis]).abs() > allowance;
+                away |= (end - reference[axis]).abs() > allowance;
             }
-            if searched {
-                let (reference, allowance) = (&self.reference[i], self.allowance[i]);
-                for i in 0..3 {
-                    // A position that is not a number is not away.
-                    away |= (start[i] - reference[i]).abs() > allowance;
-                    away |= (end[i] - reference[i]).abs() > allowance;
-                }
-            }
-        }
+            (start, velocity)
+        }));
         self.expired = away || !searched;
     }
 
     /// Gives every site a new box: as far as it would go in `steps` of the present one, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
-        let Points { start, end, .. } = &self.points;
-        self.reference.clone_from(start);
-        let way = |(start, end): (&[f64; 3], &[f64; 3])| (0..3).map(|i| (end[i] - start[i]).abs()).fold(0.0, f64::max);
+        self.reference.clone_from(&self.points.start);
+        let way = |point: u32| {
+            let (_, [x, y, z]) = self.points.path(point);
+            x.abs().max(y.abs()).max(z.abs())
+        };
         self.allowance.clear();
-        self.allowance.extend(start.iter().zip(end).map(|ends| (steps * way(ends)).max(least)));
+        self.allowance.extend((0..self.list.len() as u32).map(|site| (steps * way(site)).max(least)));
     }
 
     /// Where a site is, and how far it may go along each axis.
@@ -136,10 +135,11 @@ impl Sites {
     pub fn hand_over(&self, nodes: &mut Nodes, mut react: impl FnMut(u32, f64)) {
         for &i in &self.pushed {
             let (site, answer) = (&self.list[i as usize], &self.answers[i as usize]);
+            let holders = &self.holders[i as usize];
             let sum = &mut nodes.forces[site.node as usize].0;
             for axis in 0..3 {
                 let force = answer[axis] + answer[3 + axis];
-                match site.holder[axis] {
+                match holders[axis] {
                     ABSENT => sum[axis] += force,
                     holder => react(holder, force),
                 }

@@ -3,6 +3,7 @@
 
 use super::sizes::{CLASSES, Sizes, present};
 use super::{Box3, Candidates, Search, lowest_start};
+use crate::solver::contact::bounds::Bounds;
 
 /// Edge of a cell in typical sizes of the class that looks through it.
 const CELL: f64 = 1.0;
@@ -35,14 +36,14 @@ impl Search for Grid {
             if of_faces[class as usize] && smaller.contains(&true) {
                 cells.fill(nodes, edge, |node| node_classes[node] < class);
                 for (face, of) in (0..).zip(faces).filter(|(face, _)| face_classes[*face as usize] == class) {
-                    cells.visit(of, |node| found.push(node, face, &connectivity[face as usize]));
+                    cells.visit(of, nodes, |node| found.push(node, face, &connectivity[face as usize]));
                 }
             }
             let smaller = &of_faces[..=class as usize];
             if of_nodes[class as usize] && smaller.contains(&true) {
                 cells.fill(faces, edge, |face| face_classes[face] <= class);
                 for (node, of) in (0..).zip(nodes).filter(|(node, _)| node_classes[*node as usize] == class) {
-                    cells.visit(of, |face| found.push(node, face, &connectivity[face as usize]));
+                    cells.visit(of, faces, |face| found.push(node, face, &connectivity[face as usize]));
                 }
             }
         }
@@ -60,9 +61,12 @@ impl Search for Grid {
 struct Cells {
     /// Where each bucket of the table begins in `members`; one more than there are buckets.
     starts: Vec<u32>,
-    /// Boxes by bucket: their indices and themselves.
+    /// Boxes by bucket: their indices, boxes around them in single precision, and their cells along y and z.
     members: Vec<u32>,
-    boxes: Vec<Box3>,
+    bounds: Vec<Bounds>,
+    rows: Vec<[i32; 2]>,
+    /// Members of a run that may overlap.
+    hits: Vec<u32>,
     /// The chosen boxes and their buckets, as they came.
     chosen: Vec<(u32, u32)>,
     /// Cells per length.
@@ -82,7 +86,7 @@ impl Cells {
         self.chosen.clear();
         self.extent = [0.0; 3];
         for (index, one) in boxes.iter().enumerate().filter(|(index, _)| chosen(*index)) {
-            let [x, y, z] = one.low.map(|x| self.cell(x));
+            let [x, y, z] = one.low.map(|x| cell(self.inverse, x));
             let bucket = self.row(y, z).wrapping_add(x as u32) & self.mask;
             self.starts[bucket as usize] += 1;
             self.chosen.push((index as u32, bucket));
@@ -96,12 +100,15 @@ impl Cells {
             *start = end;
         }
         self.members.resize(self.chosen.len(), 0);
-        self.boxes.resize(self.chosen.len(), Box3::empty());
+        self.bounds.resize(self.chosen.len(), Bounds::EVERYTHING);
+        self.rows.resize(self.chosen.len(), [0; 2]);
         for (index, bucket) in self.chosen.iter().rev() {
             let start = &mut self.starts[*bucket as usize];
             *start -= 1;
             self.members[*start as usize] = *index;
-            self.boxes[*start as usize] = boxes[*index as usize];
+            let one = &boxes[*index as usize];
+            self.bounds[*start as usize] = Bounds::around(one.low, one.high);
+            self.rows[*start as usize] = [cell(self.inverse, one.low[1]), cell(self.inverse, one.low[2])];
         }
     }
 
@@ -115,40 +122,52 @@ impl Cells {
         self.starts.resize(length + 1, 0);
     }
 
-    /// Number of the cell along an axis. It never falls when `x` grows; rounding towards zero makes cell 0 twice as long.
-    fn cell(&self, x: f64) -> i32 {
-        (x * self.inverse).clamp(-OUTERMOST, OUTERMOST) as i32
-    }
-
     /// Place in the table, before wrapping, of the cell `[0, y, z]`.
     fn row(&self, y: i32, z: i32) -> u32 {
         (y as u32).wrapping_mul(self.strides[0]).wrapping_add((z as u32).wrapping_mul(self.strides[1]))
     }
 
-    /// Visits each box that overlaps `of`, once.
-    fn visit(&self, of: &Box3, mut visit: impl FnMut(u32)) {
-        let first = [0, 1, 2].map(|axis| self.cell(lowest_start(of.low[axis], self.extent[axis])));
-        let last = of.high.map(|x| self.cell(x));
+    /// Visits each of `boxes` that overlaps `of`, once.
+    fn visit(&mut self, of: &Box3, boxes: &[Box3], mut visit: impl FnMut(u32)) {
+        let first = [0, 1, 2].map(|axis| cell(self.inverse, lowest_start(of.low[axis], self.extent[axis])));
+        let last = of.high.map(|x| cell(self.inverse, x));
+        let mut visit_exactly = |member: u32| {
+            if boxes[member as usize].overlaps(of) {
+                visit(member);
+            }
+        };
+        let bounds = Bounds::around(of.low, of.high);
         let more = ((last[0] - first[0]) as u32).min(self.mask);
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
                 let from = self.row(y, z).wrapping_add(first[0] as u32) & self.mask;
                 let to = from + more;
-                self.visit_run(from, to.min(self.mask), [y, z], of, &mut visit);
+                self.visit_run(from, to.min(self.mask), [y, z], &bounds, &mut visit_exactly);
                 if to > self.mask {
-                    self.visit_run(0, to - self.mask - 1, [y, z], of, &mut visit);
+                    self.visit_run(0, to - self.mask - 1, [y, z], &bounds, &mut visit_exactly);
                 }
             }
         }
     }
 
-    /// Visits the boxes that overlap `of` in buckets `from` to `to`, but for those of other rows in the same buckets.
-    fn visit_run(&self, from: u32, to: u32, row: [i32; 2], of: &Box3, visit: &mut impl FnMut(u32)) {
+    /// Visits the boxes that may overlap `of` in buckets `from` to `to`, but for those of other rows in the same buckets.
+    fn visit_run(&mut self, from: u32, to: u32, row: [i32; 2], of: &Bounds, visit: &mut impl FnMut(u32)) {
         let run = self.starts[from as usize] as usize..self.starts[to as usize + 1] as usize;
-        for (member, one) in self.members[run.clone()].iter().zip(&self.boxes[run]) {
-            if one.overlaps(of) && [self.cell(one.low[1]), self.cell(one.low[2])] == row {
-                visit(*member);
-            }
+        if self.hits.len() < run.len() {
+            self.hits.resize(run.len(), 0);
         }
+        // Every second box overlaps, so a branch would be foretold wrongly every second time.
+        let mut count = 0;
+        let boxes = self.bounds[run.clone()].iter().zip(&self.rows[run.clone()]);
+        for (member, (one, at)) in self.members[run].iter().zip(boxes) {
+            self.hits[count] = *member;
+            count += usize::from((one.distance(of) <= 0.0) & (at[0] == row[0]) & (at[1] == row[1]));
+        }
+        self.hits[..count].iter().for_each(|member| visit(*member));
     }
+}
+
+/// Number of the cell along an axis. It never falls when `x` grows; rounding towards zero makes cell 0 twice as long.
+fn cell(inverse: f64, x: f64) -> i32 {
+    (x * inverse).clamp(-OUTERMOST, OUTERMOST) as i32
 }
