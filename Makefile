@@ -5,7 +5,7 @@ URTO     = target/release/urto
 # MPI is built in where the machine has it; URTO_MPI=no leaves it out.
 FEATURES = $$(.ci/packages features)
 
-.PHONY: demo test build mpi bench scale verify man install clean packages needed
+.PHONY: demo test build mpi bench scale decompositions verify man install clean packages needed
 
 demo: build            # crushes a can under a plate, half a minute on two cores, and draws it
 	@mkdir -p out
@@ -46,6 +46,14 @@ scale: build           # the scaling studies of docs/performance.md: what hundre
 	  $(STUDY) $${in}_can.csv decks/can_crush_paper.i && \
 	  $(STUDY) $${in}_can_scaled.csv --scaled decks/can_crush_paper.i --mesh meshes/can_crush_scaled.mesh || exit 1; \
 	done
+
+decompositions: build  # contact shared out by bisection, in slices and with the elements, as docs/performance.md compares them
+	@mkdir -p out
+	for machine in paragon cluster; do for way in rcb slices static; do \
+	  in="--ranks 16,64,256 --machine $$machine --decomposition $$way --csv out/$$machine"; \
+	  $(URTO) scale $${in}_wall_$$way.csv decks/brick_wall.i && \
+	  $(URTO) scale $${in}_can_$$way.csv decks/can_crush_paper.i || exit 1; \
+	done; done
 
 verify: needed         # the problems with known answers only, at full size, with what they found
 	cargo test --release --test 'verif*' -- --nocapture --include-ignored

@@ -5,7 +5,10 @@ mod stress;
 use std::sync::mpsc;
 use std::time::Duration;
 use stress::stress;
-use urto::comm::{Communicator, RankFailure, run_threads};
+use urto::comm::{Communicator, Peer, RankFailure, Traffic, run_threads};
+use urto::deck::Source;
+use urto::partition::Decomposition;
+use urto::solver::{Body, Request, Solver};
 
 /// Runs `body` on ranks, but fails if they have not ended within a minute: a defect here is a hang.
 fn run<T, E>(
@@ -86,6 +89,122 @@ fn no_rank_waits_for_one_that_panicked() {
             Err(RankFailure::Panicked { rank, message }) => assert_eq!((rank, &message[..]), (ranks - 1, "broken")),
             other => panic!("{ranks} ranks, call {call}: {other:?}"),
         }
+    }
+}
+
+/// Breaks at a call of one part of a run; all else it passes on.
+struct Breaking<'a> {
+    inner: &'a mut dyn Communicator,
+    part: Traffic,
+    now: Traffic,
+    /// Calls of the part that still go through; `None` on ranks that do not break.
+    left: Option<u32>,
+}
+
+impl Breaking<'_> {
+    fn call(&mut self) -> &mut dyn Communicator {
+        if let Some(left) = self.left.as_mut().filter(|_| self.now == self.part) {
+            if *left == 0 {
+                // Silent: the payload alone, without the hook that prints.
+                std::panic::resume_unwind(Box::new("broken"));
+            }
+            *left -= 1;
+        }
+        &mut *self.inner
+    }
+}
+
+impl Communicator for Breaking<'_> {
+    fn rank(&self) -> usize {
+        self.inner.rank()
+    }
+
+    fn size(&self) -> usize {
+        self.inner.size()
+    }
+
+    fn enter(&mut self, part: Traffic) {
+        self.now = part;
+    }
+
+    fn start_exchange(&mut self, peers: &mut [Peer]) {
+        self.call().start_exchange(peers);
+    }
+
+    fn finish_exchange(&mut self, peers: &mut [Peer]) {
+        self.call().finish_exchange(peers);
+    }
+
+    fn all_min(&mut self, values: &mut [f64]) {
+        self.call().all_min(values);
+    }
+
+    fn all_sum(&mut self, values: &mut [u64]) {
+        self.call().all_sum(values);
+    }
+
+    fn sparse_exchange(&mut self, outgoing: Vec<(usize, Vec<u8>)>) -> Vec<(usize, Vec<u8>)> {
+        self.call().sparse_exchange(outgoing)
+    }
+
+    fn gather(&mut self, bytes: Vec<u8>) -> Option<Vec<Vec<u8>>> {
+        self.call().gather(bytes)
+    }
+
+    fn broadcast(&mut self, bytes: &mut Vec<u8>) {
+        self.call().broadcast(bytes);
+    }
+
+    fn barrier(&mut self) {
+        self.call().barrier();
+    }
+}
+
+/// Two bars that touch from the first step on, on four ranks, the third of which panics in a call of `part` after so many
+/// others; whether it did, or the steps came to their end.
+fn breaks(part: Traffic, after: u32) -> bool {
+    const BROKEN: usize = 2;
+    let project = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = |name: &str| std::fs::read_to_string(project.join(name)).expect(name);
+    let recipe = text("meshes/two_bars.mesh");
+    let mesh = urto::mesher::make(&recipe, "two_bars.mesh", 1).unwrap_or_else(|m| panic!("{}", m.render(false)));
+    let deck = text("decks/two_bars.i").replace("EXIT", "CONTACT SEARCH, GRID, 2., 0.\nEXIT");
+    let problem = urto::model::examine(Source::new("two_bars.i", &deck), Some(&mesh));
+    let model = problem.unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false))).model;
+    let ended = run(4, move |inner| {
+        let body = Body::new(&mesh, &model);
+        let cut = body.cut(inner.size());
+        let contributors = body.contributors(&cut);
+        let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), inner.size());
+        let left = (inner.rank() == BROKEN).then_some(after);
+        let comm = &mut Breaking { inner, part, now: Traffic::Setup, left };
+        let mut solver = Solver::new(&mesh, &model, &body, &decomposition.share(comm.rank()), comm);
+        for _ in 0..12 {
+            solver.prepare(Request::Continue, comm)?;
+            solver.advance();
+        }
+        Ok::<_, urto::solver::Stop>(())
+    });
+    match ended {
+        Ok(_) => false,
+        Err(RankFailure::Panicked { rank, message }) => {
+            assert_eq!((rank, &message[..]), (BROKEN, "broken"));
+            true
+        }
+        Err(other) => panic!("{part:?}, {after} calls: {other}"),
+    }
+}
+
+/// Wherever a rank breaks in a search, in a pass or on the way there and back, the others end too, for its reason.
+#[test]
+fn a_rank_that_breaks_within_contact_brings_all_down() {
+    for part in [Traffic::ContactSearch, Traffic::ContactMotion, Traffic::ContactPasses] {
+        // The first calls one by one: every kind of message of a search and of a pass is among them.
+        for after in (0..30).chain([60, 90]) {
+            let done = breaks(part, after);
+            assert!(done || after >= 30, "{part:?} has fewer than {after} calls");
+        }
+        assert!(!breaks(part, u32::MAX), "{part:?}");
     }
 }
 

@@ -131,6 +131,21 @@ fn on_any_number_of_ranks(desk: &Desk) {
     }
 }
 
+/// The two ways of sharing out contact that are not the default, held against a reference that is there.
+fn however_contact_is_shared_out(desk: &Desk, ranks: &[&str]) {
+    let deck = desk.text("case.i");
+    for method in ["SLICES", "STATIC"] {
+        desk.put("case.i", &deck.replace("\nEXIT", &format!("\nCONTACT DECOMPOSITION, {method}\nEXIT")));
+        for ranks in ranks {
+            let base = format!("{method}{ranks}");
+            desk.urto(&["case.i", "-q", "--ranks", ranks, "-o", &base]).with(0);
+            assert!(desk.text(&format!("{base}.o")).contains(&format!("CONTACT DECOMPOSITION, {method}")));
+            assert_same(desk, &base);
+        }
+    }
+    desk.put("case.i", &deck);
+}
+
 /// The program on MPI processes, when this build and this machine can.
 fn over_mpi(desk: &Desk, ranks: usize, arguments: &[&str]) -> Option<Left> {
     let mut command = mpiexec(ranks)?;
@@ -161,7 +176,9 @@ fn swinging_cantilever() {
 #[test]
 fn bricks_scatter() {
     let words = [("6, 35, 6", "3, 15, 3"), ("6, 3, 3", "3, 2, 2"), ("3, 3, 3", "2, 2, 2"), ("38, 4, 42", "10, 2, 12")];
-    on_any_number_of_ranks(&lighter("brick_wall", 1e-3, &words));
+    let desk = lighter("brick_wall", 1e-3, &words);
+    on_any_number_of_ranks(&desk);
+    however_contact_is_shared_out(&desk, &["2", "3", "7"]);
     // A search at every step: the decomposition follows the points all the time.
     let desk = lighter("brick_wall", 3e-4, &words);
     let deck = desk.text("case.i").replace("CONTACT MATERIAL\n", "CONTACT MATERIAL\nCONTACT SEARCH, GRID, 0., 0.\n");
@@ -176,7 +193,9 @@ fn bricks_scatter() {
 #[test]
 fn a_can_folds() {
     let words = [("3,       40,     40", "2, 16, 20"), ("28, 28, 3", "10, 8, 2")];
-    on_any_number_of_ranks(&lighter("can_crush", 1.2e-3, &words));
+    let desk = lighter("can_crush", 1.2e-3, &words);
+    on_any_number_of_ranks(&desk);
+    however_contact_is_shared_out(&desk, &["2", "3", "7"]);
 }
 
 #[test]
@@ -200,6 +219,32 @@ fn more_ranks_than_elements() {
         desk.urto(&["case.i", "--ranks", ranks, "-q", "-o", "many"]).with(0);
         assert_same(&desk, "many");
     }
+}
+
+/// Two cubes meet far from a long bar: with the elements, all contact is on one rank; and ranks outnumber its 16 points.
+#[test]
+fn contact_of_few_points_in_one_place() {
+    let recipe = "TITLE\n two cubes and a bar\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.01, 1, 1, 1\n\
+                  BOX, 2, 0.0101, 0.002, 0.003, 0.01, 0.01, 0.01, 1, 1, 1\nBOX, 3, 1., 0., 0., 1., 0.01, 0.01, 60, 1, 1\n";
+    let steel =
+        |block| format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    let deck = format!(
+        "TITLE\n two cubes and a bar\nTERMINATION TIME, 60.E-6\nOUTPUT TIME, 2.E-6\nPLOT TIME, 5.E-6\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nCONTACT MATERIAL, 1, 2\n\
+         INITIAL VELOCITY MATERIAL, 1, 100., 0., 0.\nINITIAL VELOCITY MATERIAL, 3, 0., 5., 0.\n{}{}{}EXIT\n",
+        steel(1),
+        steel(2),
+        steel(3)
+    );
+    let desk = Desk::new();
+    desk.put("case.i", &deck);
+    let mesh = mesher::make(recipe, "case.mesh", 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    desk.put_mesh("case.g", &mesh);
+    on_any_number_of_ranks(&desk);
+    however_contact_is_shared_out(&desk, &["2", "7", "64"]);
+    let results = desk.results("one.e");
+    let velocities = results.nodal("VELX", results.times().len() - 1).expect("velocities");
+    assert!(velocities[8..16].iter().all(|v| *v > 1.0), "the second cube was struck: {velocities:?}");
 }
 
 /// Processes read a mesh of this size in slabs, and a deck without one fails on all of them.

@@ -25,6 +25,9 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
     }
     say(model.title.trim());
     let body = Body::new(&given.mesh, model);
+    if let Some(warning) = body.overlap.left.warning(&given.mesh) {
+        complain(format_args!("{warning}\n"));
+    }
     say(modelled(&given, &body));
     say(trial(&given, &body)?);
     Ok(DONE)

@@ -214,6 +214,9 @@ pub struct Scale {
     /// Makes the mesh anew for each number of ranks, whose recipe must use the name `ranks` in an expression
     #[arg(long)]
     pub scaled: bool,
+    /// How contact is shared out, in place of what the deck says with CONTACT DECOMPOSITION
+    #[arg(long, value_name = "NAME")]
+    pub decomposition: Option<DecompositionName>,
     /// Machine to price for; the options below replace single costs of it
     #[arg(long, value_name = "NAME", default_value = "cluster")]
     pub machine: MachineName,
@@ -229,6 +232,17 @@ pub struct Scale {
     /// Writes the table as comma-separated values too, in seconds and bytes
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+/// Ways of CONTACT DECOMPOSITION.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum DecompositionName {
+    /// Recursive coordinate bisection of where the nodes are
+    Rcb,
+    /// Slices across one axis
+    Slices,
+    /// With the elements
+    Static,
 }
 
 /// Machines that `scale` knows.

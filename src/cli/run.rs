@@ -83,6 +83,9 @@ impl Prepared {
         if let Some(warnings) = self.given.warnings() {
             complain(warnings);
         }
+        if let Some(warning) = self.body.overlap.left.warning(&self.given.mesh) {
+            complain(warning);
+        }
         let elements = self.given.mesh.element_count();
         say(format_args!(
             "{}: {elements} elements on {}",
@@ -117,7 +120,10 @@ fn base(asked: Option<&Path>, deck: &Path) -> PathBuf {
 fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: impl FnOnce(&Job) -> T) -> T {
     let problem = &prepared.given.problem;
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
-    let warnings: Vec<String> = problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect();
+    let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
+    let overlaps = prepared.body.overlap.left.warning(&prepared.given.mesh);
+    let overlaps = overlaps.map(|warning| warning.trim_start_matches("warning: ").to_string());
+    let warnings: Vec<String> = told.chain(overlaps).collect();
     let cut = prepared.body.cut(prepared.ranks);
     let contributors = prepared.body.contributors(&cut);
     let nodes = prepared.given.mesh.coordinates.len();

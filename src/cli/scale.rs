@@ -1,10 +1,11 @@
 //! `urto scale`: what a run would do on many ranks.
 
 use super::input::Given;
-use super::options::MachineName;
+use super::options::{DecompositionName, MachineName};
 use super::terminal::{complain, say};
 use super::{DONE, Failure, options};
 use crate::comm::RankFailure;
+use crate::model::ContactDecomposition;
 use crate::scale::{self, Case, Machine};
 use crate::solver::Body;
 
@@ -22,9 +23,22 @@ pub fn scale(options: &options::Scale) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
+/// The problem, with what the options replace.
+fn read(options: &options::Scale, ranks: Option<u32>) -> Result<Given, Failure> {
+    let mut given = Given::read_for(&options.input, ranks)?;
+    let chosen = &mut given.problem.model.contact.control.decomposition;
+    *chosen = match options.decomposition {
+        None => *chosen,
+        Some(DecompositionName::Rcb) => ContactDecomposition::Bisection,
+        Some(DecompositionName::Slices) => ContactDecomposition::Slices,
+        Some(DecompositionName::Static) => ContactDecomposition::Static,
+    };
+    Ok(given)
+}
+
 /// One mesh for all.
 fn fixed(options: &options::Scale) -> Result<Vec<Case>, Failure> {
-    let given = Given::read(&options.input)?;
+    let given = read(options, None)?;
     introduce(&given);
     let body = Body::new(&given.mesh, &given.problem.model);
     options.ranks.iter().map(|&ranks| count(options, &given, &body, ranks)).collect()
@@ -35,7 +49,7 @@ fn scaled(options: &options::Scale) -> Result<Vec<Case>, Failure> {
     let mut cases = Vec::new();
     let mut before: Option<(u32, usize)> = None;
     for &ranks in &options.ranks {
-        let given = Given::read_for(&options.input, Some(ranks))?;
+        let given = read(options, Some(ranks))?;
         let elements = given.mesh.element_count();
         match before {
             None => introduce(&given),

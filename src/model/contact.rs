@@ -1,8 +1,8 @@
 //! Contact and rigid planes.
 
 use super::{
-    ContactData, ContactMaterials, ContactSearch, ContactSurface, Death, DeathVariable, ElementField, Friction,
-    RigidSurface,
+    ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactSearch, ContactSurface, Death,
+    DeathVariable, ElementField, Friction, RigidSurface,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, spelling};
@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),
+    ("CONTACT DECOMPOSITION", contact_decomposition),
     ("DEATH", death),
 ];
 
@@ -117,6 +118,32 @@ fn contact_data(card: &Card, draft: &mut Draft) {
                 .help("CONTACT MATERIAL, 1, 2 lets the blocks touch; CONTACT SURFACE has friction of its own"),
         );
     }
+    beside_contact(card, draft);
+}
+
+/// Warns of CONTACT DATA about a block that no CONTACT MATERIAL names, wherever in the deck that stands.
+fn beside_contact(card: &Card, draft: &mut Draft) {
+    let blocks =
+        |card: &Card| -> Vec<i64> { card.items("block").iter().filter_map(|item| item.value.integer()).collect() };
+    let named: Vec<Vec<i64>> = draft.deck.cards_of("CONTACT MATERIAL").map(blocks).collect();
+    if named.is_empty() || named.iter().any(Vec::is_empty) {
+        return;
+    }
+    let named = named.concat();
+    for field in ["first", "second"] {
+        let block = card.integer(field);
+        if named.contains(&block) || field == "second" && block == card.integer("first") {
+            continue;
+        }
+        let all = spelling::all(&named.iter().map(i64::to_string).collect::<Vec<_>>());
+        draft.report(
+            Diagnostic::warning(format!(
+                "CONTACT DATA: block {block} touches nothing, so that nothing follows from this"
+            ))
+            .at(card.place(field), format!("CONTACT MATERIAL names {all} only"))
+            .help(format!("CONTACT MATERIAL, {block} lets it touch; CONTACT SURFACE has friction of its own")),
+        );
+    }
 }
 
 fn contact_passes(card: &Card, draft: &mut Draft) {
@@ -135,7 +162,19 @@ fn contact_search(card: &Card, draft: &mut Draft) {
 }
 
 fn contact_edges(card: &Card, draft: &mut Draft) {
-    draft.model.contact.control.edges = card.text("switch") == "ON";
+    draft.model.contact.control.edges = match card.text("switch") {
+        "OFF" => ContactEdges::None,
+        "ALL" => ContactEdges::All,
+        _ => ContactEdges::Sharp,
+    };
+}
+
+fn contact_decomposition(card: &Card, draft: &mut Draft) {
+    draft.model.contact.control.decomposition = match card.text("method") {
+        "SLICES" => ContactDecomposition::Slices,
+        "STATIC" => ContactDecomposition::Static,
+        _ => ContactDecomposition::Bisection,
+    };
 }
 
 fn rigid_surface(card: &Card, draft: &mut Draft) {

@@ -377,7 +377,18 @@ pub struct Friction {
     pub decay: f64,
 }
 
-/// CONTACT PASSES, CONTACT SEARCH and CONTACT EDGES: how contact is found and enforced.
+/// CONTACT EDGES: which edges of the outside may touch edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactEdges {
+    /// None.
+    None,
+    /// Those that stand out touch each other.
+    Sharp,
+    /// Those that stand out touch each other and the lines of the mesh within faces.
+    All,
+}
+
+/// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES and CONTACT DECOMPOSITION: how contact is found and enforced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
@@ -390,8 +401,10 @@ pub struct ContactControl {
     pub reach: f64,
     /// Smallest reach of a search, as a part of the mean face size.
     pub margin: f64,
-    /// Whether edges may touch edges.
-    pub edges: bool,
+    /// Which edges may touch edges.
+    pub edges: ContactEdges,
+    /// How points are shared out among many ranks.
+    pub decomposition: ContactDecomposition,
 }
 
 impl Default for ContactControl {
@@ -402,9 +415,21 @@ impl Default for ContactControl {
             search: ContactSearch::Grid,
             reach: 45.0,
             margin: 0.1,
-            edges: true,
+            edges: ContactEdges::Sharp,
+            decomposition: ContactDecomposition::Bisection,
         }
     }
+}
+
+/// Ways to share out the points of contact among ranks; all give the same results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactDecomposition {
+    /// Recursive coordinate bisection of where the points are.
+    Bisection,
+    /// Slices across one axis, of equally many points.
+    Slices,
+    /// Every point stays with the rank that owns its node.
+    Static,
 }
 
 /// Ways to find faces near a point; all find the same.

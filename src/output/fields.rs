@@ -75,6 +75,11 @@ impl FieldList {
         fields.chain(self.state.iter().cloned()).collect()
     }
 
+    /// Whether nodal values need [`Solver::complete_contact`] first.
+    pub fn needs_all_of_contact(&self) -> bool {
+        [NodalField::Contact, NodalField::Reaction].iter().any(|field| self.nodal.contains(field))
+    }
+
     /// Nodal values of the owned nodes of a rank, variable by variable.
     pub fn nodal_values(&self, solver: &Solver) -> Vec<f64> {
         let nodes = &solver.domain.nodes;

@@ -61,11 +61,14 @@ impl Plots {
     /// When this rank cannot write.
     pub fn write(
         &mut self,
-        solver: &Solver,
+        solver: &mut Solver,
         fields: &FieldList,
         totals: &Totals,
         comm: &mut dyn Communicator,
     ) -> Result<(), RunError> {
+        if fields.needs_all_of_contact() {
+            solver.complete_contact(comm);
+        }
         let [nodal, element] = [fields.nodal_values(solver), fields.element_values(solver, comm.rank())];
         let [nodal_count, element_count] = self.variables;
         let values = match (&mut self.split, &self.collector) {

@@ -118,7 +118,8 @@ impl Machine {
         }
     }
 
-    fn contact_work(&self, rank: &RankWork) -> f64 {
+    /// Seconds of a rank's contact in all steps, without messages.
+    pub(super) fn contact_work(&self, rank: &RankWork) -> f64 {
         self.contact_point * rank.contact_points as f64
             + self.candidate * rank.candidates as f64
             + self.correction * rank.corrections as f64

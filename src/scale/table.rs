@@ -25,6 +25,10 @@ pub struct Row {
     pub bytes: Spread,
     /// Collective calls.
     pub collectives: f64,
+    /// Bytes that a rank sends in them.
+    pub collective_bytes: f64,
+    /// Computing of contact on the busiest rank over that of the mean one; 1 where there is none.
+    pub contact_imbalance: f64,
     /// Seconds of a step.
     pub price: Price,
     /// Efficiency relative to the first row: processor time per element there over that here.
@@ -55,10 +59,18 @@ impl Row {
             messages: in_a_step(&|rank| rank.of_steps().sent.messages),
             bytes: in_a_step(&|rank| rank.of_steps().sent.bytes),
             collectives: in_a_step(&|rank| rank.of_steps().collectives).most,
+            collective_bytes: in_a_step(&|rank| rank.of_steps().collective_bytes).most,
+            contact_imbalance: contact_imbalance(case, machine),
             price: machine.price(case),
             efficiency: 1.0,
         }
     }
+}
+
+fn contact_imbalance(case: &Case, machine: &Machine) -> f64 {
+    let work = || case.work.iter().map(|rank| machine.contact_work(rank));
+    let (most, sum) = (work().fold(0.0, f64::max), work().sum::<f64>());
+    if sum > 0.0 { most * case.work.len() as f64 / sum } else { 1.0 }
 }
 
 /// The rows of a study.
@@ -158,7 +170,7 @@ pub fn csv(rows: &[Row]) -> String {
     let names = ["elements", "contact_points", "candidates", "corrections", "messages", "bytes"];
     let spread_names = names.map(|name| format!("{name}_min,{name}_mean,{name}_max")).join(",");
     let mut out = format!(
-        "ranks,total_elements,{spread_names},collectives,seconds_elements,seconds_agreement,seconds_contact,\
+        "ranks,total_elements,{spread_names},collectives,collective_bytes,contact_imbalance,seconds_elements,seconds_agreement,seconds_contact,\
          seconds_computing,seconds_step,speed_up,efficiency\n"
     );
     for row in rows {
@@ -167,10 +179,12 @@ pub fn csv(rows: &[Row]) -> String {
         let Price { elements, agreement, contact, computing } = row.price;
         let _ = writeln!(
             out,
-            "{},{},{spreads},{},{elements:e},{agreement:e},{contact:e},{computing:e},{:e},{},{}",
+            "{},{},{spreads},{},{},{},{elements:e},{agreement:e},{contact:e},{computing:e},{:e},{},{}",
             row.ranks,
             row.total,
             row.collectives,
+            row.collective_bytes,
+            row.contact_imbalance,
             row.price.total(),
             row.speed_up(),
             row.efficiency

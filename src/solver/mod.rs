@@ -191,6 +191,14 @@ impl Solver {
         nodes::add(v, nodes::scaled(a, behind))
     }
 
+    /// Brings what contact has found beside its forces to the nodes, where it is computed elsewhere; before
+    /// [`Solver::reactions`] and [`Contact::node_values`](contact::Contact::node_values). All ranks call it.
+    pub fn complete_contact(&mut self, comm: &mut dyn Communicator) {
+        if let Some(contact) = &mut self.domain.contact {
+            contact.complete(comm);
+        }
+    }
+
     /// Forces of constraints, prescribed motions and rigid surfaces now, one per local node.
     pub fn reactions(&self) -> Vec<[f64; 3]> {
         let mut reactions = vec![[0.0; 3]; self.domain.nodes.len()];

@@ -1,8 +1,8 @@
 //! What the front part of the log says of contact and of the removal of elements.
 
 use super::{echo::table, number};
-use crate::model::{ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
-use crate::solver::contact::Overlap;
+use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
+use crate::solver::contact::{Left, Overlap};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
 pub fn tables(model: &Model, overlap: Overlap) -> String {
@@ -23,6 +23,7 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table("CONTACT", "BETWEEN          FIRST  SECOND    PARTITION     FRICTION   HIGH SPEED        DECAY", lines),
         table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
         table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
+        table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.left)),
         table(
             "REMOVAL OF ELEMENTS",
             "BLOCK   VARIABLE      BOUND        VALUE   NODES",
@@ -55,13 +56,26 @@ fn control(model: &Model) -> Vec<String> {
     vec![
         format!("AT MOST {} PASSES, TO AN OVERLAP OF {} FACE SIZES", control.passes, number(control.tolerance)),
         format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
-        format!("EDGES TOUCH EDGES: {}", if control.edges { "YES" } else { "NO" }),
+        format!("EDGES TOUCH EDGES: {}", edges(control.edges)),
     ]
+}
+
+fn edges(edges: ContactEdges) -> &'static str {
+    match edges {
+        ContactEdges::None => "NO",
+        ContactEdges::Sharp => "YES",
+        ContactEdges::All => "YES, AND THE LINES IN FLAT FACES",
+    }
 }
 
 fn overlaps(overlap: Overlap) -> Vec<String> {
     let moved = (overlap.nodes > 0).then(|| format!("{:>11}{:>13}", overlap.nodes, number(overlap.farthest)));
     moved.into_iter().collect()
+}
+
+fn left(left: Left) -> Vec<String> {
+    let some = (left.nodes > 0).then(|| format!("{:>21}{:>13}", left.nodes, number(left.deepest)));
+    some.into_iter().collect()
 }
 
 fn death(death: &Death) -> String {

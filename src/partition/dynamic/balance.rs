@@ -2,7 +2,7 @@
 //! level at once, so that the number of messages grows with the depth of the tree only.
 
 use super::bisection::{Bisection, Cut, Ranks};
-use super::median::{Found, Goal, Mass, Median, TALLY, tally};
+use super::median::{Found, Goal, Guess, Mass, Median, TALLY, tally};
 use super::place::{Place, coordinate_key};
 use crate::comm::Communicator;
 use crate::comm::reduce::number;
@@ -15,6 +15,16 @@ pub enum Axes {
     Longest,
     /// The longest side of the box of all points, in all cuts: slices.
     One,
+}
+
+/// The cuts of an earlier time, the same on all ranks.
+#[derive(Debug, Clone, Copy)]
+pub struct Earlier<'a> {
+    /// The cuts.
+    pub cuts: &'a Bisection,
+    /// A cut through the same point as then is kept while neither side has more than this part of its share too much;
+    /// with 0 all cuts are exact.
+    pub slack: f64,
 }
 
 /// What [`balance`] finds.
@@ -78,27 +88,27 @@ struct Extent {
 /// `weights` are theirs, or empty when all weigh one; they count as equal when they are zero everywhere. Weights are
 /// shared out as evenly as cuts between points allow, equal ones to within one point, and no rank stays without a
 /// point while there are enough. What is found depends only on positions, ids and weights of all points: not on
-/// where they are, nor on `previous`, the cuts of an earlier time, the same on all ranks, from which the search
-/// starts when they are for the same number of ranks. Coordinates that are not finite count as the largest finite
+/// where they are, nor on `earlier`, from whose cuts the search starts when they are for the same number of ranks,
+/// unless these may be kept with some slack. Coordinates that are not finite count as the largest finite
 /// ones, and NaN as the lowest.
 ///
 /// It is the algorithm of Attaway et al. 1996, figure 7, except that points stay where they are until all cuts are
 /// known, and that a round tries many places at once. It takes one collective call for the beginning and, for each
 /// level of the tree, one for boxes and one per round: one round where the point at the previous cut still is the
-/// point at the cut, whatever its motion, and about five otherwise.
+/// point at the cut, whatever its motion, or is kept, and about five otherwise.
 pub fn balance(
     points: &[[f64; 3]],
     ids: &[u32],
     weights: &[u32],
     axes: Axes,
-    previous: Option<&Bisection>,
+    earlier: Option<Earlier>,
     comm: &mut dyn Communicator,
 ) -> Balanced {
     let size = comm.size();
     let mut work = Work {
         points: gather(points, ids, weights),
         axes,
-        previous: previous.filter(|previous| previous.size() == size),
+        earlier: earlier.filter(|earlier| earlier.cuts.size() == size),
         guesses: Vec::new(),
         bisection: Bisection::uncut(size),
         comm,
@@ -124,7 +134,7 @@ fn gather(points: &[[f64; 3]], ids: &[u32], weights: &[u32]) -> Vec<Point> {
 struct Work<'a> {
     points: Vec<Point>,
     axes: Axes,
-    previous: Option<&'a Bisection>,
+    earlier: Option<Earlier<'a>>,
     /// Where the points at the previous cuts are now, or the cuts if these points are gone.
     guesses: Vec<Place>,
     bisection: Bisection,
@@ -141,7 +151,7 @@ impl Work<'_> {
     /// Counts the points of all ranks, and asks where those at the previous cuts have gone: bodies move, but their
     /// points hardly change their order.
     fn begin(&mut self) -> Subset {
-        let cuts = self.previous.map_or(&[][..], |previous| &previous.cuts);
+        let cuts = self.earlier.map_or(&[][..], |earlier| &earlier.cuts.cuts);
         let mut at_cuts: Vec<(u32, usize)> = cuts.iter().zip(0..).map(|(cut, index)| (cut.point, index)).collect();
         at_cuts.sort_unstable();
         let mut sums = vec![0; 2 + 2 * cuts.len()];
@@ -196,7 +206,8 @@ impl Work<'_> {
             _ => extent.longest_side(),
         };
         let cut = subset.ranks.cut();
-        let guess = self.previous.filter(|previous| previous.cuts[cut].axis == axis).map(|_| self.guesses[cut]);
+        let same_axis = self.earlier.filter(|earlier| earlier.cuts.cuts[cut].axis == axis);
+        let guess = same_axis.map(|earlier| Guess { at: self.guesses[cut], slack: earlier.slack });
         let goal = Goal { all: subset.all, parts: subset.ranks.halves().map(|ranks| ranks.parts) };
         let low = Place::at(extent.low[axis], extent.ids[0]);
         let high = Place::at(extent.high[axis], extent.ids[1]).next();
@@ -217,7 +228,9 @@ impl Work<'_> {
     fn advance(&mut self, cuttings: &mut [Cutting]) -> bool {
         let mut active: Vec<&mut Cutting> =
             cuttings.iter_mut().filter(|cutting| cutting.median.found.is_none()).collect();
-        let closer = closer_trials(active.len());
+        // Cuts with slack are kept at first; the few that are not shall cost few bytes rather than few rounds.
+        let has_slack = self.earlier.is_some_and(|earlier| earlier.slack > 0.0);
+        let closer = if has_slack { CLOSER_TRIALS.start } else { closer_trials(active.len()) };
         let mut sums = Vec::new();
         for cutting in &mut active {
             cutting.median.choose_trials(closer);
@@ -307,9 +320,12 @@ impl Extent {
     }
 }
 
+/// Fewest and most trials on either side of an expected cut.
+const CLOSER_TRIALS: Range<usize> = 3..8;
+
 /// Trials on either side of the expected cut for so many searches at once: what all of them send stays small.
 fn closer_trials(searches: usize) -> usize {
-    (512 / searches.max(1)).clamp(3, 8)
+    (512 / searches.max(1)).clamp(CLOSER_TRIALS.start, CLOSER_TRIALS.end)
 }
 
 /// Brings the points for which `before` holds to the front and returns their number.

@@ -11,19 +11,20 @@ pub struct Boxes {
 
 impl Boxes {
     /// Tells all ranks the box of this one, with a `low` above its `high` when it holds nothing; every rank calls
-    /// it. Sides that are not numbers count as infinitely far. One collective call.
+    /// it. Sides that are not numbers count as infinitely far. Two collective calls: by way of rank 0 each box goes
+    /// once to each rank, where a minimum over all would pass all boxes on in every round.
     pub fn gather(low: [f64; 3], high: [f64; 3], comm: &mut dyn Communicator) -> Boxes {
-        let mut minima = vec![f64::INFINITY; 6 * comm.size()];
-        let own = &mut minima[6 * comm.rank()..][..6];
-        for axis in 0..3 {
-            own[axis] = if low[axis].is_nan() { f64::NEG_INFINITY } else { low[axis] };
-            own[3 + axis] = if high[axis].is_nan() { f64::NEG_INFINITY } else { -high[axis] };
-        }
-        comm.all_min(&mut minima);
-        let of_ranks = || minima.chunks_exact(6);
+        let far = |sides: [f64; 3], far: f64| sides.map(|side| if side.is_nan() { far } else { side });
+        let own = [far(low, f64::NEG_INFINITY), far(high, f64::INFINITY)];
+        let bytes = own.as_flattened().iter().flat_map(|side| side.to_le_bytes()).collect();
+        let mut all = comm.gather(bytes).map_or_else(Vec::new, |boxes| boxes.concat());
+        comm.broadcast(&mut all);
+        let side = |b: &[u8]| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]);
+        let sides: Vec<f64> = all.chunks_exact(8).map(side).collect();
+        let of_ranks = || sides.chunks_exact(6);
         Boxes {
-            low: of_ranks().map(|box_| [0, 1, 2].map(|axis| box_[axis])).collect(),
-            high: of_ranks().map(|box_| [3, 4, 5].map(|axis| -box_[axis])).collect(),
+            low: of_ranks().map(|box_| [box_[0], box_[1], box_[2]]).collect(),
+            high: of_ranks().map(|box_| [box_[3], box_[4], box_[5]]).collect(),
         }
     }
 

@@ -98,12 +98,29 @@ impl Goal {
         below.count < self.all.count && !enough
     }
 
+    /// Whether a cut with so much below it leaves both sides their shares, but for a part `slack` of the smaller one.
+    fn is_met(&self, below: Mass, slack: f64) -> bool {
+        let (least, most) = self.allowed();
+        let [left, right] = self.parts.map(|parts| parts as f64);
+        let most_excess = slack * self.all.weight as f64 * left.min(right);
+        (least..=most).contains(&below.count) && self.excess(below).unsigned_abs() as f64 <= most_excess
+    }
+
     /// Whether the point at the cut, before it `without` and up to it `with`, goes to the left.
     fn takes(&self, without: Mass, with: Mass) -> bool {
         let (least, most) = self.allowed();
         let nearer = self.excess(with) < -self.excess(without);
         (nearer || without.count < least) && with.count <= most
     }
+}
+
+/// Where a cut is expected.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Guess {
+    /// The place of the point that was at the cut.
+    pub at: Place,
+    /// The cut is kept there while neither side has more than this part of its share too much.
+    pub slack: f64,
 }
 
 /// A cut that was found.
@@ -132,7 +149,7 @@ pub(super) struct Median {
     below: Mass,
     inside: Mass,
     /// Where the cut is expected before anything was counted.
-    guess: Option<Place>,
+    guess: Option<Guess>,
     /// Mean of the points in the bracket.
     mean: Option<Place>,
     /// Where the bins begin, ascending, the first at `low`.
@@ -143,8 +160,8 @@ pub(super) struct Median {
 
 impl Median {
     /// The search among points whose places run from `low` to before `high`; without points the two mean nothing.
-    pub fn new(goal: Goal, low: Place, high: Place, guess: Option<Place>) -> Median {
-        let guess = guess.filter(|guess| (low..high).contains(guess));
+    pub fn new(goal: Goal, low: Place, high: Place, guess: Option<Guess>) -> Median {
+        let guess = guess.filter(|guess| (low..high).contains(&guess.at));
         let (below, inside) = (Mass::default(), goal.all);
         let mut median = Median { goal, low, high, below, inside, guess, mean: None, starts: Vec::new(), found: None };
         if goal.all.count > 0 {
@@ -157,7 +174,12 @@ impl Median {
 
     /// Sets the bins of the next round: trials about where the cut is expected, `closer` on either side, and even ones.
     pub fn choose_trials(&mut self, closer: usize) {
-        let trials = self.expected().into_iter().chain(self.spread(closer));
+        let mut trials = self.expected();
+        // Where the cut may be kept there is no need of others yet.
+        if self.guess.is_none_or(|guess| guess.slack == 0.0) {
+            trials.extend(self.spread(closer));
+        }
+        let trials = trials.into_iter();
         self.starts.clear();
         self.starts.extend(trials.filter(|trial| self.low < *trial && *trial < self.high));
         self.starts.push(self.low);
@@ -170,7 +192,7 @@ impl Median {
     /// When points are of more than one coordinate, the place behind all of the mean coordinate divides them: a few
     /// that are close together need no many rounds. When they are of one, the bin of the mean has just that.
     fn expected(&self) -> Vec<Place> {
-        let mut places: Vec<Place> = self.guess.iter().flat_map(|guess| [*guess, guess.next()]).collect();
+        let mut places: Vec<Place> = self.guess.iter().flat_map(|guess| [guess.at, guess.at.next()]).collect();
         if let Some(mean) = self.mean {
             places.extend([Place::at(mean.key(), 0), Place::at(mean.key() + 1, 0), mean.next()]);
         }
@@ -179,7 +201,7 @@ impl Median {
 
     /// Trials about where the cut is expected and where points crowd, and all over the bracket.
     fn spread(&self, closer: usize) -> Vec<Place> {
-        let expected = self.guess.map_or_else(|| self.fraction_wanted(), |guess| self.fraction_at(guess));
+        let expected = self.guess.map_or_else(|| self.fraction_wanted(), |guess| self.fraction_at(guess.at));
         let crowd = self.mean.map(|mean| self.fraction_at(mean));
         let distances = || std::iter::successors(Some(CLOSER), |distance| Some(distance * CLOSER)).take(closer);
         let about = |centre| distances().flat_map(move |distance| [centre - distance, centre + distance]);
@@ -221,6 +243,10 @@ impl Median {
 
     /// Takes the sums of all ranks over the bins and keeps the bin with the point at the cut.
     pub fn narrow(&mut self, sums: &[u64]) {
+        self.found = self.kept(sums);
+        if self.found.is_some() {
+            return;
+        }
         let end = self.high;
         for (bin, sums) in sums.chunks_exact(TALLY).enumerate() {
             let tally = Tally::from_sums(sums);
@@ -239,6 +265,21 @@ impl Median {
         // A guess that was right has ended the search; another has done what it could.
         self.guess = None;
         self.conclude();
+    }
+
+    /// The cut just before or just behind the guess, if its slack allows one of them: that with the smaller excess.
+    fn kept(&self, sums: &[u64]) -> Option<Found> {
+        let guess = self.guess.filter(|guess| guess.slack > 0.0)?;
+        let mut below = self.below;
+        let mut cuts = Vec::new();
+        for (start, sums) in self.starts.iter().zip(sums.chunks_exact(TALLY)) {
+            if (guess.at..=guess.at.next()).contains(start) && self.goal.is_met(below, guess.slack) {
+                cuts.push(Found { end: *start, point: guess.at.id(), left: below });
+            }
+            let tally = Tally::from_sums(sums);
+            below = below.and(Mass { count: tally.count, weight: tally.weight });
+        }
+        cuts.into_iter().min_by_key(|cut| self.goal.excess(cut.left).abs())
     }
 
     /// Notes the cut if one place is left.

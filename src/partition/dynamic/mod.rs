@@ -12,7 +12,7 @@ mod median;
 mod parcels;
 mod place;
 
-pub use balance::{Axes, Balanced, balance};
+pub use balance::{Axes, Balanced, Earlier, balance};
 pub use bisection::Bisection;
 pub use boxes::Boxes;
 pub use parcels::{Parcels, Records};

@@ -15,13 +15,26 @@ fn balanced(
     axes: Axes,
     previous: Option<&Bisection>,
 ) -> (Bisection, Vec<(u32, u32)>, u32) {
+    followed(points, size, rank_of, axes, previous, 0.0)
+}
+
+/// [`balanced`], where cuts may be kept with some slack.
+fn followed(
+    points: &[Point],
+    size: usize,
+    rank_of: impl Fn(usize) -> usize + Sync,
+    axes: Axes,
+    previous: Option<&Bisection>,
+    slack: f64,
+) -> (Bisection, Vec<(u32, u32)>, u32) {
     let body = |comm: &mut dyn Communicator| {
         let rank = comm.rank();
         let own: Vec<Point> = (0..points.len()).filter(|i| rank_of(*i) % size == rank).map(|i| points[i]).collect();
         let positions: Vec<_> = own.iter().map(|point| point.0).collect();
         let ids: Vec<_> = own.iter().map(|point| point.1).collect();
         let weights: Vec<_> = own.iter().map(|point| point.2).collect();
-        let found = balance(&positions, &ids, &weights, axes, previous, comm);
+        let earlier = previous.map(|cuts| Earlier { cuts, slack });
+        let found = balance(&positions, &ids, &weights, axes, earlier, comm);
         for (at, (id, owner)) in positions.iter().zip(ids.iter().zip(&found.owners)) {
             assert_eq!(found.bisection.owner(*at, *id), *owner);
         }
@@ -221,6 +234,32 @@ fn few_calls_find_the_cuts() {
         for amount in [1e-9, 1e-6, 1e-4, 1e-2] {
             let (_, _, moved) = balanced(&brick(22, amount), size, |i| i, Axes::Longest, Some(&cuts));
             assert!(moved <= 1 + 8 * levels, "{moved}");
+        }
+    }
+}
+
+/// Points that each go their own way, a little. Kept cuts leave no part of more than its share and the slack, or one
+/// point; they are known after a call for the beginning and two for each level, which exact ones are not.
+#[test]
+fn cuts_are_kept_within_their_slack() {
+    let mixed = |i: u32, salt: u32| f64::from((i ^ salt).wrapping_mul(0x9e37_79b1) >> 8) / f64::from(1 << 24);
+    let place = |i: u32, t: f64| [0, 1, 2].map(|k| f64::from(3 - k) * mixed(i, 91 * k) + t * mixed(i, 7 + 57 * k));
+    let at = |t: f64| -> Vec<Point> { (0..6400).map(|i| (place(i, t), i, 1)).collect() };
+    for (size, levels) in [(4, 2), (5, 3), (16, 4)] {
+        for axes in [Axes::Longest, Axes::One] {
+            let (cuts, ..) = balanced(&at(0.0), size, |i| i, axes, None);
+            let (_, owners, calls) = followed(&at(0.01), size, |i| i, axes, Some(&cuts), 0.05);
+            let (_, _, exact) = balanced(&at(0.01), size, |i| i, axes, Some(&cuts));
+            assert_eq!(calls, 1 + 2 * levels);
+            assert!(exact > calls);
+            let most = 6400.0 / size as f64 * f64::powi(1.05, levels as i32) + 1.0;
+            assert!(sizes(&owners, size).iter().all(|count| (*count as f64) < most), "{:?}", sizes(&owners, size));
+            assert!(!evenly_shared(&owners, size), "no cut has drifted");
+            let dealt = followed(&at(0.01), size, |i| i / 3, axes, Some(&cuts), 0.05);
+            assert_eq!(owners, dealt.1);
+            // What has gone too far is exact again.
+            let (_, owners, _) = followed(&at(9.0), size, |i| i, axes, Some(&cuts), 1e-9);
+            assert!(evenly_shared(&owners, size));
         }
     }
 }

@@ -4,11 +4,12 @@
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
 use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
-use super::edges::{Edge, EdgeCheck, PastPair};
+use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
 use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
 use super::faces::Faces;
 use super::locate::{Locator, Near, Rule};
 use super::neighbourhood::Found;
+use super::pairs::Pairs;
 use super::planes::PlanePoint;
 use super::points::Points;
 use super::setup::{ABSENT, Layout, Pairings};
@@ -56,6 +57,7 @@ pub struct Arena {
     rules: Vec<Rule>,
     history: Vec<[Past; TOUCHES]>,
     edge_history: Vec<PastPair>,
+    pairs: Pairs,
     planes: Vec<PlanePoint>,
     /// Constraints of this step.
     pub constraints: Vec<Constraint>,
@@ -95,11 +97,12 @@ impl Arena {
         };
         let local = |point: u32| place(&cast.points, point);
         let edges = cast.edges.iter().map(|&edge| {
-            let Edge { ends, faces } = layout.edges[edge as usize];
-            Edge { ends: ends.map(local), faces: faces.map(|face| place(&cast.faces, face)) }
+            let edge = layout.edges[edge as usize];
+            let faces = edge.faces.map(|face| place(&cast.faces, face));
+            Edge { ends: edge.ends.map(local), faces, ..edge }
         });
-        let edges = edges.collect();
-        let found = Found {
+        let edges: Vec<Edge> = edges.collect();
+        let mut found = Found {
             watched: found.watched.into_iter().map(local).collect(),
             first: found.first,
             near: found.near.into_iter().map(|near| Near { face: place(&cast.faces, near.face), ..near }).collect(),
@@ -108,6 +111,7 @@ impl Arena {
         let all = points + cast.ghosts.len();
         let values = Points::new(points);
         Arena {
+            pairs: Pairs::new(std::mem::take(&mut found.pairs), &edges),
             locator: Locator::new(found, depth, &values, &faces),
             points: values,
             edges,
@@ -135,7 +139,8 @@ impl Arena {
     }
 
     /// The candidates of the last search are replaced; history is kept of points that still have any.
-    pub fn renew(&mut self, found: Found, depth: f64) {
+    pub fn renew(&mut self, mut found: Found, depth: f64) {
+        self.pairs = Pairs::new(std::mem::take(&mut found.pairs), &self.edges);
         let mut watched = found.watched.iter().peekable();
         for (point, past) in self.history.iter_mut().enumerate() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
@@ -255,18 +260,28 @@ impl Arena {
 
     /// The check of every pair of edges that may cross.
     fn check_edges(&mut self, pairings: &Pairings) {
-        let Arena { points, faces, locator, edges, edge_history, constraints, .. } = self;
+        let Arena { points, faces, pairs, edges, edge_history, constraints, .. } = self;
+        pairs.step(points);
         let check = EdgeCheck { points, faces, edges };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
-        for &pair in locator.edge_pairs() {
+        for place in 0..pairs.list.len() {
+            if !pairs.is_due(place) {
+                continue;
+            }
+            let pair = pairs.list[place];
             let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
             let mut pairing = pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
             // Neither edge is the master.
             pairing.share = 0.5;
-            if let Some((now, constraint)) = check.pair(pair, past, pairing) {
-                edge_history.push(now);
-                constraints.push(constraint);
+            match check.pair(pair, past, pairing) {
+                Verdict::Touch(now, constraint) => {
+                    pairs.wait(place, 0.0);
+                    edge_history.push(now);
+                    constraints.push(*constraint);
+                }
+                Verdict::Near => pairs.wait(place, 0.0),
+                Verdict::Beside => pairs.wait(place, check.apart(pair)),
             }
         }
     }

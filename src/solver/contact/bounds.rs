@@ -20,14 +20,15 @@ impl Bounds {
     /// A box around the way from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> Bounds {
-        // The fourth numbers are there to make whole vectors; they keep nothing apart.
-        let single = |x: [f64; 3]| [x[0] as f32, x[1] as f32, x[2] as f32, 0.0];
+        // The fourth numbers only make whole vectors.
+        let single = |x: [f64; 3]| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
         let (start, end) = (single(start), single(end));
         let outwards = |x: f32| x - x.abs() * OUTWARDS - f32::MIN_POSITIVE;
         let mut bounds = [0.0; 8];
+        let (low, high) = bounds.split_at_mut(4);
         for i in 0..4 {
-            bounds[i] = outwards(smaller(start[i], end[i]));
-            bounds[4 + i] = outwards(smaller(-start[i], -end[i]));
+            low[i] = outwards(smaller(start[i], end[i]));
+            high[i] = outwards(smaller(-start[i], -end[i]));
         }
         Bounds(bounds)
     }

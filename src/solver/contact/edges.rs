@@ -1,8 +1,9 @@
 //! Edges against edges: two edges that cross meet where no node meets a face, as when a corner hits an edge.
 //!
-//! Only edges that stand out take part, those between faces that turn away from each other by more than a third of a
-//! right angle at the start or when erosion lays them bare. The check is that of nodes and faces: by motion for a pair that
-//! comes anew, where it would be at the end of the step for one that has touched before.
+//! Edges stand out between faces that turn away from each other by more than a third of a right angle. They meet each other,
+//! and the lines of the mesh in faces that are flat or nearly so, into which they would sink between the nodes. The check of
+//! the former is that of nodes and faces: by motion for a pair that comes anew, where it would be at the end of the step for
+//! one that has touched before.
 
 use super::cubic;
 use super::detect::FADE;
@@ -17,6 +18,9 @@ use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;
 
+/// The same at an edge that has stood out before: 20 degrees.
+const BLUNT: f64 = 0.94;
+
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
 const CROSSING: f64 = 0.05;
 
@@ -26,6 +30,62 @@ const KEEP: f64 = 0.01;
 /// Pairs that overlap by more than this part of an edge did not come through each other.
 const DEEP: f64 = 0.25;
 
+/// Part of a line's length scale by which an edge may sink in before the line answers. Where an edge lies on a face its nodes
+/// and those of the face hold it; only what sinks in between them is left to the lines, so that what rests is held once.
+const SLACK: f64 = 0.005;
+
+/// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
+const SUNK: f64 = 0.05;
+
+/// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
+const STEEP: f64 = 0.8;
+
+/// How the faces at an edge lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// They turn away from each other: the edge stands out.
+    StandsOut,
+    /// They go on with little or no bend: a line of the mesh, which meets only edges that stand out.
+    Line,
+    /// They fold towards each other, and are met before their edge, which takes no part.
+    Hollow,
+}
+
+/// Area normal and middle of a face.
+pub type Side = ([f64; 3], [f64; 3]);
+
+impl Shape {
+    /// A number for each.
+    pub fn code(self) -> u32 {
+        match self {
+            Shape::StandsOut => 0,
+            Shape::Line => 1,
+            Shape::Hollow => 2,
+        }
+    }
+
+    /// The shape of a number.
+    pub fn from_code(code: u32) -> Shape {
+        match code {
+            0 => Shape::StandsOut,
+            1 => Shape::Line,
+            _ => Shape::Hollow,
+        }
+    }
+
+    /// The shape of an edge between two faces. One that `stood_out` before does so a little longer, lest it come and go.
+    pub fn of((n, a): Side, (m, b): Side, stood_out: bool) -> Shape {
+        let least = if stood_out { BLUNT } else { SHARP };
+        if dot(n, m) >= least * (dot(n, n) * dot(m, m)).sqrt() {
+            Shape::Line
+        } else if dot(subtract(b, a), n) < 0.0 {
+            Shape::StandsOut
+        } else {
+            Shape::Hollow
+        }
+    }
+}
+
 /// An edge of the outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
@@ -33,12 +93,16 @@ pub struct Edge {
     pub ends: [u32; 2],
     /// The faces on both sides.
     pub faces: [u32; 2],
+    /// How the faces lie.
+    pub shape: Shape,
+    /// How they lie in the mesh.
+    pub in_mesh: Shape,
 }
 
 /// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PastPair {
-    /// The edges, ascending.
+    /// The edges: ascending where both stand out, else the line second.
     pub pair: [u32; 2],
     /// +1 or −1.
     pub sense: f64,
@@ -50,8 +114,15 @@ pub struct PastPair {
     pub drag: [f64; 3],
 }
 
-/// Edges of some faces that stand out, in ascending order of their ends.
-pub fn standing_out(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edge> {
+impl Edge {
+    /// Whether it stands out.
+    pub fn stands_out(&self) -> bool {
+        self.shape == Shape::StandsOut
+    }
+}
+
+/// Edges between two of some faces, in ascending order of their ends.
+pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * chosen.len());
     for &face in chosen {
         let corners = faces.corners[face as usize];
@@ -63,19 +134,34 @@ pub fn standing_out(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Ve
         }
     }
     sides.sort_unstable();
-    let corners = |face: u32| faces.corners[face as usize].map(|p| positions[p as usize]);
-    let sharp = |first: u32, second: u32| {
-        let (a, b) = (corners(first), corners(second));
-        let (n, m) = (area_normal(&a), area_normal(&b));
-        let lengths = (dot(n, n) * dot(m, m)).sqrt();
-        dot(n, m) < SHARP * lengths && dot(subtract(centre(&b), centre(&a)), n) < 0.0
-    };
+    let side = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
     (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| match same {
-            &[(ends, first), (_, second)] if sharp(first, second) => Some(Edge { ends, faces: [first, second] }),
+            &[(ends, first), (_, second)] => {
+                let shape = Shape::of(side(first), side(second), false);
+                Some(Edge { ends, faces: [first, second], shape, in_mesh: shape })
+            }
             _ => None,
         })
         .collect()
+}
+
+/// Area normal and middle of a face.
+pub fn side(corners: &[[f64; 3]; 4]) -> Side {
+    (area_normal(corners), centre(corners))
+}
+
+/// A pair in the order that its edges have now; `None` where they no longer meet.
+pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
+    let [a, b] = past.pair;
+    let swaps = match [a, b].map(|edge| edges[edge as usize].shape) {
+        [Shape::StandsOut, Shape::StandsOut] => a > b,
+        [Shape::StandsOut, Shape::Line] => false,
+        [Shape::Line, Shape::StandsOut] => true,
+        _ => return None,
+    };
+    // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
+    Some(if swaps { PastPair { pair: [b, a], drag: scaled(past.drag, -1.0), ..past } } else { past })
 }
 
 /// Where two edges are nearest to each other.
@@ -116,6 +202,26 @@ impl Crossing {
     }
 }
 
+/// What the check says of a pair.
+pub enum Verdict {
+    /// They touch.
+    Touch(PastPair, Box<Constraint>),
+    /// They do not, but an edge is so near a line that they may in the next step.
+    Near,
+    /// Neither, as far as was looked.
+    Beside,
+}
+
+/// Where an edge is, seen from a line.
+enum Glance {
+    /// They do not cross.
+    Beside,
+    /// It crosses on the outside, or hardly inside.
+    Above,
+    /// It has sunk in.
+    Below,
+}
+
 /// The check of edges against edges.
 pub struct EdgeCheck<'a> {
     /// Points.
@@ -143,8 +249,39 @@ impl EdgeCheck<'_> {
         Box3::around(&[a, b, c, d])
     }
 
+    /// How far apart the ways of two edges are along an axis, beyond where they are near; 0 where they are near.
+    pub fn apart(&self, pair: [u32; 2]) -> f64 {
+        let [a, b] = pair.map(|edge| self.way(edge));
+        let between = |i: usize| (b.low[i] - a.high[i]).max(a.low[i] - b.high[i]);
+        let margin = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
+        let rest = between(0).max(between(1)).max(between(2)) - margin[0].max(margin[1]);
+        if rest > 0.0 { rest } else { 0.0 }
+    }
+
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
-    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Verdict {
+        let found = if self.edges[pair[1] as usize].stands_out() {
+            self.standing_out(pair, past, pairing)
+        } else {
+            if past.is_none() {
+                match self.at_a_glance(pair) {
+                    Glance::Beside => return Verdict::Beside,
+                    Glance::Above => return Verdict::Near,
+                    Glance::Below => (),
+                }
+            }
+            self.on_line(pair, past, pairing)
+        };
+        found.map_or(Verdict::Beside, |(now, constraint)| Verdict::Touch(now, Box::new(constraint)))
+    }
+
+    /// Two edges that stand out.
+    fn standing_out(
+        &self,
+        pair: [u32; 2],
+        past: Option<&PastPair>,
+        pairing: Pairing,
+    ) -> Option<(PastPair, Constraint)> {
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
@@ -163,6 +300,77 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint(pair, &end, &now, gap, pairing)))
     }
 
+    /// Where an edge is at the end of the step, seen from a line: without a root or a quotient, since nearly all pairs on
+    /// bodies that rest on each other go no further.
+    fn at_a_glance(&self, pair: [u32; 2]) -> Glance {
+        let [a, b] = pair.map(|edge| self.end(edge));
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let product = cross(u, v);
+        let square = dot(product, product);
+        let within = |place: f64| place >= 0.0 && place <= square;
+        if !within(dot(cross(r, v), product)) || !within(dot(cross(r, u), product)) {
+            return Glance::Beside;
+        }
+        let (fall, slack) = (dot(r, product), SLACK * self.scale(pair[1]));
+        let up = || dot(product, area_normal(&self.faces.start(self.edges[pair[1] as usize].faces[0], self.points)));
+        let above = fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0);
+        if above { Glance::Above } else { Glance::Below }
+    }
+
+    /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
+    /// there, so motion need not be asked.
+    fn on_line(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+        let scale = self.scale(pair[1]);
+        if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
+            return None;
+        }
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
+        if !end.between_ends(0.0) {
+            return None;
+        }
+        let line = self.outwards(pair[1]);
+        let up = dot(end.normal, line);
+        let sense = up.signum();
+        let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
+        // The line looks out along the normal; pushed along it, the edge goes back into its own body.
+        if up * up <= STEEP * STEEP * dot(line, line) || sense * dot(end.normal, self.outwards(pair[0])) >= 0.0 {
+            return None;
+        }
+        let now = match past {
+            // To be pushed out would give it velocity: it is left where it is until it goes by itself.
+            Some(past) => PastPair { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
+            None => {
+                let before = self.gap_before(pair, &end, sense)?;
+                if gap >= tolerated || before <= -SUNK * scale {
+                    return None;
+                }
+                PastPair { pair, sense, allowed: before.min(tolerated), push: 0.0, drag: [0.0; 3] }
+            }
+        };
+        let beyond = gap - now.allowed;
+        if beyond > SLACK * scale || beyond < -DEEP * scale {
+            return None;
+        }
+        Some((now, self.constraint(pair, &end, &now, beyond, pairing)))
+    }
+
+    /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
+    fn gap_before(&self, pair: [u32; 2], end: &Crossing, sense: f64) -> Option<f64> {
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+        Some(dot(start.normal, end.normal).signum() * sense * start.gap)
+    }
+
+    /// Length that what sinks in at a line is small against: the size of the faces, or what half the element beneath allows.
+    fn scale(&self, line: u32) -> f64 {
+        scale(self.faces, &self.edges[line as usize])
+    }
+
+    /// Sum of the normals of the faces at an edge, at the beginning of the step.
+    fn outwards(&self, edge: u32) -> [f64; 3] {
+        let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.points)));
+        add(a, b)
+    }
+
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
         let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
@@ -171,12 +379,8 @@ impl EdgeCheck<'_> {
             return None;
         }
         let outwards = |sense: f64, normal: [f64; 3]| {
-            let out = |edge: u32| {
-                let [a, b] = self.edges[edge as usize].faces;
-                add(area_normal(&self.faces.start(a, self.points)), area_normal(&self.faces.start(b, self.points)))
-            };
             // Pushed along the normal, the first edge goes back into its own body.
-            sense * dot(normal, out(pair[0])) < 0.0 && sense * dot(normal, out(pair[1])) > 0.0
+            sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
         let touch = |sense, allowed| PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] };
@@ -233,7 +437,13 @@ impl EdgeCheck<'_> {
 
 /// How far around itself an edge looks for others.
 pub fn keep(faces: &Faces, edge: &Edge) -> f64 {
-    KEEP * faces.size[edge.faces[0] as usize]
+    if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
+}
+
+/// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.
+fn scale(faces: &Faces, line: &Edge) -> f64 {
+    let of = |face: u32| faces.size[face as usize].min(faces.depth[face as usize] / SUNK);
+    of(line.faces[0]).min(of(line.faces[1]))
 }
 
 /// Whether two edges may ever touch: they have no end in common and belong to different elements.

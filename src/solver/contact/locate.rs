@@ -68,7 +68,6 @@ pub struct Locator {
     /// Whether no step has been made yet.
     fresh: bool,
     capture_boxes: CaptureBoxes,
-    edge_pairs: Vec<[u32; 2]>,
 }
 
 /// What is to be expected of a watched point's candidates.
@@ -134,7 +133,6 @@ impl Locator {
             watched: found.watched,
             first: found.first,
             near: found.near,
-            edge_pairs: found.pairs,
             fresh: true,
             ..Default::default()
         }
@@ -159,11 +157,6 @@ impl Locator {
     /// Points that are watched or corners of candidates, ascending.
     pub fn moving(&self) -> &[u32] {
         &self.moving
-    }
-
-    /// Pairs of edges that may cross, ascending.
-    pub fn edge_pairs(&self) -> &[[u32; 2]] {
-        &self.edge_pairs
     }
 
     /// Points with candidates, ascending.

@@ -6,6 +6,7 @@
 
 mod arena;
 mod bounds;
+mod contract;
 mod cubic;
 pub mod detect;
 mod edges;
@@ -13,12 +14,17 @@ pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
+mod links;
 mod locate;
 mod neighbourhood;
 mod overlap;
+mod pairs;
 mod planes;
 pub mod points;
+mod regional;
 mod remote;
+mod reshape;
+mod routing;
 pub mod search;
 mod setup;
 mod sites;
@@ -33,7 +39,7 @@ use super::erosion::Erosion;
 use super::nodes::Nodes;
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
-use crate::model::{ContactSearch, Model, RigidSurface};
+use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
 use arena::{Arena, Cast, History, Setting};
 use detect::{NONE, Past, Touch};
 use edges::PastPair;
@@ -46,7 +52,7 @@ use search::{Search, SearchKind};
 use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
 
-pub use overlap::{Overlap, remove as remove_overlap};
+pub use overlap::{Left, Overlap, remove as remove_overlap};
 pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
@@ -66,6 +72,7 @@ pub struct Contact {
     /// Canonical numbers of the elements that are here, ascending.
     elements: Vec<u32>,
     search: Box<dyn Search>,
+    decomposition: ContactDecomposition,
     reach: Reach,
     planes: Vec<RigidSurface>,
     /// Mean size of the faces: what overlaps with planes are small against.
@@ -79,6 +86,8 @@ pub struct Contact {
     pub tally: Tally,
     /// Number of searches so far.
     searches: u64,
+    /// Number of steps so far.
+    age: u64,
     /// Watched points and pairs of the last search, of all ranks.
     counts: [u64; 2],
 }
@@ -140,6 +149,7 @@ impl Contact {
             remote: None,
             carried: None,
             search: kind(model.contact.control.search).make(),
+            decomposition: model.contact.control.decomposition,
             reach: reach(model, &layout),
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
@@ -148,6 +158,7 @@ impl Contact {
             lost_work: Vec::new(),
             tally: Tally::default(),
             searches: 0,
+            age: 0,
             counts: [0; 2],
             pairings: Pairings::new(mesh, model, body),
             elements: elements.to_vec(),
@@ -171,7 +182,7 @@ impl Contact {
             self.arena.restore(self.carried.take().unwrap_or_default());
         } else if comm.size() > 1 {
             let is_here = |face: u32| elements.binary_search(&(face / 6)).is_ok();
-            self.remote = Some(Remote::new(layout, &self.sites, is_here, comm));
+            self.remote = Some(Remote::new((layout, &self.sites), self.decomposition, is_here, comm));
         }
     }
 
@@ -180,6 +191,7 @@ impl Contact {
         let history = self.carried.take().unwrap_or_else(|| self.arena.history());
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        reshape::take_over(&mut self.layout, &old);
         let old_sites = std::mem::take(&mut self.sites);
         let new = &self.layout;
         self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
@@ -205,7 +217,8 @@ impl Contact {
     ) {
         self.sites.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
-        if !self.layout.interfaces.is_empty() && self.expired(comm) {
+        let reshaped = self.reshape(comm);
+        if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
             self.search(comm);
         }
         comm.enter(Traffic::ContactMotion);
@@ -221,7 +234,7 @@ impl Contact {
         comm.enter(Traffic::ContactMotion);
         let Contact { sites, arena, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_answers(sites, arena, comm),
+            Some(remote) => remote.send_forces(sites, arena, comm),
             None => {
                 std::mem::swap(&mut arena.points, &mut sites.points);
                 sites.pushed.clone_from(&arena.pushed);
@@ -231,6 +244,15 @@ impl Contact {
             }
         }
         sites.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
+    }
+
+    /// Brings what [`Contact::node_values`] and [`Contact::plane_forces`] tell beside forces to the nodes; before them,
+    /// and all ranks call it.
+    pub fn complete(&mut self, comm: &mut dyn Communicator) {
+        let Contact { sites, arena, remote, .. } = self;
+        if let Some(remote) = remote {
+            remote.send_rest(sites, arena, comm);
+        }
     }
 
     /// Whether any rank needs a search.
@@ -338,7 +360,7 @@ impl Contact {
         (!self.layout.interfaces.is_empty()).then_some(Report {
             points: self.layout.nodes.len(),
             faces: self.layout.faces.len(),
-            edges: self.layout.edges.len(),
+            edges: self.layout.edges.iter().filter(|edge| edge.stands_out()).count(),
             watched,
             pairs,
             searches: self.searches,
@@ -366,15 +388,13 @@ fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
         NONE => past,
         face => Past { face: new.face(old.faces.number[face as usize]), ..past },
     };
-    let edge = |edge: u32| {
-        let ends = old.edges[edge as usize].ends.map(point);
-        new.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
-    };
+    let edge = |edge: u32| new.edge(old.edges[edge as usize].ends.map(|point| old.nodes[point as usize]));
     let points = history.points.into_iter().map(|(p, pasts)| (point(p), pasts.map(face)));
     let edges = history
         .edges
         .into_iter()
-        .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }));
+        .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }))
+        .filter_map(|past| edges::in_order(past, &new.edges));
     History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
         edges: edges.collect(),

@@ -32,7 +32,7 @@ pub struct Found {
     pub first: Vec<u32>,
     /// Candidates, faces ascending.
     pub near: Vec<Near>,
-    /// Pairs of edges that may cross, ascending.
+    /// Pairs of edges that may cross, ascending; the first stands out, and has the lower number where both do.
     pub pairs: Vec<[u32; 2]>,
 }
 
@@ -62,10 +62,10 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &Sit
     all
 }
 
-/// Boxes of some edges, whose ends are sites.
+/// Boxes of those of some edges that take part, whose ends are sites.
 pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
     let mut all = Boxes::default();
-    for edge in edges {
+    for edge in edges.filter(|&edge| layout.takes_part(edge)) {
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| sites.of(end));
         let of = of.fold(Box3::empty(), |all, site| all.joined(&around(sites, site)));
@@ -142,14 +142,17 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
     if edges.ids.is_empty() {
         return Vec::new();
     }
-    let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if mine(edge) { *of } else { Box3::empty() });
+    let stands_out = |edge: u32| layout.edges[edge as usize].stands_out();
+    let asks = |edge: u32| mine(edge) && stands_out(edge);
+    let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if asks(edge) { *of } else { Box3::empty() });
     let own: Vec<Box3> = own.collect();
     let selves: Vec<[u32; 4]> = (0..own.len() as u32).map(|edge| [edge; 4]).collect();
     let mut found = Candidates::default();
     search.find(&own, &edges.boxes, &selves, &mut found);
     let mut pairs = Vec::new();
     for (place, &first) in edges.ids.iter().enumerate() {
-        let others = found.of(place).iter().map(|&other| edges.ids[other as usize]).filter(|&other| other > first);
+        let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);
+        let others = others.filter(|&other| other > first || !stands_out(other));
         let one = &layout.edges[first as usize];
         let strangers = others.filter(|&other| edges::strangers(one, &layout.edges[other as usize], &layout.faces));
         pairs.extend(strangers.map(|second| [first, second]));

@@ -2,32 +2,69 @@
 
 use super::detect::{Check, UNTOUCHED};
 use super::enforce::{Alone, Enforcer, Limits};
+use super::face;
 use super::locate::{Locator, Near};
 use super::neighbourhood::{self, Boxes};
 use super::points::Points;
-use super::search::SearchKind;
-use super::setup::{Layout, Pairings, Skin};
+use super::search::{Box3, Candidates, SearchKind};
+use super::setup::{ABSENT, Layout, Pairings, Skin};
 use super::sites::Sites;
-use crate::mesh::Mesh;
+use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::Model;
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
-use crate::solver::nodes::{add, dot, subtract};
+use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 use std::sync::Arc;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;
 
+/// A point nearer to an outer face than this part of half the element touches it.
+const CLEARLY: f64 = 0.01;
+
+/// Of so many nodes that are left inside elements the depth is measured.
+const MEASURED: usize = 1000;
+
 /// Rounds of finding overlaps and moving nodes: what moves may overlap elsewhere.
 const ROUNDS: usize = 10;
 
-/// What was moved.
+/// What was moved, and what was not.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Overlap {
     /// Number of nodes moved.
     pub nodes: usize,
     /// Farthest move, a length.
     pub farthest: f64,
+    /// What is left.
+    pub left: Left,
+}
+
+/// Nodes that remain inside elements that are not theirs: too deep to say which way is out. Contact does not see them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Left {
+    /// Their number.
+    pub nodes: usize,
+    /// Distance of the deepest from the nearest face of the outside, a length.
+    pub deepest: f64,
+    /// The deepest, from 0 in the mesh file.
+    pub node: u32,
+    /// The element in which it is, from 0 in the mesh file.
+    pub element: u32,
+}
+
+impl Left {
+    /// Tells the user, where there are any.
+    pub fn warning(&self, mesh: &Mesh) -> Option<String> {
+        let Left { nodes, deepest, node, element } = *self;
+        let [x, y, z] = mesh.coordinates.get(node as usize)?;
+        (nodes > 0).then(|| {
+            format!(
+                "warning: {nodes} nodes of contact surfaces begin deep inside other elements and are not held by contact there, \
+                 the deepest {deepest:.4e} below the surface: node {} at {x:.4e} {y:.4e} {z:.4e} in element {}",
+                mesh.node_ids[node as usize], mesh.element_ids[element as usize]
+            )
+        })
+    }
 }
 
 /// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition.
@@ -59,7 +96,109 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
                 add(points.start[point], enforcer.change(point, &points, still.kick));
         }
     }
-    moved(mesh, body, &layout)
+    Overlap { left: left(body, &layout), ..moved(mesh, body, &layout) }
+}
+
+/// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
+fn left(body: &Body, layout: &Layout) -> Left {
+    let Some(automatic) = layout.automatic() else { return Left::default() };
+    let mut blocks: Vec<u32> = automatic.faces.iter().map(|&face| layout.faces.block[face as usize]).collect();
+    blocks.sort_unstable();
+    blocks.dedup();
+    let all = 0..body.element_nodes.len() as u32;
+    let elements: Vec<u32> = all.filter(|&e| blocks.binary_search(&body.element_block[e as usize]).is_ok()).collect();
+    let corners = |element: u32| body.element_nodes[element as usize].map(|node| body.positions[node as usize]);
+    let boxes: Vec<Box3> = elements.iter().map(|&element| Box3::around(&corners(element))).collect();
+    let at = |point: usize| body.positions[layout.nodes[point] as usize];
+    let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };
+    let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
+    let mut candidates = Candidates::default();
+    SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
+    let mut left = Left::default();
+    let mut bodies: Option<Vec<u32>> = None;
+    for (point, &node) in layout.nodes.iter().enumerate() {
+        let near = candidates.of(point).iter().map(|&place| elements[place as usize]);
+        let holds = |&element: &u32| {
+            !body.element_nodes[element as usize].contains(&node) && is_inside(&corners(element), at(point))
+        };
+        let held: Vec<u32> = near.filter(holds).collect();
+        let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, at(point)));
+        let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
+        left.nodes += 1;
+        // A great number says enough: the depth of those that come first.
+        if left.nodes <= MEASURED {
+            let bodies = bodies.get_or_insert_with(|| bodies_of(body));
+            let inside = bodies[body.element_nodes[element as usize][0] as usize];
+            let of_body = |face: u32| {
+                let corner = layout.faces.corners[face as usize][0];
+                bodies[layout.nodes[corner as usize] as usize] == inside
+            };
+            let faces = automatic.faces.iter().copied().filter(|&face| of_body(face));
+            let depth = depth(body, layout, faces, at(point));
+            if depth > left.deepest {
+                left = Left { deepest: depth, node, element: body.element_order[element as usize], ..left };
+            }
+        }
+    }
+    left
+}
+
+/// Whether a point in an element is on one of its outer faces rather than behind it.
+fn touches_a_side(body: &Body, layout: &Layout, element: u32, point: [f64; 3]) -> bool {
+    let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
+    let gap =
+        |face: u32| face::stand(&corners_of(body, layout, face), point).map_or(f64::NEG_INFINITY, |stand| stand.gap);
+    faces.into_iter().any(|face| gap(face) > -CLEARLY * layout.faces.depth[face as usize])
+}
+
+fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
+    layout.faces.corners[face as usize].map(|corner| body.positions[layout.nodes[corner as usize] as usize])
+}
+
+/// For each node one of its body's: elements that share nodes are one body.
+fn bodies_of(body: &Body) -> Vec<u32> {
+    fn root(parent: &mut [u32], mut node: u32) -> u32 {
+        while parent[node as usize] != node {
+            parent[node as usize] = parent[parent[node as usize] as usize];
+            node = parent[node as usize];
+        }
+        node
+    }
+    let mut parent: Vec<u32> = (0..body.positions.len() as u32).collect();
+    for nodes in body.element_nodes.iter() {
+        let first = root(&mut parent, nodes[0]);
+        for &node in &nodes[1..] {
+            let other = root(&mut parent, node);
+            parent[other as usize] = first;
+        }
+    }
+    (0..body.positions.len() as u32).map(|node| root(&mut parent, node)).collect()
+}
+
+/// Distance of a point to the nearest of some faces behind which it is.
+fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
+    let behind = |face: u32| {
+        let stand = face::stand(&corners_of(body, layout, face), point)?;
+        (stand.gap < 0.0 && stand.outside <= -stand.gap).then(|| stand.gap.hypot(stand.outside))
+    };
+    let nearest = faces.filter_map(behind).fold(f64::INFINITY, f64::min);
+    if nearest.is_finite() { nearest } else { 0.0 }
+}
+
+/// Whether a point is inside a hexahedron: in one of the tetrahedra that join its middle with the four triangles of each side.
+fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
+    let middle = corners.iter().fold([0.0; 3], |sum, corner| add(sum, scaled(*corner, 0.125)));
+    let volume = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| dot(a, cross(b, c));
+    HEX_SIDES.iter().any(|side| {
+        let side = side.map(|corner| subtract(corners[corner], middle));
+        let (centre, r) = (face::centre(&side), subtract(point, middle));
+        (0..4).any(|i| {
+            let (a, b) = (side[i], side[(i + 1) % 4]);
+            let whole = volume(centre, a, b);
+            let parts = [volume(r, a, b), volume(centre, r, b), volume(centre, a, r)].map(|part| part / whole);
+            whole > 0.0 && parts.iter().all(|part| *part >= 0.0) && parts.iter().sum::<f64>() <= 1.0
+        })
+    })
 }
 
 /// Inverse masses; none in directions that the deck holds.
@@ -114,6 +253,6 @@ fn moved(mesh: &Mesh, body: &Body, layout: &Layout) -> Overlap {
     layout.nodes.iter().fold(Overlap::default(), |sum, &node| {
         let way = subtract(body.positions[node as usize], mesh.coordinates[node as usize]);
         let length = dot(way, way).sqrt();
-        Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length) }
+        Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length), ..sum }
     })
 }

@@ -26,20 +26,25 @@ pub struct Points {
 struct Longest {
     ways: [f64; 3],
     /// Not a number where a way is not one or has no end, else zero.
-    poison: f64,
+    poison: [f64; 3],
 }
 
 impl Longest {
     #[inline(always)]
     fn take(&mut self, [before, start, end]: [&[f64; 3]; 3], counts: u64) {
-        let larger = |a: f64, b: f64| if a > b { a } else { b };
         for i in 0..3 {
             let way = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
             let way = f64::from_bits(way.to_bits() & counts);
-            self.poison += way - way;
+            self.poison[i] += 0.0 * way;
             self.ways[i] = larger(way, self.ways[i]);
         }
     }
+}
+
+/// The larger of two numbers; what is none has no say where it comes first.
+#[inline(always)]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 impl Points {
@@ -80,16 +85,19 @@ impl Points {
         self.ways[point] = Bounds::around(start, end);
     }
 
-    /// Puts all points where they are, each with its velocity, and lets them go their ways.
-    pub fn set_all(&mut self, motions: impl Iterator<Item = ([f64; 3], [f64; 3])>) {
-        let (drift, mut longest) = (self.drift, self.longest);
+    /// Puts all points where they are, each with its velocity, and lets them go their ways. The largest of the third
+    /// numbers.
+    pub fn set_all(&mut self, motions: impl Iterator<Item = ([f64; 3], [f64; 3], f64)>) -> f64 {
+        let (drift, mut longest, mut largest) = (self.drift, self.longest, f64::NEG_INFINITY);
         let places = self.start.iter_mut().zip(&mut self.velocity).zip(&mut self.ways).zip(&self.counts);
-        for ((((place, way_velocity), way), &counts), (start, velocity)) in places.zip(motions) {
+        for ((((place, way_velocity), way), &counts), (start, velocity, number)) in places.zip(motions) {
             let end = add(start, scaled(velocity, drift));
             longest.take([place, &start, &end], counts);
+            largest = larger(number, largest);
             (*place, *way_velocity, *way) = (start, velocity, Bounds::around(start, end));
         }
         self.longest = longest;
+        largest
     }
 
     /// Chooses the points that count in the longest way.
@@ -102,7 +110,7 @@ impl Points {
     pub fn longest_way(&self) -> f64 {
         let Longest { ways: [x, y, z], poison } = self.longest;
         // A way that is not a number leaves nobody at rest.
-        if poison == 0.0 { x.max(y).max(z) } else { f64::INFINITY }
+        if poison == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
     }
 
     /// Position at the end of the step without contact.

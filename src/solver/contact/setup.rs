@@ -1,11 +1,11 @@
 //! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
 
-use super::edges::{self, Edge};
+use super::edges::{self, Edge, Shape};
 use super::faces::Faces;
 use super::locate::{Interface, Rule};
 use super::surface::{Surface, face_nodes};
 use crate::mesh::Mesh;
-use crate::model::{Contact, ContactMaterials, Friction, Model};
+use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
 use crate::solver::Body;
 use std::sync::Arc;
 
@@ -82,14 +82,31 @@ pub struct Layout {
     pub faces: Arc<Faces>,
     /// Interfaces; explicit pairs first.
     pub interfaces: Vec<Interface>,
-    /// Edges that stand out, of the faces that CONTACT MATERIAL lets touch.
+    /// Edges of the faces that CONTACT MATERIAL lets touch, ascending; none where edges touch nothing.
     pub edges: Vec<Edge>,
+    /// Whether lines of the mesh meet edges that stand out.
+    pub lines: bool,
 }
 
 impl Layout {
     /// The interface of CONTACT MATERIAL.
     pub fn automatic(&self) -> Option<&Interface> {
         self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
+    }
+
+    /// Whether an edge may touch others.
+    pub fn takes_part(&self, edge: u32) -> bool {
+        match self.edges[edge as usize].shape {
+            Shape::StandsOut => true,
+            Shape::Line => self.lines,
+            Shape::Hollow => false,
+        }
+    }
+
+    /// The edge between two nodes of the mesh.
+    pub fn edge(&self, nodes: [u32; 2]) -> Option<u32> {
+        let ends = nodes.map(|node| self.point(node));
+        self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
     }
 
     /// The point of a node of the mesh, or [`ABSENT`].
@@ -116,8 +133,8 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
-    /// Whether edges may touch edges.
-    edges_wanted: bool,
+    /// Which edges may touch edges.
+    edges_wanted: ContactEdges,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
     pub(super) free: Vec<(u32, u32)>,
 }
@@ -167,7 +184,7 @@ impl Skin {
         nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
         nodes.sort_unstable();
         nodes.dedup();
-        let mut layout = Layout { nodes, ..Default::default() };
+        let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         let points = layout.nodes.len();
         let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
         layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));
@@ -179,10 +196,9 @@ impl Skin {
             layout.point_block[point] = block;
         }
         layout.interfaces = self.interfaces(&layout, &automatic);
-        // As sharp as they are in the mesh.
-        if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted) {
+        if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
-            layout.edges = edges::standing_out(&automatic.faces, &layout.faces, &positions);
+            layout.edges = edges::between(&automatic.faces, &layout.faces, &positions);
         }
         layout
     }

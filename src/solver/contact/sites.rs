@@ -1,6 +1,6 @@
 //! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
 
-use super::points::Points;
+use super::points::{Points, larger};
 use super::setup::ABSENT;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, dot};
@@ -18,6 +18,12 @@ pub struct Site {
 
 /// What contact says about a site: normal force, friction force, gap, status, face, force of rigid planes.
 pub const ANSWER: usize = 12;
+
+/// How many of these are forces on the site, and come first.
+pub const FORCES: usize = 6;
+
+/// Which of these is the status; 0 where nothing pushes.
+pub const STATUS: usize = 7;
 
 /// Points of this rank, in the order of their numbers.
 #[derive(Debug, Clone, Default)]
@@ -91,22 +97,20 @@ impl Sites {
         // Nothing is away from what is not a number.
         self.reference.resize(self.list.len(), [f64::NAN; 3]);
         self.allowance.resize(self.list.len(), 0.0);
-        let mut away = false;
         let sites = self.list.iter().zip(self.reference.iter().zip(&self.allowance));
         self.points.begin(step.drift);
-        self.points.set_all(sites.map(|(site, (reference, &allowance))| {
+        let beyond = self.points.set_all(sites.map(|(site, (reference, &allowance))| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
             let start = [row[0], row[1], row[2]];
             let predicted = |axis: usize| row[4 + axis] + step.kick * (force[axis] * row[7]);
             let velocity = [predicted(0), predicted(1), predicted(2)];
-            for axis in 0..3 {
+            let away = |axis: usize| {
                 let end = start[axis] + velocity[axis] * step.drift;
-                away |= (start[axis] - reference[axis]).abs() > allowance;
-                away |= (end - reference[axis]).abs() > allowance;
-            }
-            (start, velocity)
+                larger((start[axis] - reference[axis]).abs(), (end - reference[axis]).abs())
+            };
+            (start, velocity, larger(away(0), larger(away(1), away(2))) - allowance)
         }));
-        self.expired = away || !searched;
+        self.expired = beyond > 0.0 || !searched;
     }
 
     /// Gives every site a new box: as far as it would go in `steps` of the present one, but at least `least`.

@@ -6,7 +6,7 @@
 
 use super::arena::History;
 use super::detect::{NONE, Past, UNTOUCHED};
-use super::edges::PastPair;
+use super::edges::{PastPair, Shape};
 use super::setup::Layout;
 use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
@@ -17,6 +17,8 @@ use crate::solver::nodes::Nodes;
 const TOUCH: usize = 9;
 /// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, force.
 const PAIR: usize = 10;
+/// Columns of an edge: its nodes, its shape.
+const SHAPE: usize = 3;
 /// Columns of a point that a plane pushes: node, number of the plane, force.
 const PLANE: usize = 6;
 /// Columns of a point's work: node, work of normal forces, work of friction.
@@ -35,6 +37,7 @@ impl Contact {
             lost_work: _,
             tally: Tally { steps, passes, capped, left },
             searches,
+            age,
             skin,
             // Made anew by `take_up`, from the surface as it is.
             layout,
@@ -50,6 +53,7 @@ impl Contact {
             planes: _,
             mean_size: _,
             limits: _,
+            decomposition: _,
         } = self;
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
@@ -58,6 +62,7 @@ impl Contact {
             archive.count("CONTCAPPED", capped);
             archive.number("CONTLEFT", left);
             archive.count("CONTSEARCHES", searches);
+            archive.count("CONTAGE", age);
         }
         // Every rank knows all free nodes.
         let first = archive.comm().rank() == 0;
@@ -70,6 +75,7 @@ impl Contact {
             self.skin.free = free.chunks_exact(2).map(|row| (row[0] as u32, row[1] as u32)).collect();
             self.take_up(dead, erosion, nodes, archive);
         }
+        self.visit_shapes(archive);
         self.visit_history(archive);
         self.visit_works(archive);
     }
@@ -84,6 +90,27 @@ impl Contact {
         let new = &self.layout;
         self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
         self.meet(|node| erosion.local()[node as usize], nodes, archive.comm());
+    }
+
+    /// Edges that do not have the shape of the mesh any more.
+    fn visit_shapes(&mut self, archive: &mut dyn Archive) {
+        let mut rows: Vec<f64> = Vec::new();
+        // Every rank knows all of them.
+        if archive.comm().rank() == 0 {
+            for edge in self.layout.edges.iter().filter(|edge| edge.shape != edge.in_mesh) {
+                rows.extend(edge.ends.map(|point| f64::from(self.layout.nodes[point as usize])));
+                rows.push(f64::from(edge.shape.code()));
+            }
+        }
+        archive.list("CONTSHAPES", SHAPE, &mut rows);
+        if !archive.loading() {
+            return;
+        }
+        for row in rows.chunks_exact(SHAPE) {
+            if let Some(edge) = self.layout.edge([row[0] as u32, row[1] as u32]) {
+                self.layout.edges[edge as usize].shape = Shape::from_code(row[2] as u32);
+            }
+        }
     }
 
     /// What touches, in the arena or on its way to the next.
@@ -158,10 +185,7 @@ impl Contact {
         if !archive.loading() {
             return Vec::new();
         }
-        let edge = |ends: [f64; 2]| {
-            let ends = ends.map(|node| self.layout.point(node as u32));
-            self.layout.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
-        };
+        let edge = |ends: [f64; 2]| self.layout.edge(ends.map(|node| node as u32));
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
             Some(PastPair { pair, sense: row[4], allowed: row[5], push: row[6], drag: [row[7], row[8], row[9]] })

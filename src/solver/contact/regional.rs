@@ -1,0 +1,87 @@
+//! What each rank gets for its search: points at their homes, and all faces and edges that these may meet.
+
+use super::neighbourhood::{self, Boxes};
+use super::search::Box3;
+use super::setup::Layout;
+use super::sites::Sites;
+use crate::comm::Communicator;
+use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
+
+/// What has come to this rank for its search.
+pub struct Regional {
+    pub points: Boxes,
+    pub faces: Boxes,
+    pub edges: Boxes,
+    pub own_edges: Vec<u32>,
+    /// Homes of the corners of each face.
+    pub face_homes: Vec<[u32; 4]>,
+    /// Homes of the ends of each edge.
+    pub edge_homes: Vec<[u32; 2]>,
+}
+
+impl Regional {
+    /// Sends points to their homes, and faces and edges to every home whose points they may meet. `faces` and `edges`
+    /// are those of elements that are here. All ranks call it.
+    pub fn gather(
+        (faces, edges): (&[u32], &[u32]),
+        layout: &Layout,
+        sites: &Sites,
+        comm: &mut dyn Communicator,
+    ) -> Regional {
+        let size = comm.size();
+        let home = |point: u32| f64::from(sites.of(point).map_or(0, |site| sites.homes[site]));
+        let own = neighbourhood::point_boxes(sites);
+        let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, sites);
+        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, sites);
+        let [mut to_home, mut edges_to_home] = [6, 6].map(|width| Parcels::new(size, width));
+        for (&point, of) in own.ids.iter().zip(&own.boxes) {
+            to_home.add(home(point) as u32, point, &flat(of));
+        }
+        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
+            edges_to_home.add(home(layout.edges[edge as usize].ends[0]) as u32, edge, &flat(of));
+        }
+        let (points, _) = sorted(to_home.exchange(comm));
+        let (own_edges, _) = sorted(edges_to_home.exchange(comm));
+        let all = points.boxes.iter().chain(&own_edges.boxes).filter(|of| of.is_sound());
+        let all = all.fold(Box3::empty(), |all, one| all.joined(one));
+        let regions = Regions::gather(all.low, all.high, comm);
+        let [mut face_parcels, mut edge_parcels] = [10, 8].map(|width| Parcels::new(size, width));
+        let mut ranks = Vec::new();
+        for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
+            regions.ranks_meeting(of.low, of.high, &mut ranks);
+            let values = [&flat(of)[..], &layout.faces.corners[face as usize].map(home)].concat();
+            ranks.iter().for_each(|&rank| face_parcels.add(rank, face, &values));
+        }
+        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
+            regions.ranks_meeting(of.low, of.high, &mut ranks);
+            let values = [&flat(of)[..], &layout.edges[edge as usize].ends.map(home)].concat();
+            ranks.iter().for_each(|&rank| edge_parcels.add(rank, edge, &values));
+        }
+        let (faces, face_homes) = sorted(face_parcels.exchange(comm));
+        let (edges, edge_homes) = sorted(edge_parcels.exchange(comm));
+        Regional {
+            points,
+            faces,
+            edges,
+            own_edges: own_edges.ids,
+            face_homes: face_homes.chunks_exact(4).map(|v| [0, 1, 2, 3].map(|i| v[i] as u32)).collect(),
+            edge_homes: edge_homes.chunks_exact(2).map(|v| [0, 1].map(|i| v[i] as u32)).collect(),
+        }
+    }
+}
+
+fn flat(of: &Box3) -> [f64; 6] {
+    let ([a, b, c], [d, e, f]) = (of.low, of.high);
+    [a, b, c, d, e, f]
+}
+
+/// Boxes that have come, by number, and the numbers behind each box.
+fn sorted(records: Records) -> (Boxes, Vec<f64>) {
+    let (mut boxes, mut rest) = (Boxes::default(), Vec::new());
+    for i in records.by_id() {
+        let v = records.values(i as usize);
+        boxes.push(records.ids[i as usize], Box3 { low: [v[0], v[1], v[2]], high: [v[3], v[4], v[5]] });
+        rest.extend_from_slice(&v[6..]);
+    }
+    (boxes, rest)
+}

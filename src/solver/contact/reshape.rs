@@ -1,0 +1,109 @@
+//! Edges that come to stand out as the surface folds, and those that fold back.
+//!
+//! Looked at every so many steps of the run, whenever searches are made: results do not depend on the search. All ranks keep
+//! the same table of shapes; each looks at the edges whose first face it has, and tells the others what has changed.
+
+use super::Contact;
+use super::edges::{self, Shape, Side};
+use super::setup::Layout;
+use crate::comm::{Communicator, numbers_of_others};
+use crate::partition::dynamic::Parcels;
+use std::collections::BTreeMap;
+
+/// Steps after which edges are looked at again. A fold takes hundreds.
+const EVERY: u64 = 100;
+
+/// Number of shapes.
+const SHAPES: u32 = 3;
+
+impl Contact {
+    /// Counts the step, and when it is time looks which edges stand out now. Whether any has changed: history is then on its
+    /// way, and all ranks must search. All ranks call it, with the present positions in the sites.
+    pub(super) fn reshape(&mut self, comm: &mut dyn Communicator) -> bool {
+        self.age += 1;
+        if self.layout.edges.is_empty() || !self.age.is_multiple_of(EVERY) {
+            return false;
+        }
+        let mut changed = self.changes(comm);
+        if self.remote.is_some() {
+            let others = numbers_of_others(&changed, comm);
+            changed.extend(others.into_iter().flat_map(|(_, numbers)| numbers));
+        }
+        if changed.is_empty() {
+            return false;
+        }
+        for change in changed {
+            self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
+        }
+        let mut history = self.carried.take().unwrap_or_else(|| self.arena.history());
+        history.edges =
+            history.edges.into_iter().filter_map(|past| edges::in_order(past, &self.layout.edges)).collect();
+        self.carried = Some(history);
+        true
+    }
+
+    /// Edges whose first face is here and that have another shape now, with the code of it: edge x [`SHAPES`] + code.
+    fn changes(&self, comm: &mut dyn Communicator) -> Vec<u32> {
+        let elsewhere = self.sides_elsewhere(comm);
+        let mut changed = Vec::new();
+        for (edge, number) in self.layout.edges.iter().zip(0u32..) {
+            let Some(first) = self.side(edge.faces[0]) else { continue };
+            let Some(second) = self.side(edge.faces[1]).or_else(|| elsewhere.get(&number).copied()) else { continue };
+            let shape = Shape::of(first, second, edge.stands_out());
+            if shape != edge.shape {
+                changed.push(SHAPES * number + shape.code());
+            }
+        }
+        changed
+    }
+
+    /// A face of an element that is here, as it is now.
+    fn side(&self, face: u32) -> Option<Side> {
+        let element = self.layout.faces.number[face as usize] / 6;
+        // On one rank every element is here.
+        if self.remote.is_some() {
+            self.elements.binary_search(&element).ok()?;
+        }
+        let mut corners = [[0.0; 3]; 4];
+        for (corner, &point) in corners.iter_mut().zip(&self.layout.faces.corners[face as usize]) {
+            *corner = self.sites.points.start[self.sites.of(point)?];
+        }
+        Some(edges::side(&corners))
+    }
+
+    /// Second faces of edges whose first face is here and that are themselves on another rank.
+    fn sides_elsewhere(&self, comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
+        let Some(remote) = &self.remote else { return BTreeMap::new() };
+        let rank = comm.rank() as u32;
+        let mut parcels = Parcels::new(comm.size(), 6);
+        for (edge, number) in self.layout.edges.iter().zip(0u32..) {
+            let holders = remote.holders(edge.ends[0]);
+            if holders.len() < 2 || self.side(edge.faces[0]).is_some() {
+                continue;
+            }
+            if let Some(([a, b, c], [d, e, f])) = self.side(edge.faces[1]) {
+                let others = holders.iter().filter(|&&holder| holder != rank);
+                others.for_each(|&holder| parcels.add(holder, number, &[a, b, c, d, e, f]));
+            }
+        }
+        let records = parcels.exchange(comm);
+        let side = |v: &[f64]| ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+        (0..records.len()).map(|i| (records.ids[i], side(records.values(i)))).collect()
+    }
+}
+
+/// Gives edges that have been there before, between the same faces, the shape that they had.
+pub fn take_over(new: &mut Layout, old: &Layout) {
+    let shapes: Vec<Option<Shape>> = new
+        .edges
+        .iter()
+        .map(|edge| {
+            let before = &old.edges[old.edge(edge.ends.map(|point| new.nodes[point as usize]))? as usize];
+            let numbers = |layout: &Layout, faces: [u32; 2]| faces.map(|face| layout.faces.number[face as usize]);
+            (numbers(old, before.faces) == numbers(new, edge.faces)).then_some(before.shape)
+        })
+        .collect();
+    for (edge, shape) in new.edges.iter_mut().zip(shapes) {
+        edge.shape = shape.unwrap_or(edge.shape);
+    }
+}

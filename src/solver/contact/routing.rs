@@ -1,0 +1,65 @@
+//! History on its way: at a search it follows each point to its new home.
+
+use super::arena::History;
+use super::detect::{NONE, Past, TOUCHES, UNTOUCHED};
+use super::edges::PastPair;
+use super::planes::PlanePoint;
+use crate::comm::Communicator;
+use crate::partition::dynamic::Parcels;
+
+/// Numbers that tell what a point touches.
+const PASTS: usize = 6 * TOUCHES;
+
+/// Sends every part of a history to the `rank` of its point; `end_of` gives a point of an edge. All ranks call it.
+pub fn route(
+    history: History,
+    rank: impl Fn(u32) -> u32,
+    end_of: impl Fn(u32) -> u32,
+    watches: &[PlanePoint],
+    comm: &mut dyn Communicator,
+) -> History {
+    let size = comm.size();
+    let [mut points, mut edges, mut planes] = [PASTS, 7, 4].map(|width| Parcels::new(size, width));
+    for (point, pasts) in &history.points {
+        let values: Vec<f64> = pasts.iter().flat_map(|past| pack_past(*past)).collect();
+        points.add(rank(*point), *point, &values);
+    }
+    for past in &history.edges {
+        let [x, y, z] = past.drag;
+        let values = [f64::from(past.pair[1]), past.sense, past.allowed, past.push, x, y, z];
+        edges.add(rank(end_of(past.pair[0])), past.pair[0], &values);
+    }
+    for (number, push, [x, y, z]) in &history.planes {
+        planes.add(rank(watches[*number as usize].point), *number, &[*push, *x, *y, *z]);
+    }
+    let mut come = History::default();
+    let records = points.exchange(comm);
+    for i in 0..records.len() {
+        let mut pasts = UNTOUCHED;
+        pasts.iter_mut().zip(records.values(i).chunks_exact(6)).for_each(|(past, v)| *past = unpack_past(v));
+        come.points.push((records.ids[i], pasts));
+    }
+    let records = edges.exchange(comm);
+    come.edges.extend((0..records.len()).map(|i| {
+        let v = records.values(i);
+        let pair = [records.ids[i], v[0] as u32];
+        PastPair { pair, sense: v[1], allowed: v[2], push: v[3], drag: [v[4], v[5], v[6]] }
+    }));
+    let records = planes.exchange(comm);
+    come.planes.extend((0..records.len()).map(|i| {
+        let v = records.values(i);
+        (records.ids[i], v[0], [v[1], v[2], v[3]])
+    }));
+    come
+}
+
+fn pack_past(past: Past) -> [f64; 6] {
+    let [x, y, z] = past.drag;
+    // The mark of no face is beyond all faces and exact in a double.
+    [f64::from(past.face), past.allowed, past.push, x, y, z]
+}
+
+fn unpack_past(v: &[f64]) -> Past {
+    let face = v[0] as u32;
+    Past { face: if face == u32::MAX { NONE } else { face }, allowed: v[1], push: v[2], drag: [v[3], v[4], v[5]] }
+}
