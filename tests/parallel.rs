@@ -90,7 +90,7 @@ fn physics(desk: &Desk, base: &str) -> Vec<String> {
     lines
         .map(|line| {
             let mut cells: Vec<&str> = line.split_whitespace().collect();
-            if cells.len() == 17 {
+            if cells.len() >= 17 && cells[0].parse::<u64>().is_ok() {
                 for timed in [16, 4, 3] {
                     cells.remove(timed);
                 }

@@ -4,9 +4,10 @@
 mod program;
 
 use program::{Desk, box_mesh};
+use std::collections::BTreeMap;
 use std::fs;
 use urto::exodus::{self, Tolerance};
-use urto::mesh::Mesh;
+use urto::mesh::{HEX_SIDES, Mesh};
 
 /// Two blocks that fly apart from a floor, with contact, friction and elements that go.
 const DECK: &str = "TITLE\n  two blocks  \nTERMINATION TIME, 2.E-5\nPLOT TIME, 2.E-6\n\
@@ -89,6 +90,77 @@ fn pieces_of_a_mesh_in_disorder() {
         let base = format!("split{ranks}");
         split(&desk, ranks, &base);
         assert_joined(&desk, &base);
+    }
+}
+
+/// A list of a piece; nothing when it has none.
+fn list(piece: &netcdf::File, name: &str) -> Vec<i64> {
+    piece.variable(name).map_or(Vec::new(), |variable| variable.get_values(..).expect("integers"))
+}
+
+/// For each other rank the faces across which a piece says that it has elements, by the numbers of their nodes.
+fn across(path: &std::path::Path) -> BTreeMap<i64, Vec<[u32; 4]>> {
+    let piece = netcdf::open(path).expect("a piece");
+    let mesh = exodus::Results::open(path).expect("a piece").mesh().expect("its mesh");
+    let elements: Vec<[u32; 8]> = mesh.elements().map(|(_, nodes)| *nodes).collect();
+    let [sides, given, ranks] = ["e_comm_sids", "e_comm_eids", "e_comm_proc"].map(|name| list(&piece, name));
+    let mut start = 0;
+    let mut map = BTreeMap::new();
+    for (rank, end) in list(&piece, "e_comm_ids").into_iter().zip(list(&piece, "e_comm_data_idx")) {
+        let entries = start..end as usize;
+        start = end as usize;
+        assert!(ranks[entries.clone()].iter().all(|&told| told == rank), "entries stand under their rank");
+        let face = |entry: usize| {
+            let corners = HEX_SIDES[sides[entry] as usize - 1];
+            let mut nodes = corners.map(|c| mesh.node_ids[elements[given[entry] as usize - 1][c] as usize] as u32);
+            nodes.sort_unstable();
+            nodes
+        };
+        map.insert(rank, entries.map(face).collect());
+    }
+    assert_eq!(start, given.len(), "every entry belongs to a rank");
+    map
+}
+
+/// The element maps of Nemesis against all faces of the whole mesh that elements of two pieces have.
+#[test]
+fn pieces_know_whose_elements_are_across() {
+    let mesh = two_blocks();
+    let desk = desk(&mesh);
+    for ranks in [1, 3, 8] {
+        split(&desk, ranks, "map");
+        let paths: Vec<_> = (0..ranks).map(|r| exodus::pieces::piece_path(&desk.path("map.e"), ranks, r)).collect();
+        let owners: BTreeMap<i64, i64> = (0..)
+            .zip(&paths)
+            .flat_map(|(rank, path)| {
+                let numbers = list(&netcdf::open(path).expect("a piece"), "elem_num_map");
+                numbers.into_iter().map(move |number| (number, rank))
+            })
+            .collect();
+        let mut sharers: BTreeMap<[u32; 4], Vec<i64>> = BTreeMap::new();
+        for ((_, nodes), number) in mesh.elements().zip(&mesh.element_ids) {
+            for side in HEX_SIDES {
+                let mut face = side.map(|corner| mesh.node_ids[nodes[corner] as usize] as u32);
+                face.sort_unstable();
+                sharers.entry(face).or_default().push(owners[number]);
+            }
+        }
+        let mut expected: BTreeMap<(i64, i64), Vec<[u32; 4]>> = BTreeMap::new();
+        for (face, ranks) in sharers {
+            if let [a, b] = ranks[..]
+                && a != b
+            {
+                expected.entry((a, b)).or_default().push(face);
+                expected.entry((b, a)).or_default().push(face);
+            }
+        }
+        let told: BTreeMap<(i64, i64), Vec<[u32; 4]>> = (0..)
+            .zip(&paths)
+            .flat_map(|(rank, path)| across(path).into_iter().map(move |(other, faces)| ((rank, other), faces)))
+            .collect();
+        // Ascending by nodes in the whole, on both sides.
+        assert_eq!(told, expected, "on {ranks} ranks");
+        assert_eq!(told.is_empty(), ranks == 1);
     }
 }
 

@@ -4,10 +4,9 @@
 
 mod support;
 
-use nalgebra::DVector;
 use support::meshes::{box_of_cells, nodes_where, recipe};
 use support::run::run;
-use support::stiffness::{solve, stiffness};
+use support::stiffness::{end_shear, held_at_root, solve, stiffness};
 use support::{between, close};
 
 const BEAM: &str = include_str!("../decks/bending_beam_4.i");
@@ -73,19 +72,8 @@ fn cantilever(cells: [usize; 3], poisson: f64, hourglass: &str, plane_strain: bo
     let matrix = stiffness(&deck, &mesh);
     let asymmetry = (&matrix - matrix.transpose()).amax() / matrix.amax();
     assert!(asymmetry < 1e-12, "K has no potential: {asymmetry:e}");
-    // End shear, spread over the end's nodes by their share of its area.
-    let mut force = DVector::zeros(matrix.nrows());
-    for n in nodes_where(&mesh, |p| p[0] == length) {
-        let p = mesh.coordinates[n as usize];
-        let share = |x: f64, cells: usize| (if x == 0.0 || x == 1.0 { 0.5 } else { 1.0 }) / cells as f64;
-        force[3 * n as usize + 1] = share(p[1], cells[1]) * share(p[2], cells[2]);
-    }
-    let held = |node: usize, axis: usize| {
-        let [x, y, z] = mesh.coordinates[node];
-        let root = x == 0.0 && (axis == 0 || (axis == 1 && y == 0.0) || (axis == 2 && y == 0.0 && z == 0.0));
-        root || (plane_strain && axis == 2)
-    };
-    let u = solve(&matrix, &force, held);
+    let force = end_shear(&mesh, length, cells);
+    let u = solve(&matrix, &force, |node, axis| held_at_root(&mesh, node, axis) || (plane_strain && axis == 2));
     let bending = if plane_strain { young / (1.0 - poisson * poisson) } else { young };
     let timoshenko = length.powi(3) / (3.0 * bending / 12.0) + length / (5.0 / 6.0 * young / (2.0 * (1.0 + poisson)));
     force.dot(&u) / timoshenko

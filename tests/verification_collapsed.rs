@@ -4,12 +4,11 @@
 
 mod support;
 
-use nalgebra::DVector;
 use support::bodies::{mean_velocity, nodes_of};
 use support::collapsed::{pyramids, tetrahedra, wedges};
-use support::meshes::{box_of_cells, nodes_where, recipe};
+use support::meshes::{box_of_cells, recipe};
 use support::run::{run, run_on};
-use support::stiffness::{solve, stiffness};
+use support::stiffness::{end_shear, held_at_root, solve, stiffness};
 use support::{between, close, steel};
 use urto::mesh::{HEX_SIDES, Mesh, SideSet};
 
@@ -92,17 +91,8 @@ fn cantilever(cut: Cut, cells: [usize; 3], poisson: f64) -> f64 {
          MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = {young}\nPOISSONS RATIO = {poisson}\nEND\n"
     );
     let matrix = stiffness(&deck, &mesh);
-    let mut force = DVector::zeros(matrix.nrows());
-    for n in nodes_where(&mesh, |p| p[0] == length) {
-        let p = mesh.coordinates[n as usize];
-        let share = |x: f64, cells: usize| (if x == 0.0 || x == 1.0 { 0.5 } else { 1.0 }) / cells as f64;
-        force[3 * n as usize + 1] = share(p[1], cells[1]) * share(p[2], cells[2]);
-    }
-    let held = |node: usize, axis: usize| {
-        let [x, y, z] = mesh.coordinates[node];
-        x == 0.0 && (axis == 0 || (axis == 1 && y == 0.0) || (axis == 2 && y == 0.0 && z == 0.0))
-    };
-    let u = solve(&matrix, &force, held);
+    let force = end_shear(&mesh, length, cells);
+    let u = solve(&matrix, &force, |node, axis| held_at_root(&mesh, node, axis));
     let timoshenko = length.powi(3) / (3.0 * young / 12.0) + length / (5.0 / 6.0 * young / (2.0 * (1.0 + poisson)));
     force.dot(&u) / timoshenko
 }

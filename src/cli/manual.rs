@@ -59,7 +59,7 @@ const SYNOPSIS: &str = r".SH SYNOPSIS
 ";
 
 /// Columns of the print log, in its order.
-const COLUMNS: [(&str, &str); 17] = [
+const COLUMNS: [(&str, &str); 18] = [
     ("TIME STEP NUMBER", "steps taken"),
     ("CURRENT TIME", "time of the line"),
     ("KINETIC ENERGY", "of all nodes"),
@@ -77,6 +77,7 @@ const COLUMNS: [(&str, &str); 17] = [
     ("ERODED ENERGY", "energy of eroded elements"),
     ("ENERGY ERROR", "energy accounted for minus energy supplied, over the largest account; should stay near zero"),
     ("SECONDS TO GO", "wall clock to the termination time at the present rate"),
+    ("MOMENTUM IN X, IN Y, IN Z", "of all nodes; only with STEP LOG, MOMENTUM"),
 ];
 
 /// The sections on what a run writes down in numbers.
@@ -85,7 +86,7 @@ fn written() -> String {
         list.iter().map(|(name, meaning)| format!(".TP\n.B {name}\n{meaning}\n")).collect()
     };
     format!(
-        ".SH \"THE PRINT LOG\"\nThe log has one line per OUTPUT TIME, with the columns\n{}\
+        ".SH \"THE PRINT LOG\"\nThe log has one line per OUTPUT TIME. STEP LOG chooses its columns, usually\n{}\
          .SH \"GLOBAL VARIABLES\"\nEvery state of the plot file has these numbers of the whole body:\n{}",
         terms(&COLUMNS),
         terms(&GLOBAL_VARIABLES)

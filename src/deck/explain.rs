@@ -238,7 +238,7 @@ mod tests {
     fn a_material_is_explained_with_properties_and_state() {
         let text = explain("ELASTIC PLASTIC").expect("a material");
         assert!(text.contains("YIELD STRESS") && text.contains("EQPS"), "{text}");
-        assert!(explain("CRUSHED SALT").expect("planned").contains("not built yet"));
+        assert!(explain("CRUSHED SALT").expect("refused").contains("Refused: its equations"));
     }
 
     #[test]

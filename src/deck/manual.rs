@@ -163,17 +163,17 @@ fn chapter(heading: &str, pages: &[Page]) -> String {
 /// The list of what is known but cannot be used.
 fn not_built(grammar: &Grammar) -> String {
     let mut text = String::from(
-        ".SH NOT BUILT YET\nThese are known. A deck that has one does not run, unless it only changes what is written.\n",
+        ".SH KNOWN, BUT NOT BUILT\nA deck that has one of these does not run, unless it only changes what is written.\n",
     );
     for entry in grammar.entries.iter().filter(|e| e.status != Status::Built) {
         let what = if entry.form == Form::Material { " (material model)" } else { "" };
         let why = match &entry.status {
-            Status::Planned { physics: false } => " Changes only what is written.",
-            Status::Refused(_) => " Will not be built.",
-            Status::Idle(_) => " Read, but changes nothing.",
-            _ => "",
+            Status::Planned { physics: false } => " Changes only what is written.".to_string(),
+            Status::Refused(why) => format!(" Refused: {why}."),
+            Status::Idle(why) => format!(" Read, but changes nothing: {why}."),
+            _ => String::new(),
         };
-        let _ = write!(text, ".TP\n.B {}{what}\n{}{why}\n", escape(&entry.name), escape(&entry.does));
+        let _ = write!(text, ".TP\n.B {}{what}\n{}{}\n", escape(&entry.name), escape(&entry.does), escape(&why));
     }
     text
 }

@@ -6,6 +6,7 @@
 //! write for all.
 
 mod arrays;
+mod checksum;
 mod compare;
 pub mod container;
 mod error;

@@ -58,6 +58,8 @@ pub const NUM_ELEM_GLOBAL: &str = "num_elems_global";
 pub const FILE_KIND: &str = "nem_ftype";
 pub const NUM_NODE_MAPS: &str = "num_n_cmaps";
 pub const NUM_NODE_MAP_ENTRIES: &str = "ncnt_cmap";
+pub const NUM_ELEMENT_MAPS: &str = "num_e_cmaps";
+pub const NUM_ELEMENT_MAP_ENTRIES: &str = "ecnt_cmap";
 /// Version of the Nemesis conventions, as attributes.
 pub const NEMESIS_VERSIONS: [&str; 2] = ["nemesis_api_version", "nemesis_file_version"];
 
@@ -120,6 +122,10 @@ pub const OUTER_NODES_STATUS: &str = "ext_n_stat";
 
 /// Which nodes are shared with whom: ranks, status and end of each rank's list; then nodes and ranks, entry by entry.
 pub const NODE_MAP: [&str; 5] = ["n_comm_ids", "n_comm_stat", "n_comm_data_idx", "n_comm_nids", "n_comm_proc"];
+/// Which elements have others of whom across which side: ranks, status and end of each rank's list; then elements, ranks
+/// and sides, entry by entry.
+pub const ELEMENT_MAP: [&str; 6] =
+    ["e_comm_ids", "e_comm_stat", "e_comm_data_idx", "e_comm_eids", "e_comm_proc", "e_comm_sids"];
 
 // Places in the whole file, from 1: ours, as numbers do not tell the order.
 pub const NODE_PLACES: &str = "urto_node_places";

@@ -2,11 +2,12 @@
 //!
 //! Numbers are global variables, the rest nodal and element variables, so that any reader of EXODUS shows them; what is
 //! keyed otherwise stands in further netCDF variables `urto_NAME`. A file appears under its name only when all of it is on
-//! the disk.
+//! the disk, and ends in a checksum of all its bytes ([`checksum`]).
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use super::checksum::{self, Seal};
 use super::error::ResultsError;
 use super::pieces::Piece;
 use super::results::Results;
@@ -18,6 +19,11 @@ use crate::restart::{List, Snapshot};
 pub(super) const IDENTITY: &str = "urto_restart";
 /// Global attribute that lists the further variables.
 pub(super) const LISTS: &str = "urto_lists";
+
+const BROKEN: &str = "the restart file is damaged: its bytes are not those that were written, as the checksum at its end \
+     shows\nhelp: a run from it could go wrong unseen; copy the file again from where it was written";
+const UNSEALED: &str = "the restart file does not end in its checksum: it has been cut short, or written anew by another \
+     program\nhelp: copy the file again from where it was written";
 
 /// A state and what it is a state of.
 #[derive(Debug, Clone)]
@@ -95,6 +101,7 @@ fn write(path: &Path, header: &RestartHeader, snapshot: Snapshot) -> Result<(), 
     let extra = Extra { piece: None, identity: Some(&header.identity), lists: &snapshot.lists };
     let mut writer = ResultsWriter::create_with(path, &of_results, &extra)?;
     writer.write_state(time, &numbers, &nodal_values, &element_values)?;
+    checksum::seal(path).map_err(ResultsError::io("write", path))?;
     writer.sync()
 }
 
@@ -148,10 +155,19 @@ fn unusable(path: &Path, what: impl Into<String>) -> ResultsError {
     ResultsError::Unusable { path: PathBuf::from(path), what: what.into() }
 }
 
+/// Opens a restart file of which every byte is as it was written.
 fn open(path: &Path) -> Result<(Results, String), ResultsError> {
+    // What keeps a file from being read at all is told by who reads all of it.
+    let seal = checksum::check(path).unwrap_or(Seal::Missing);
+    if seal == Seal::Broken {
+        return Err(unusable(path, BROKEN));
+    }
     let results = Results::open(path)?;
     let identity = results.arrays().text(IDENTITY);
     let identity = identity.ok_or_else(|| unusable(path, "this is an EXODUS file, but no restart file of urto"))?;
+    if seal == Seal::Missing {
+        return Err(unusable(path, UNSEALED));
+    }
     if results.times().len() != 1 {
         return Err(unusable(path, "this restart file holds no whole state"));
     }

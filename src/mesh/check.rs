@@ -244,18 +244,7 @@ pub(crate) fn counted(count: usize, thing: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Block;
-
-    const CUBE: [[f64; 3]; 8] = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-        [1.0, 0.0, 1.0],
-        [1.0, 1.0, 1.0],
-        [0.0, 1.0, 1.0],
-    ];
+    use crate::mesh::{Block, UNIT_CUBE};
 
     /// Volume by 2×2×2 Gauss points of the trilinear map, for which that rule is exact.
     fn volume_by_quadrature(corners: &[[f64; 3]; 8]) -> f64 {
@@ -264,7 +253,7 @@ mod tests {
         for point in 0..8 {
             let at = [1, 2, 4].map(|bit| if point & bit == 0 { 0.5 - g } else { 0.5 + g });
             let mut jacobian = [[0.0; 3]; 3];
-            for (corner, position) in CUBE.iter().zip(corners) {
+            for (corner, position) in UNIT_CUBE.iter().zip(corners) {
                 let shape = |d: usize| if corner[d] == 0.0 { 1.0 - at[d] } else { at[d] };
                 let slope = |d: usize| if corner[d] == 0.0 { -1.0 } else { 1.0 };
                 let gradient =
@@ -282,9 +271,10 @@ mod tests {
 
     #[test]
     fn volume_is_that_of_the_trilinear_map() {
-        assert_eq!(hexahedron_volume(&CUBE), 1.0);
+        assert_eq!(hexahedron_volume(&UNIT_CUBE), 1.0);
         let wave = |n: usize, d: usize| 0.3 * ((7 * n + 3 * d) as f64).sin();
-        let warped: [[f64; 3]; 8] = std::array::from_fn(|n| std::array::from_fn(|d| 2.0 * CUBE[n][d] + wave(n, d)));
+        let warped: [[f64; 3]; 8] =
+            std::array::from_fn(|n| std::array::from_fn(|d| 2.0 * UNIT_CUBE[n][d] + wave(n, d)));
         let expected = volume_by_quadrature(&warped);
         assert!((hexahedron_volume(&warped) - expected).abs() < 1e-14 * expected, "{expected}");
         let far = warped.map(|p| p.map(|x| x + 1e6));
@@ -293,14 +283,14 @@ mod tests {
 
     #[test]
     fn a_wedge_made_by_repeating_nodes_has_half_the_volume() {
-        let mut wedge = CUBE;
+        let mut wedge = UNIT_CUBE;
         (wedge[3], wedge[7]) = (wedge[2], wedge[6]);
         assert!((hexahedron_volume(&wedge) - 0.5).abs() < 1e-15);
     }
 
     /// A column of flat elements under one good one, and a node that no element uses.
     fn column() -> Mesh {
-        let layer = |z: f64| CUBE[..4].iter().map(move |p| [p[0], p[1], z]);
+        let layer = |z: f64| UNIT_CUBE[..4].iter().map(move |p| [p[0], p[1], z]);
         let coordinates: Vec<[f64; 3]> = (0..7).flat_map(|k| layer(f64::from(k / 6))).chain([[5.0; 3]]).collect();
         let element = |k: u32| std::array::from_fn(|corner| 4 * k + corner as u32);
         Mesh {

@@ -65,6 +65,18 @@ pub struct SideSet {
     pub sides: Vec<(u32, u8)>,
 }
 
+/// Corners of a unit cube in the order of a hexahedron's nodes.
+pub const UNIT_CUBE: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
+
 /// Local nodes of the six faces of a hexahedron in EXODUS order, each turning counter-clockwise seen from outside.
 pub const HEX_SIDES: [[usize; 4]; 6] =
     [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3], [0, 3, 2, 1], [4, 5, 6, 7]];

@@ -6,7 +6,7 @@ use super::{
     properties::Properties,
 };
 use crate::{
-    deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, language, spelling},
+    deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, Status, language, spelling},
     material::{DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
 };
 
@@ -202,9 +202,15 @@ fn spellings<T>(entry: &'static Entry<T>) -> impl Iterator<Item = &'static str> 
 }
 
 fn not_built(card: &Card, name: &str, place: Span) -> Diagnostic {
-    let does = language().entries.iter().find(|e| e.spellings().any(|s| s == name)).map_or("", |e| e.does.as_str());
+    let entry = language().entries.iter().find(|e| e.spellings().any(|s| s == name));
+    let block = card.integer("block");
     let names: Vec<&str> = MATERIALS.iter().map(|entry| entry.name).collect();
-    Diagnostic::error(format!("MATERIAL {}: the model {name} is known, but not built yet", card.integer("block")))
-        .at(place, does.trim_end_matches('.'))
-        .help(format!("the models that are built are {}", spelling::all(&names)))
+    let message = match entry.map(|entry| &entry.status) {
+        Some(Status::Refused(why)) => format!("MATERIAL {block}: {name}: {why}"),
+        _ => format!("MATERIAL {block}: the model {name} is known, but not built yet"),
+    };
+    let advice = entry.map_or(&[][..], |entry| &entry.notes);
+    let diagnostic = Diagnostic::error(message).at(place, entry.map_or("", |e| e.does.trim_end_matches('.')));
+    let diagnostic = advice.iter().fold(diagnostic, |d, note| d.help(note.trim_end_matches('.')));
+    diagnostic.help(format!("the models that are built are {}", spelling::all(&names)))
 }

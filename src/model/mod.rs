@@ -33,6 +33,8 @@ pub struct Model {
     pub termination_time: f64,
     /// Interval between lines of the print log.
     pub output_interval: f64,
+    /// Columns of these lines after PRONTO's own.
+    pub step_log: Vec<StepColumns>,
     /// When plot states are written.
     pub plot: PlotSchedule,
     /// How the time step follows from the stable one.
@@ -452,6 +454,39 @@ pub struct PlotRequests {
     pub state: Vec<String>,
 }
 
+/// Groups of columns that STEP LOG can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepColumns {
+    /// None beside PRONTO's own.
+    Pronto,
+    /// The time step and the element that sets it.
+    TimeStep,
+    /// The energy accounts and their balance.
+    Energy,
+    /// The momentum of the body.
+    Momentum,
+    /// Seconds to the termination time.
+    ToGo,
+}
+
+impl StepColumns {
+    /// All of them.
+    pub const ALL: [StepColumns; 5] = [Self::Pronto, Self::TimeStep, Self::Energy, Self::Momentum, Self::ToGo];
+    /// What a log has when the deck does not say.
+    pub const USUAL: [StepColumns; 3] = [Self::TimeStep, Self::Energy, Self::ToGo];
+
+    /// The word that STEP LOG knows.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Pronto => "PRONTO",
+            Self::TimeStep => "TIME STEP",
+            Self::Energy => "ENERGY",
+            Self::Momentum => "MOMENTUM",
+            Self::ToGo => "TO GO",
+        }
+    }
+}
+
 macro_rules! fields {
     ($(#[$m:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $keyword:literal, [$($component:literal),+], $meaning:literal;)+ }) => {
         $(#[$m])*
@@ -507,6 +542,12 @@ fields! {
         Density = "DENSITY", ["DENSITY"], "current mass density";
         /// hourglass energy
         HourglassEnergy = "HOURGLASS", ["HGENERGY"], "hourglass energy per unit initial volume";
+        /// V
+        Stretch = "STRETCH", ["STRETXX", "STRETYY", "STRETZZ", "STRETXY", "STRETYZ", "STRETZX"], "left stretch V, the stretch seen in space";
+        /// R
+        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R";
+        /// q
+        BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank

@@ -1,7 +1,7 @@
 //! When and what to write.
 
 use super::{
-    ElementField, NodalField, PlotSchedule,
+    ElementField, NodalField, PlotSchedule, StepColumns,
     problem::{Draft, Setter},
 };
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
 
 pub(super) const COMMANDS: &[Setter] = &[
     ("OUTPUT TIME", output_time),
+    ("STEP LOG", step_log),
     ("PLOT TIME", plot_time),
     ("PLOT NODAL", plot_nodal),
     ("PLOT ELEMENT", plot_element),
@@ -26,6 +27,12 @@ const MANY_STATES: f64 = 100_000.0;
 
 fn output_time(card: &Card, draft: &mut Draft) {
     draft.model.output_interval = card.number("dt");
+}
+
+fn step_log(card: &Card, draft: &mut Draft) {
+    let asked = card.items("name").iter().filter_map(|item| item.value.text());
+    let columns = asked.filter_map(|name| StepColumns::ALL.into_iter().find(|columns| columns.keyword() == name));
+    add_new(&mut draft.model.step_log, columns);
 }
 
 fn plot_time(card: &Card, draft: &mut Draft) {
@@ -103,6 +110,9 @@ pub(super) fn finish(draft: &mut Draft) {
     if draft.model.output_interval.is_nan() {
         draft.model.output_interval = end / PRINTED_LINES;
     }
+    if draft.model.step_log.is_empty() {
+        draft.model.step_log = StepColumns::USUAL.to_vec();
+    }
     let nodal = &mut draft.model.plot_requests.nodal;
     nodal.retain(|field| *field != NodalField::Displacement);
     nodal.insert(0, NodalField::Displacement);
@@ -151,6 +161,7 @@ mod tests {
             };
             choices.iter().filter(|c| c.standing == Standing::Built).map(|c| c.name.clone()).collect()
         };
+        assert_eq!(listed("STEP LOG"), StepColumns::ALL.map(StepColumns::keyword));
         assert_eq!(listed("PLOT NODAL"), NodalField::ALL.iter().map(|f| f.keyword()).collect::<Vec<_>>());
         assert_eq!(listed("PLOT ELEMENT"), ElementField::ALL.iter().map(|f| f.keyword()).collect::<Vec<_>>());
     }

@@ -105,6 +105,7 @@ impl Default for Model {
             title: String::new(),
             termination_time: f64::NAN,
             output_interval: f64::NAN,
+            step_log: Vec::new(),
             plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
             time_step: TimeStepControl {
                 scale: f64::NAN,

@@ -1,9 +1,8 @@
 //! Fields of the plot file: their names, and their values on one rank.
 
-use crate::lanes::Sym3;
-use crate::mesh::check::hexahedron_volume;
 use crate::model::{ElementField, Model, NodalField};
-use crate::solver::elements::{ElementBlock, Group, hex8::rows, kinematics::rotation_matrix, logarithm};
+use crate::solver::elements::fields::{field_values, state_values};
+use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::{Solver, Totals};
 
 /// Global variables of the plot file with their meaning.
@@ -144,35 +143,12 @@ impl FieldList {
         rank: usize,
         out: &mut Vec<f64>,
     ) {
-        let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
-        let tensor = |first: usize| {
-            let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, first);
-            Sym3 { xx, yy, zz, xy, yz, zx }
-        };
-        let stress = tensor(rows::STRESS);
-        let initial_volume = group.element_mass(i) / block.density;
         for field in &self.element {
-            match field {
-                ElementField::Stress => out.extend(stress.rotate(&frame).to_array()),
-                ElementField::Strain => out.extend(logarithm(tensor(rows::STRETCH)).rotate(&frame).to_array()),
-                ElementField::Pressure => out.push(-stress.trace() / 3.0),
-                ElementField::VonMises => {
-                    let s = stress.deviator();
-                    out.push((1.5 * s.contract(s)).sqrt());
-                }
-                ElementField::Energy => out.push(group.value(i, rows::INTERNAL_ENERGY) / initial_volume),
-                ElementField::HourglassEnergy => out.push(group.value(i, rows::HOURGLASS_ENERGY) / initial_volume),
-                ElementField::Density => {
-                    let corners = group.nodes(i).map(|n| solver.domain.nodes.position(n));
-                    out.push(group.element_mass(i) / hexahedron_volume(&corners));
-                }
-                ElementField::Status => out.push(1.0),
-                ElementField::Rank => out.push(rank as f64),
-            }
+            let values = field_values(*field, block, group, i, &solver.domain.nodes, rank);
+            out.extend(&values[..field.components().len()]);
         }
         if !self.state.is_empty() {
-            let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, rows::LAW + k)).collect();
-            let state = block.law.state(&stored, &frame);
+            let state = state_values(block, group, i);
             let names = block.law.entry().state;
             // A variable that a law does not have is zero in its blocks.
             let value = |name: &String| names.iter().position(|v| v.name == *name).map_or(0.0, |k| state[k]);

@@ -1,5 +1,6 @@
 //! Results to files: plot states and the print log. Reads solver state and never changes it.
 
+mod across;
 mod collect;
 mod fields;
 mod history;

@@ -3,6 +3,7 @@
 //! A node at the border stands in several pieces. The rank that owns it tells the others its values, as what contact
 //! knows of a node may be known to its owner alone.
 
+use super::across::Candidates;
 use crate::comm::{Communicator, Peer};
 use crate::exodus::pieces::{Piece, Sizes};
 use crate::mesh::Mesh;
@@ -38,8 +39,8 @@ enum Origin {
 }
 
 impl Split {
-    /// Cuts a rank's piece out of the mesh.
-    pub fn new(mesh: &Mesh, body: &Body, share: &Share, ranks: usize) -> Split {
+    /// Cuts a rank's piece out of the mesh. All ranks call it.
+    pub fn new(mesh: &Mesh, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Split {
         let mut nodes = share.nodes.clone();
         if share.rank == 0 {
             nodes.extend(unreferenced_nodes(mesh));
@@ -60,13 +61,14 @@ impl Split {
         let mut split = Split {
             piece: Piece {
                 rank: share.rank,
-                ranks,
+                ranks: comm.size(),
                 whole: Sizes::of(mesh),
                 border_nodes: share.sums.iter().map(|sum| in_piece(sum.node)).collect(),
                 border_elements: border_elements.collect(),
                 neighbours: (share.neighbours.iter().zip(&shared))
                     .map(|(neighbour, nodes)| (neighbour.rank, nodes.iter().map(|&node| in_piece(node)).collect()))
                     .collect(),
+                across: Vec::new(),
                 part: Default::default(),
             },
             nodes: vec![Origin::Nowhere; part.places.nodes.len()],
@@ -78,7 +80,22 @@ impl Split {
         };
         split.find_origins(share, &shared, in_piece);
         split.piece.part = part;
+        split.find_across(body, share, comm);
         split
+    }
+
+    fn find_across(&mut self, body: &Body, share: &Share, comm: &mut dyn Communicator) {
+        let members = &share.groups[0].members;
+        let of_piece = |element: u32| {
+            let member = members[self.elements[element as usize] as usize];
+            (element, body.element_nodes[member as usize])
+        };
+        let shared: Vec<u32> = share.sums.iter().map(|sum| share.nodes[sum.node as usize]).collect();
+        let candidates = Candidates::new(self.piece.border_elements.iter().map(|&element| of_piece(element)), |node| {
+            shared.binary_search(&node).is_ok()
+        });
+        let neighbours: Vec<usize> = self.piece.neighbours.iter().map(|(rank, _)| *rank).collect();
+        self.piece.across = candidates.across(&neighbours, comm);
     }
 
     fn find_origins(&mut self, share: &Share, shared: &[Vec<u32>], in_piece: impl Fn(u32) -> u32) {

@@ -16,7 +16,7 @@ pub use restart::{Continuation, states_beside};
 use crate::comm::{Communicator, Counted};
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
-use crate::model::Model;
+use crate::model::{Model, StepColumns};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
 use crate::partition::{Decomposition, Share};
@@ -201,6 +201,7 @@ struct Writer<'a> {
     histories: Option<ResultsWriter>,
     restarts: Option<RestartFiles<'a>>,
     files: &'a Files,
+    step_log: &'a [StepColumns],
     elements: usize,
     first_step: u64,
     last_restart: Option<u64>,
@@ -226,6 +227,7 @@ impl<'a> Writer<'a> {
             histories: None,
             restarts: RestartFiles::new(job, solver),
             files: job.files,
+            step_log: &job.model.step_log,
             elements: job.mesh.element_count(),
             first_step: solver.step,
             last_restart: None,
@@ -269,7 +271,7 @@ impl<'a> Writer<'a> {
             memory: memory::resident().map(|(now, _)| now),
         };
         let from = job.continuation.map_or(String::new(), |from| print::continued(&from.in_words()));
-        let front = print::problem(&echo) + &from + &print::step_header();
+        let front = print::problem(&echo) + &from + &print::step_header(&job.model.step_log);
         log.write(&front).map_err(|e| self.print_error(e))?;
         self.log = Some(log);
         Ok(())
@@ -359,7 +361,7 @@ impl<'a> Writer<'a> {
             dilatation,
             to_go: dilatation * (self.termination_time - solver.time).max(0.0),
         };
-        let printed = self.print(&print::step_line(&line));
+        let printed = self.print(&print::step_line(self.step_log, &line));
         display.line(&line);
         let outcome = self.history(solver, comm).and(printed);
         let outcome = together(outcome, comm);

@@ -33,7 +33,7 @@ impl Plots {
             file: None,
             variables,
             collector: gathers.then(|| Collector::new(solver, nodes, elements, comm)),
-            split: job.split.then(|| Split::new(job.mesh, job.body, share, comm.size())),
+            split: job.split.then(|| Split::new(job.mesh, job.body, share, comm)),
         }
     }
 

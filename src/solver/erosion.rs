@@ -8,33 +8,20 @@ mod state;
 
 use super::Body;
 use super::domain::ABSENT;
+use super::elements::fields::{field_values, frame, positions, state_values, stress, volume};
 use super::elements::geometry::{corners, gradient, modes};
 use super::elements::hex8::rows;
-use super::elements::kinematics::rotation_matrix;
 use super::elements::{ElementBlock, Group};
 use super::nodes::{Nodes, dot};
 use crate::comm::{Communicator, numbers_of_others};
-use crate::lanes::{CHUNK, Row, Sym3};
-use crate::mesh::Mesh;
-use crate::mesh::check::hexahedron_volume;
-use crate::model::{Death, DeathVariable, ElementField, Model};
+use crate::lanes::{CHUNK, Row};
+use crate::mesh::{Mesh, UNIT_CUBE};
+use crate::model::{Death, DeathVariable, Model};
 use delete::Deletions;
 use std::sync::Arc;
 
 /// Edge of the cube that stands in for what is gone, in units of the body's size.
 const STAND_IN: f64 = 1e3;
-
-/// Corners of a unit cube in the order of an element's nodes.
-const CUBE: [[f64; 3]; 8] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [0.0, 1.0, 1.0],
-];
 
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
@@ -70,7 +57,7 @@ impl Erosion {
         let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
         let edge = STAND_IN * if extent > 0.0 { extent } else { 1.0 };
         let stand_in = nodes.len() as u32;
-        for corner in CUBE {
+        for corner in UNIT_CUBE {
             let [x, y, z] = corner.map(|c| c * edge);
             nodes.rows.push(Row([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0]));
             nodes.forces.push(Default::default());
@@ -223,16 +210,10 @@ fn watched<'a>(
             Some(row) => Box::new(move |i| group.value(i, rows::LAW + row)),
             None => Box::new(|i| state(block, group, i, name)),
         },
-        DeathVariable::Field(field, component) => Box::new(|i| field_value(*field, *component, block, group, i, nodes)),
+        DeathVariable::Field(field, component) => {
+            Box::new(|i| field_values(*field, block, group, i, nodes, 0)[*component])
+        }
     }
-}
-
-fn positions(group: &Group, i: usize, nodes: &Nodes) -> [[f64; 3]; 8] {
-    group.nodes(i).map(|node| nodes.position(node))
-}
-
-fn volume(group: &Group, i: usize, nodes: &Nodes) -> f64 {
-    hexahedron_volume(&positions(group, i, nodes))
 }
 
 /// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B), as the element itself has it.
@@ -245,45 +226,10 @@ fn stable_step(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> 
     (light * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
 }
 
+/// A state variable of an element's law, by name; zero where the law has none of that name.
 fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {
-    let variables = block.law.entry().state;
-    let Some(place) = variables.iter().position(|variable| variable.name == name) else { return 0.0 };
-    let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, rows::LAW + k)).collect();
-    block.law.state(&stored, &rotation_matrix(&group.values::<4>(i, rows::FRAME)))[place]
-}
-
-fn stress(group: &Group, i: usize) -> Sym3<f64> {
-    let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, rows::STRESS);
-    Sym3 { xx, yy, zz, xy, yz, zx }
-}
-
-fn field_value(
-    field: ElementField,
-    component: usize,
-    block: &ElementBlock,
-    group: &Group,
-    i: usize,
-    nodes: &Nodes,
-) -> f64 {
-    let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
-    let initial_volume = group.element_mass(i) / block.density;
-    match field {
-        ElementField::Stress => stress(group, i).rotate(&frame).to_array()[component],
-        ElementField::Pressure => -stress(group, i).trace() / 3.0,
-        ElementField::VonMises => {
-            let s = stress(group, i).deviator();
-            (1.5 * s.contract(s)).sqrt()
-        }
-        ElementField::Strain => {
-            let [xx, yy, zz, xy, yz, zx] = group.values::<6>(i, rows::STRETCH);
-            super::elements::logarithm(Sym3 { xx, yy, zz, xy, yz, zx }).rotate(&frame).to_array()[component]
-        }
-        ElementField::Energy => group.value(i, rows::INTERNAL_ENERGY) / initial_volume,
-        ElementField::HourglassEnergy => group.value(i, rows::HOURGLASS_ENERGY) / initial_volume,
-        ElementField::Density => group.element_mass(i) / volume(group, i, nodes),
-        ElementField::Status => 1.0,
-        ElementField::Rank => 0.0,
-    }
+    let place = block.law.entry().state.iter().position(|variable| variable.name == name);
+    place.map_or(0.0, |place| state_values(block, group, i)[place])
 }
 
 fn stored_energy(group: &Group, i: usize) -> f64 {
@@ -295,8 +241,7 @@ fn stored_energy(group: &Group, i: usize) -> f64 {
 /// Work that the element's last forces have done since the last state: they acted for half of the step that led here,
 /// and no new forces come to be averaged with them. Stress and bulk viscosity; hourglass forces are left out.
 fn last_half_step(group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
-    let frame = rotation_matrix(&group.values::<4>(i, rows::FRAME));
-    let total = stress(group, i).add_diagonal(group.value(i, rows::VISCOUS_STRESS)).rotate(&frame).matrix();
+    let total = stress(group, i).add_diagonal(group.value(i, rows::VISCOUS_STRESS)).rotate(&frame(group, i)).matrix();
     let v = group.nodes(i).map(|node| nodes.velocity(node));
     let before = positions(group, i, nodes);
     let operator = gradient(&[0, 1, 2].map(|axis| {

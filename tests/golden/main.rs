@@ -56,6 +56,7 @@ const LIGHTER: &[Lighter] = &[
         ],
     },
     Lighter { deck: "taylor_bar", until: None, mesh: &[("8, 160, QUARTER", "2, 40, QUARTER")] },
+    Lighter { deck: "taylor_bar_steel", until: None, mesh: &[("3, 81, QUARTER", "2, 40, QUARTER")] },
     Lighter { deck: "taylor_bar_wall", until: Some(30e-6), mesh: &[] },
 ];
 

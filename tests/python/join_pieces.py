@@ -59,6 +59,52 @@ def shared(piece):
     return result
 
 
+# Corners of the sides of a hexahedron.
+SIDES = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (0, 3, 2, 1), (4, 5, 6, 7)]
+
+
+def corners(file):
+    """The numbers of the nodes of each element."""
+    numbers = ints(file, "node_num_map")
+    blocks = [b for b in range(1, size(file, "num_el_blk") + 1) if f"connect{b}" in file.variables]
+    return [[numbers[node - 1] for node in nodes] for b in blocks for nodes in file[f"connect{b}"][:].tolist()]
+
+
+def faces_across(piece):
+    """For each rank with elements across the sides of this piece, the numbers of the nodes of these sides."""
+    ids, ends = ints(piece, "e_comm_ids"), ints(piece, "e_comm_data_idx")
+    elements, sides, ranks = ints(piece, "e_comm_eids"), ints(piece, "e_comm_sids"), ints(piece, "e_comm_proc")
+    nodes, result, start = corners(piece), {}, 0
+    border = set(ints(piece, "elem_mapb"))
+    for rank, end in zip(ids, ends):
+        check(set(ranks[start:end]) == {rank}, "elements stand under their neighbour")
+        check(set(elements[start:end]) <= border, "elements with others across a side are at the border")
+        entries = zip(elements[start:end], sides[start:end])
+        result[rank] = [frozenset(nodes[element - 1][corner] for corner in SIDES[side - 1]) for element, side in entries]
+        start = end
+    return result
+
+
+def check_across(whole, pieces):
+    """Holds the element maps against all faces of the whole that elements of two pieces have."""
+    owner = {number: rank for rank, piece in enumerate(pieces) for number in ints(piece, "elem_num_map")}
+    sharers = {}
+    for number, nodes in zip(ints(whole, "elem_num_map"), corners(whole)):
+        for side in SIDES:
+            face = frozenset(nodes[corner] for corner in side)
+            if len(face) > 2:
+                sharers.setdefault(face, []).append(owner[number])
+    maps, count = [faces_across(piece) for piece in pieces], 0
+    for rank, others in enumerate(maps):
+        for other, faces in others.items():
+            check(maps[other].get(rank) == faces, f"pieces {rank} and {other} name the same faces in the same order")
+            between = {face for face, ranks in sharers.items() if sorted(ranks) == sorted([rank, other])}
+            check(len(faces) == len(between) and set(faces) == between, f"all faces between {rank} and {other}")
+            count += len(faces)
+    expected = 2 * sum(1 for ranks in sharers.values() if len(set(ranks)) == 2)
+    check(count == expected, f"{count} faces between pieces, {expected} expected")
+
+
 whole = netCDF4.Dataset(sys.argv[1])
 pieces = [netCDF4.Dataset(path) for path in sys.argv[2:]]
 for file in [whole] + pieces:
@@ -94,4 +140,5 @@ for rank, piece in enumerate(pieces):
             check((piece[name][:, i] == whole[name][:, place]).all(), f"element variable {v}, element {number}")
             compared += states
 check(elements == size(whole, "num_elem"), "each element stands in one piece")
+check_across(whole, pieces)
 print(compared, "values compared")

@@ -1,5 +1,6 @@
 //! The stiffness matrix of a mesh, measured through the solver's own element forces, and static solutions with it.
 
+use super::meshes::nodes_where;
 use super::run::model;
 use nalgebra::{DMatrix, DVector};
 use urto::comm::Serial;
@@ -49,4 +50,22 @@ pub fn solve(matrix: &DMatrix<f64>, force: &DVector<f64>, held: impl Fn(usize, u
         u[dof] = *value;
     }
     u
+}
+
+/// Forces of a unit shear in y on the end x = `length` of a bar of unit width and depth: at each node its share of the area.
+pub fn end_shear(mesh: &Mesh, length: f64, cells: [usize; 3]) -> DVector<f64> {
+    let mut force = DVector::zeros(3 * mesh.coordinates.len());
+    for n in nodes_where(mesh, |p| p[0] == length) {
+        let p = mesh.coordinates[n as usize];
+        let share = |x: f64, cells: usize| (if x == 0.0 || x == 1.0 { 0.5 } else { 1.0 }) / cells as f64;
+        force[3 * n as usize + 1] = share(p[1], cells[1]) * share(p[2], cells[2]);
+    }
+    force
+}
+
+/// Whether the root x = 0 of such a bar holds a node in a direction: as little as bending theory does, so that the root may
+/// grow thinner where it is stretched.
+pub fn held_at_root(mesh: &Mesh, node: usize, axis: usize) -> bool {
+    let [x, y, z] = mesh.coordinates[node];
+    x == 0.0 && (axis == 0 || (axis == 1 && y == 0.0) || (axis == 2 && y == 0.0 && z == 0.0))
 }

@@ -33,6 +33,9 @@ pub struct Piece {
     pub border_elements: Vec<u32>,
     /// The ranks that share nodes with this one, ascending, each with the shared nodes in the order of the whole.
     pub neighbours: Vec<(usize, Vec<u32>)>,
+    /// The ranks with elements across faces of this one's, ascending, each with these faces as element and zero-based
+    /// side. Two ranks list the faces between them in the same order.
+    pub across: Vec<(usize, Vec<(u32, u8)>)>,
 }
 
 /// Sizes of a mesh.

@@ -36,8 +36,7 @@ impl Writer<'_> {
             self.variable::<i32>(status, &[names::NUM_PROCESSORS_OF_FILE])?;
         }
         // Of these the dimensions are new.
-        let [own, places] = [standings(piece), node_map(piece)];
-        for (_, dimension, list) in own.iter().chain(&places) {
+        for (_, dimension, list) in &[standings(piece), node_map(piece), element_map(piece)].concat() {
             if self.file.dimension(dimension).is_none() {
                 self.dimensions(&[(dimension, list.len())])?;
             }
@@ -89,6 +88,7 @@ fn families(piece: &Piece) -> [(WholeFamily, Vec<i64>, &[usize]); 3] {
 fn all_lists(piece: &Piece) -> Vec<List> {
     let mut lists = standings(piece);
     lists.extend(node_map(piece));
+    lists.extend(element_map(piece));
     lists.extend(places(piece));
     lists
 }
@@ -111,24 +111,41 @@ fn standings(piece: &Piece) -> Vec<List> {
 
 /// Who shares which nodes.
 fn node_map(piece: &Piece) -> Vec<List> {
-    let ranks = || piece.neighbours.iter().map(|(rank, _)| *rank as i32);
+    let nodes = entries(&piece.neighbours, |&node| node as i32 + 1);
+    let [ids, statuses, ends, ranks] = lists_of_ranks(&piece.neighbours);
+    let dimensions = [names::NUM_NODE_MAPS, names::NUM_NODE_MAP_ENTRIES];
+    map(&names::NODE_MAP, dimensions, vec![ids, statuses, ends, nodes, ranks])
+}
+
+/// Who has elements across which sides.
+fn element_map(piece: &Piece) -> Vec<List> {
+    let elements = entries(&piece.across, |&(element, _)| element as i32 + 1);
+    let sides = entries(&piece.across, |&(_, side)| i32::from(side) + 1);
+    let [ids, statuses, ends, ranks] = lists_of_ranks(&piece.across);
+    let dimensions = [names::NUM_ELEMENT_MAPS, names::NUM_ELEMENT_MAP_ENTRIES];
+    map(&names::ELEMENT_MAP, dimensions, vec![ids, statuses, ends, elements, ranks, sides])
+}
+
+/// The lists of a communication map by their names: the first three have a value a rank, the others a value an entry.
+fn map(names: &[&str], [of_ranks, of_entries]: [&str; 2], lists: Vec<Vec<i32>>) -> Vec<List> {
+    let dimensions = [of_ranks; 3].into_iter().chain(std::iter::repeat(of_entries));
+    names.iter().zip(dimensions).zip(lists).map(|((&name, size), list)| (name.into(), size.into(), list)).collect()
+}
+
+/// For each rank its number, status and the end of its entries, and for each entry its rank.
+fn lists_of_ranks<T>(map: &[(usize, Vec<T>)]) -> [Vec<i32>; 4] {
     let mut end = 0;
-    let ends = piece.neighbours.iter().map(|(_, nodes)| {
-        end += nodes.len() as i32;
+    let ends = map.iter().map(|(_, entries)| {
+        end += entries.len() as i32;
         end
     });
-    let per_rank = [ranks().collect(), vec![1; piece.neighbours.len()], ends.collect()];
-    let entries = || piece.neighbours.iter().flat_map(|(rank, nodes)| nodes.iter().map(move |&node| (*rank, node)));
-    let per_entry =
-        [entries().map(|(_, node)| node as i32 + 1).collect(), entries().map(|(rank, _)| rank as i32).collect()];
-    let dimensions = [names::NUM_NODE_MAPS; 3].into_iter().chain([names::NUM_NODE_MAP_ENTRIES; 2]);
-    let lists = per_rank.into_iter().chain(per_entry);
-    names::NODE_MAP
-        .iter()
-        .zip(dimensions)
-        .zip(lists)
-        .map(|((&name, dim), list)| (name.into(), dim.into(), list))
-        .collect()
+    let ranks = map.iter().flat_map(|(rank, entries)| entries.iter().map(|_| *rank as i32));
+    [map.iter().map(|(rank, _)| *rank as i32).collect(), vec![1; map.len()], ends.collect(), ranks.collect()]
+}
+
+/// What a map says of its entries, rank by rank.
+fn entries<T>(map: &[(usize, Vec<T>)], value: impl Fn(&T) -> i32) -> Vec<i32> {
+    map.iter().flat_map(|(_, entries)| entries).map(value).collect()
 }
 
 /// Where everything is in the whole.

@@ -1,6 +1,7 @@
 //! One line per OUTPUT TIME.
 
 use super::scientific;
+use crate::model::StepColumns;
 use crate::solver::{ElementPlace, Totals};
 
 /// What a line shows.
@@ -25,31 +26,62 @@ pub struct StepLine<'a> {
     pub to_go: f64,
 }
 
-/// Two-line heads and widths of the columns: PRONTO's five first, those that time the machine among them and last.
-const COLUMNS: [(&str, &str, usize); 17] = [
+/// The two lines of a head, and the width of its column.
+type Column = (&'static str, &'static str, usize);
+
+/// PRONTO's five columns, those that time the machine among them; every log has them.
+const PRONTO: [Column; 5] = [
     ("TIME STEP", "NUMBER", 13),
     ("CURRENT", "TIME", 13),
     ("KINETIC", "ENERGY", 13),
     ("SECONDS PER", "ELEMENT CYCLE", 15),
     ("TIME DILATATION", "FACTOR", 17),
-    ("TIME", "STEP", 13),
-    ("SET BY", "ELEMENT", 11),
-    ("OF", "BLOCK", 7),
-    ("INTERNAL", "ENERGY", 13),
-    ("HOURGLASS", "ENERGY", 13),
-    ("BULK VISC.", "ENERGY", 13),
-    ("FRICTION", "ENERGY", 13),
-    ("EXTERNAL", "WORK", 13),
-    ("CONTACT", "WORK", 13),
-    ("ERODED", "ENERGY", 13),
-    ("ENERGY", "ERROR", 11),
-    ("SECONDS", "TO GO", 10),
 ];
 
+/// The columns of what STEP LOG asks for.
+fn columns(asked: StepColumns) -> &'static [Column] {
+    match asked {
+        StepColumns::Pronto => &[],
+        StepColumns::TimeStep => &[("TIME", "STEP", 13), ("SET BY", "ELEMENT", 11), ("OF", "BLOCK", 7)],
+        StepColumns::Energy => &[
+            ("INTERNAL", "ENERGY", 13),
+            ("HOURGLASS", "ENERGY", 13),
+            ("BULK VISC.", "ENERGY", 13),
+            ("FRICTION", "ENERGY", 13),
+            ("EXTERNAL", "WORK", 13),
+            ("CONTACT", "WORK", 13),
+            ("ERODED", "ENERGY", 13),
+            ("ENERGY", "ERROR", 11),
+        ],
+        StepColumns::Momentum => &[("MOMENTUM", "IN X", 13), ("MOMENTUM", "IN Y", 13), ("MOMENTUM", "IN Z", 13)],
+        StepColumns::ToGo => &[("SECONDS", "TO GO", 10)],
+    }
+}
+
+/// What a line shows in these columns.
+fn cells(asked: StepColumns, line: &StepLine) -> Vec<String> {
+    let t = line.totals;
+    let value = |value: f64| scientific(value, 4);
+    match asked {
+        StepColumns::Pronto => Vec::new(),
+        StepColumns::TimeStep => {
+            vec![value(line.time_step), line.controlling.element.to_string(), line.controlling.block.to_string()]
+        }
+        StepColumns::Energy => {
+            let accounts =
+                [t.internal, t.hourglass, t.bulk_viscosity, t.friction, t.external, t.contact, t.eroded].map(value);
+            let error = scientific(t.relative_error(line.initial_energy), 2);
+            accounts.into_iter().chain([error]).collect()
+        }
+        StepColumns::Momentum => t.momentum.map(value).into(),
+        StepColumns::ToGo => vec![scientific(line.to_go, 1)],
+    }
+}
+
 /// Column heads.
-pub fn step_header() -> String {
+pub fn step_header(asked: &[StepColumns]) -> String {
     let [mut upper, mut lower] = [String::from("\n"), String::new()];
-    for (first, second, width) in COLUMNS {
+    for (first, second, width) in PRONTO.iter().chain(asked.iter().flat_map(|asked| columns(*asked))) {
         upper += &format!("{first:>width$}");
         lower += &format!("{second:>width$}");
     }
@@ -57,29 +89,17 @@ pub fn step_header() -> String {
 }
 
 /// One line.
-pub fn step_line(line: &StepLine) -> String {
-    let t = line.totals;
-    let energy = |value: f64| scientific(value, 4);
-    let cells = [
+pub fn step_line(asked: &[StepColumns], line: &StepLine) -> String {
+    let first = [
         line.step.to_string(),
-        energy(line.time),
-        energy(t.kinetic),
+        scientific(line.time, 4),
+        scientific(line.totals.kinetic, 4),
         scientific(line.grind, 3),
         scientific(line.dilatation, 3),
-        energy(line.time_step),
-        line.controlling.element.to_string(),
-        line.controlling.block.to_string(),
-        energy(t.internal),
-        energy(t.hourglass),
-        energy(t.bulk_viscosity),
-        energy(t.friction),
-        energy(t.external),
-        energy(t.contact),
-        energy(t.eroded),
-        scientific(t.relative_error(line.initial_energy), 2),
-        scientific(line.to_go, 1),
     ];
-    let cells = cells.iter().zip(COLUMNS).map(|(cell, (.., width))| format!("{cell:>width$}"));
+    let cells = first.into_iter().chain(asked.iter().flat_map(|asked| cells(*asked, line)));
+    let columns = PRONTO.iter().chain(asked.iter().flat_map(|asked| columns(*asked)));
+    let cells = cells.zip(columns).map(|(cell, (.., width))| format!("{cell:>width$}"));
     cells.collect::<String>() + "\n"
 }
 
@@ -91,7 +111,7 @@ mod tests {
     fn cells_stand_under_their_heads() {
         let totals = Totals { kinetic: -1.0e-300, ..Totals::default() };
         let controlling = ElementPlace { element: 123_456_789, block: 99_999, centre: [0.0; 3], volume: 1.0 };
-        let line = step_line(&StepLine {
+        let line = StepLine {
             step: 12_345_678,
             time: 1e-6,
             time_step: 1e-9,
@@ -101,10 +121,15 @@ mod tests {
             grind: 1e-8,
             dilatation: 1e5,
             to_go: 60.0,
-        });
-        let head = step_header();
+        };
         let ends = |text: &str| text.lines().next_back().map(|last| last.len());
-        assert_eq!(ends(&head), ends(&line));
-        assert_eq!(line.split_whitespace().count(), COLUMNS.len());
+        let mut asked: Vec<Vec<StepColumns>> = StepColumns::ALL.iter().map(|one| vec![*one]).collect();
+        asked.push(StepColumns::ALL.to_vec());
+        for asked in asked {
+            let (head, cells) = (step_header(&asked), step_line(&asked, &line));
+            assert_eq!(ends(&head), ends(&cells), "{asked:?}");
+            let columns = PRONTO.len() + asked.iter().map(|asked| columns(*asked).len()).sum::<usize>();
+            assert_eq!(cells.split_whitespace().count(), columns, "{asked:?}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Elements: from positions and velocities to corner forces, block by block in chunks of eight.
 
 mod block;
+pub mod fields;
 pub mod geometry;
 pub mod hex8;
 pub mod hourglass;

@@ -18,22 +18,11 @@ use super::kinematics::rotation_matrix;
 use super::{ElementBlock, Group, NewElement, PassOutcome, PassSettings, Sink, geometry, run};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Kernel, KernelVisitor, Law};
+use crate::mesh::UNIT_CUBE as CUBE;
 use crate::model::{BulkViscosity, Hourglass, StepModuli};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 type Corners = [[f64; 3]; 8];
-
-/// The unit cube; its natural coordinates are 2x − 1.
-const CUBE: Corners = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [0.0, 1.0, 1.0],
-];
 
 const DENSITY: f64 = 7850.0;
 const STEEL: Elastic = Elastic { young: 200e9, poisson: 0.3 };
