@@ -413,7 +413,7 @@ impl Default for ContactControl {
             passes: 20,
             tolerance: 1e-5,
             search: ContactSearch::Grid,
-            reach: 45.0,
+            reach: 150.0,
             margin: 0.1,
             edges: ContactEdges::Sharp,
             decomposition: ContactDecomposition::Bisection,

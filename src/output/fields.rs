@@ -1,5 +1,6 @@
 //! Fields of the plot file: their names, and their values on one rank.
 
+use crate::comm::Communicator;
 use crate::model::{ElementField, Model, NodalField};
 use crate::solver::elements::fields::{field_values, state_values};
 use crate::solver::elements::{ElementBlock, Group};
@@ -75,13 +76,12 @@ impl FieldList {
         fields.chain(self.state.iter().cloned()).collect()
     }
 
-    /// Whether nodal values need [`Solver::complete_contact`] first.
-    pub fn needs_all_of_contact(&self) -> bool {
-        [NodalField::Contact, NodalField::Reaction].iter().any(|field| self.nodal.contains(field))
-    }
-
-    /// Nodal values of the owned nodes of a rank, variable by variable.
-    pub fn nodal_values(&self, solver: &Solver) -> Vec<f64> {
+    /// Nodal values of the owned nodes of a rank, variable by variable. All ranks call it.
+    pub fn nodal_values(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Vec<f64> {
+        if [NodalField::Contact, NodalField::Reaction].iter().any(|field| self.nodal.contains(field)) {
+            solver.complete_contact(comm);
+        }
+        let solver = &*solver;
         let nodes = &solver.domain.nodes;
         let owned: Vec<u32> = (0..nodes.len() as u32).filter(|&n| nodes.owned[n as usize]).collect();
         let wanted = |field: NodalField| self.nodal.contains(&field);

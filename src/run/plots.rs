@@ -66,10 +66,7 @@ impl Plots {
         totals: &Totals,
         comm: &mut dyn Communicator,
     ) -> Result<(), RunError> {
-        if fields.needs_all_of_contact() {
-            solver.complete_contact(comm);
-        }
-        let [nodal, element] = [fields.nodal_values(solver), fields.element_values(solver, comm.rank())];
+        let [nodal, element] = [fields.nodal_values(solver, comm), fields.element_values(solver, comm.rank())];
         let [nodal_count, element_count] = self.variables;
         let values = match (&mut self.split, &self.collector) {
             (Some(split), _) => Some((split.nodal(&nodal, nodal_count, comm), split.element(&element, element_count))),

@@ -63,7 +63,7 @@ impl Case {
             way.push(bits(&numbers));
             if step + 1 == steps {
                 let (nodal, element) = (fields.nodal_names().len(), fields.element_names().len());
-                let nodal = collector.nodal(fields.nodal_values(solver), nodal, comm).unwrap_or_default();
+                let nodal = collector.nodal(fields.nodal_values(solver, comm), nodal, comm).unwrap_or_default();
                 // Who computes an element is of no account.
                 let element = collector.element(fields.element_values(solver, 0), element, comm).unwrap_or_default();
                 shown = bits(&[nodal.concat(), element.concat()].concat());

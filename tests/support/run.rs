@@ -198,9 +198,9 @@ fn line(solver: &mut Solver, comm: &mut dyn Communicator) -> Line {
     }
 }
 
-fn state(solver: &Solver, fields: &FieldList, collector: &Collector, comm: &mut dyn Communicator) -> State {
+fn state(solver: &mut Solver, fields: &FieldList, collector: &Collector, comm: &mut dyn Communicator) -> State {
     let (nodal, element) = (fields.nodal_names(), fields.element_names());
-    let nodal_values = collector.nodal(fields.nodal_values(solver), nodal.len(), comm);
+    let nodal_values = collector.nodal(fields.nodal_values(solver, comm), nodal.len(), comm);
     let element_values = collector.element(fields.element_values(solver, comm.rank()), element.len(), comm);
     State {
         time: solver.time,

@@ -226,6 +226,9 @@ impl Arena {
         let Arena { constraints, near, near_faces, strict, touches, .. } = self;
         let check = Check { points, faces };
         for i in 0..locator.watched().len() {
+            if locator.is_quiet(i) {
+                continue;
+            }
             let point = locator.watched()[i];
             let past = &mut history[point as usize];
             locator.near(i, points, faces, past, near);

@@ -196,8 +196,8 @@ impl Enforcer {
         }
     }
 
-    /// Finds the forces of all constraints that were prepared, and their sums at the points. The order of the constraints is that of the
-    /// sums and must not depend on the decomposition.
+    /// Finds the forces of all constraints that were prepared, and their sums at the points. The order of the constraints
+    /// is that of the sums and must not depend on the decomposition.
     pub fn solve(
         &mut self,
         constraints: &mut [Constraint],

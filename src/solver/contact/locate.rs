@@ -59,6 +59,8 @@ pub struct Locator {
     first: Vec<u32>,
     near: Vec<Near>,
     outlooks: Vec<Outlook>,
+    /// How far things must have gone in all until a watched point may have anything near at all.
+    quiet: Vec<f64>,
     /// How far things have gone in all, counted as if the fastest point of each step were always the same.
     gone: f64,
     /// How much of that in the present step.
@@ -83,6 +85,12 @@ struct Outlook {
 
 /// Steps at the present speed that candidates sleep at least: shorter sleep is not worth the looking.
 const SLEEP: f64 = 16.0;
+
+/// Least sleeps after which a point looks out for candidates that are awake but need not be.
+const LOOK: f64 = 4.0;
+
+/// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
+const ALONG_A_NORMAL: f64 = 3.4642;
 
 /// A foot this part of a face's size outside may count as on its border.
 const BORDER: f64 = 0.01;
@@ -129,6 +137,7 @@ impl Locator {
         Locator {
             depth,
             outlooks: vec![Outlook::default(); found.watched.len()],
+            quiet: vec![0.0; found.watched.len()],
             moving: (0..points.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
             watched: found.watched,
             first: found.first,
@@ -141,7 +150,8 @@ impl Locator {
     /// Begins a step.
     pub fn step(&mut self, points: &Points, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
-        // What counts in the longest way is chosen after the first step's points have been put.
+        // On one rank what counts in the longest way is chosen after the first step's points have been put; on many these
+        // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
         self.last_way = if first { self.longest_way(points) } else { points.longest_way() };
         self.gone += self.last_way;
@@ -169,7 +179,7 @@ impl Locator {
     pub fn near(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES], near: &mut Vec<Near>) {
         near.clear();
         // Written so that it does not rest where what has gone is not a number.
-        let rests = self.gone < self.outlooks[i].due;
+        let rests = self.gone + self.last_way < self.outlooks[i].due;
         if !rests {
             self.look_out(i, points, faces, past);
         }
@@ -193,6 +203,12 @@ impl Locator {
         candidates.iter().skip(64).for_each(look);
     }
 
+    /// Whether nothing holds the `i`-th watched point, nor comes near it in this step.
+    #[inline]
+    pub fn is_quiet(&self, i: usize) -> bool {
+        self.gone + self.last_way < self.quiet[i]
+    }
+
     /// Whether a face holds the `i`-th watched point.
     pub fn is_held(&self, i: usize) -> bool {
         self.outlooks[i].held
@@ -204,6 +220,7 @@ impl Locator {
         if outlook.held != held {
             // Other candidates matter to it than before.
             *outlook = Outlook { held, ..Outlook::default() };
+            self.quiet[i] = 0.0;
         }
     }
 
@@ -214,13 +231,17 @@ impl Locator {
         let own = points.ways[point as usize];
         let (sleep, mut rest, mut awake) = (SLEEP * self.last_way, f64::INFINITY, 0);
         let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        // Behind a thin face a point may be touching a thick one beside it, and then both normals count.
+        let depths = candidates.iter().map(|candidate| faces.depth[candidate.face as usize]);
+        let deepest = depths.fold(0.0, f64::max);
         for (bit, candidate) in candidates.iter().enumerate().take(64) {
             let face = candidate.face;
-            // Both sides may come nearer, by the way of this step, too: boxes of the next do not begin with it.
+            // Both sides may come nearer.
             let mut away = 0.5 * f64::from(own.distance(&self.capture_boxes.of(face, faces, points, self.depth)));
             if !held && away <= sleep {
-                // Along an axis no way is longer than 1/√3 of what it can be along a normal.
-                away = away.max(separation(point, face, points, faces, self.depth) / 3.4642);
+                let apart =
+                    separation([point, face], points, faces, [self.depth * faces.depth[face as usize], deepest]);
+                away = away.max(apart / ALONG_A_NORMAL);
             }
             if away > sleep && past.iter().all(|past| past.face != face) {
                 rest = rest.min(away);
@@ -228,7 +249,13 @@ impl Locator {
                 awake |= 1 << bit;
             }
         }
-        self.outlooks[i] = Outlook { due: self.gone - self.last_way + rest, awake, held };
+        if awake != 0 {
+            // Those that are awake may sleep some day.
+            rest = rest.min(LOOK * sleep);
+        }
+        let due = self.gone + rest;
+        self.outlooks[i] = Outlook { due, awake, held };
+        self.quiet[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
     }
 
     /// Numbers of watched points and of candidate pairs.
@@ -238,12 +265,11 @@ impl Locator {
 }
 
 /// Distance along the normal of a face between a point and where it would matter to the face, over the whole step: in
-/// front farther than `depth`, a part of half the element, or behind by more than half the element. Not a number for a
-/// face without area.
+/// front farther than the first reach, or behind by more than the second. Not a number for a face without area.
 ///
 /// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
 /// later, as long as nobody has gone half this distance.
-fn separation(point: u32, face: u32, points: &Points, faces: &Faces, depth: f64) -> f64 {
+fn separation([point, face]: [u32; 2], points: &Points, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
     let (start, end) = (faces.start(face, points), faces.end(face, points));
     let normal = area_normal(&start);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -253,7 +279,6 @@ fn separation(point: u32, face: u32, points: &Points, faces: &Faces, depth: f64)
             (low, high) = (low.min(height), high.max(height));
         }
     }
-    let length = dot(normal, normal).sqrt();
-    let (deep, border) = (faces.depth[face as usize], BORDER * faces.size[face as usize]);
-    (low / length - depth * deep - border).max(-high / length - deep - border)
+    let (length, border) = (dot(normal, normal).sqrt(), BORDER * faces.size[face as usize]);
+    (low / length - front - border).max(-high / length - behind - border)
 }

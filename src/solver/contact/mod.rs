@@ -333,7 +333,8 @@ impl Contact {
     }
 
     /// At each local node that is pushed: contact force, overlap that contact closes in the coming step, status (0 free,
-    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face it meets.
+    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face
+    /// it meets.
     pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
         let value = |(node, a): (u32, &[f64; sites::ANSWER])| {
             let element = if a[7] == 2.0 { self.skin.file_number(a[8] as u32) } else { 0.0 };

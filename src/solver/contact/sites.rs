@@ -3,7 +3,7 @@
 use super::points::{Points, larger};
 use super::setup::ABSENT;
 use crate::solver::constraints::StepTimes;
-use crate::solver::nodes::{Nodes, dot};
+use crate::solver::nodes::{Nodes, add, dot, scaled};
 
 /// A point that is a node here.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,9 @@ pub struct Site {
     /// Whether this rank answers for the node.
     pub owned: bool,
 }
+
+/// Room of a site's box on all sides, as a part of half the way that the box is made for: at full speed a site turns little.
+const SIDE: f64 = 0.25;
 
 /// What contact says about a site: normal force, friction force, gap, status, face, force of rigid planes.
 pub const ANSWER: usize = 12;
@@ -34,10 +37,11 @@ pub struct Sites {
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub points: Points,
-    /// Where each was at the last search, and how far it may go from there along each axis; empty before the first.
-    reference: Vec<[f64; 3]>,
-    allowance: Vec<f64>,
-    /// Whether a site leaves that box in this step, or there was no search.
+    /// Box that the last search gave each: its centre, and how far it goes from there along each axis.
+    centre: Vec<[f64; 3]>,
+    allowance: Vec<[f64; 3]>,
+    /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
+    searched: bool,
     pub expired: bool,
     /// What contact says of each.
     pub answers: Vec<[f64; ANSWER]>,
@@ -93,40 +97,44 @@ impl Sites {
 
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
-        let searched = self.reference.len() == self.list.len();
         // Nothing is away from what is not a number.
-        self.reference.resize(self.list.len(), [f64::NAN; 3]);
-        self.allowance.resize(self.list.len(), 0.0);
-        let sites = self.list.iter().zip(self.reference.iter().zip(&self.allowance));
+        self.centre.resize(self.list.len(), [f64::NAN; 3]);
+        self.allowance.resize(self.list.len(), [0.0; 3]);
+        let sites = self.list.iter().zip(self.centre.iter().zip(&self.allowance));
         self.points.begin(step.drift);
-        let beyond = self.points.set_all(sites.map(|(site, (reference, &allowance))| {
+        let beyond = self.points.set_all(sites.map(|(site, (centre, allowance))| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
             let start = [row[0], row[1], row[2]];
             let predicted = |axis: usize| row[4 + axis] + step.kick * (force[axis] * row[7]);
             let velocity = [predicted(0), predicted(1), predicted(2)];
             let away = |axis: usize| {
                 let end = start[axis] + velocity[axis] * step.drift;
-                larger((start[axis] - reference[axis]).abs(), (end - reference[axis]).abs())
+                larger((start[axis] - centre[axis]).abs(), (end - centre[axis]).abs()) - allowance[axis]
             };
-            (start, velocity, larger(away(0), larger(away(1), away(2))) - allowance)
+            (start, velocity, larger(away(0), larger(away(1), away(2))))
         }));
-        self.expired = beyond > 0.0 || !searched;
+        self.expired = beyond > 0.0 || !self.searched;
     }
 
-    /// Gives every site a new box: as far as it would go in `steps` of the present one, but at least `least`.
+    /// Gives every site a new box: around the way that it would go in `steps` of the present one, with room on all sides
+    /// for a turn, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
-        self.reference.clone_from(&self.points.start);
-        let way = |point: u32| {
-            let (_, [x, y, z]) = self.points.path(point);
-            x.abs().max(y.abs()).max(z.abs())
-        };
+        self.searched = true;
+        self.centre.clear();
         self.allowance.clear();
-        self.allowance.extend((0..self.list.len() as u32).map(|site| (steps * way(site)).max(least)));
+        for site in 0..self.list.len() as u32 {
+            let (start, way) = self.points.path(site);
+            let half = scaled(way, 0.5 * steps);
+            let longest = half.iter().fold(0.0, |longest, way| larger(way.abs(), longest));
+            let room = larger(SIDE * longest, least);
+            self.centre.push(add(start, half));
+            self.allowance.push(half.map(|way| way.abs() + room));
+        }
     }
 
-    /// Where a site is, and how far it may go along each axis.
-    pub fn reach(&self, site: usize) -> ([f64; 3], f64) {
-        (self.points.start[site], self.allowance[site])
+    /// Centre of a site's box, and how far the box goes from there along each axis.
+    pub fn reach(&self, site: usize) -> ([f64; 3], [f64; 3]) {
+        (self.centre[site], self.allowance[site])
     }
 
     /// Force on a site, normal and friction apart.
