@@ -84,7 +84,7 @@ struct Outlook {
 }
 
 /// Steps at the present speed that candidates sleep at least: shorter sleep is not worth the looking.
-const SLEEP: f64 = 16.0;
+const SLEEP: f64 = 6.0;
 
 /// Least sleeps after which a point looks out for candidates that are awake but need not be.
 const LOOK: f64 = 4.0;

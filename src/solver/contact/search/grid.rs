@@ -6,7 +6,7 @@ use super::{Box3, Candidates, Search, lowest_start};
 use crate::solver::contact::bounds::Bounds;
 
 /// Edge of a cell in typical sizes of the class that looks through it.
-const CELL: f64 = 1.0;
+const CELL: f64 = 0.7;
 /// Cells are numbered within this bound, which keeps numbers in 32 bits; the outermost cells have no end.
 const OUTERMOST: f64 = (1 << 30) as f64;
 
