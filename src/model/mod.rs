@@ -10,6 +10,7 @@ mod control;
 mod deletion;
 mod function;
 mod initial;
+mod interfaces;
 mod material;
 mod output;
 mod problem;
@@ -19,6 +20,10 @@ mod restart;
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
 pub use deletion::Deletion;
+pub use interfaces::{
+    Contact, ContactControl, ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactSearch,
+    ContactSurface, Friction,
+};
 pub use problem::{Problem, examine, from_deck};
 pub use restart::{ReadRestart, Restarts, WriteRestart};
 
@@ -286,26 +291,6 @@ pub struct RigidSurface {
     pub friction: f64,
 }
 
-/// Contact between surfaces of the body: what may touch, and how it is enforced.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Contact {
-    /// CONTACT MATERIAL: numbers of the blocks whose outside may touch any other and itself.
-    pub materials: Option<ContactMaterials>,
-    /// CONTACT SURFACE: pairs of side sets.
-    pub surfaces: Vec<ContactSurface>,
-    /// CONTACT DATA: what holds between two materials.
-    pub data: Vec<ContactData>,
-    /// CONTACT CONTROL.
-    pub control: ContactControl,
-}
-
-impl Contact {
-    /// Whether anything may touch anything.
-    pub fn is_some(&self) -> bool {
-        self.materials.is_some() || !self.surfaces.is_empty()
-    }
-}
-
 /// DEATH: elements of a block are taken away when a variable passes a value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Death {
@@ -332,115 +317,6 @@ pub enum DeathVariable {
     Volume,
     /// The stable time step of the element.
     TimeStep,
-}
-
-/// The blocks that CONTACT MATERIAL names.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ContactMaterials {
-    /// Every block of the mesh.
-    All,
-    /// These.
-    Blocks(Vec<i64>),
-}
-
-/// CONTACT SURFACE: the nodes of each side set may touch the faces of the other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactSurface {
-    /// Side set numbers.
-    pub side_sets: [i64; 2],
-    /// Coulomb friction.
-    pub friction: Friction,
-    /// Share of the master role of the first side set: 1 makes it the master, 0 the slave.
-    pub partition: f64,
-}
-
-/// CONTACT DATA: friction and partition between two materials.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactData {
-    /// Block numbers; twice the same for a material with itself.
-    pub materials: [i64; 2],
-    /// Coulomb friction.
-    pub friction: Friction,
-    /// Share of the master role of the first material; from the impedances where `None`.
-    pub partition: Option<f64>,
-}
-
-/// Coulomb friction whose coefficient falls with the speed of sliding:
-/// μ(v) = μ_high + (μ_static − μ_high) exp(−decay v).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Friction {
-    /// Coefficient at rest.
-    pub at_rest: f64,
-    /// Coefficient at high speed.
-    pub high_speed: f64,
-    /// Decay, time/length; 0 keeps the coefficient at rest.
-    pub decay: f64,
-}
-
-/// CONTACT EDGES: which edges of the outside may touch edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactEdges {
-    /// None.
-    None,
-    /// Those that stand out touch each other.
-    Sharp,
-    /// Those that stand out touch each other and the lines of the mesh within faces.
-    All,
-}
-
-/// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES and CONTACT DECOMPOSITION: how contact is found and enforced.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactControl {
-    /// Largest number of enforcement passes in a step.
-    pub passes: u32,
-    /// Overlap that ends the passes, as a part of the face's size.
-    pub tolerance: f64,
-    /// How near faces are found.
-    pub search: ContactSearch,
-    /// Steps that a search shall last for a point that keeps its velocity; 0 searches every step.
-    pub reach: f64,
-    /// Smallest reach of a search, as a part of the mean face size.
-    pub margin: f64,
-    /// Which edges may touch edges.
-    pub edges: ContactEdges,
-    /// How points are shared out among many ranks.
-    pub decomposition: ContactDecomposition,
-}
-
-impl Default for ContactControl {
-    fn default() -> ContactControl {
-        ContactControl {
-            passes: 20,
-            tolerance: 1e-5,
-            search: ContactSearch::Grid,
-            reach: 150.0,
-            margin: 0.1,
-            edges: ContactEdges::Sharp,
-            decomposition: ContactDecomposition::Bisection,
-        }
-    }
-}
-
-/// Ways to share out the points of contact among ranks; all give the same results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactDecomposition {
-    /// Recursive coordinate bisection of where the points are.
-    Bisection,
-    /// Slices across one axis, of equally many points.
-    Slices,
-    /// Every point stays with the rank that owns its node.
-    Static,
-}
-
-/// Ways to find faces near a point; all find the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactSearch {
-    /// Three sorted lists (Swegle), the reference.
-    PointInBox,
-    /// Grids of cells.
-    Grid,
-    /// A tree of boxes.
-    Tree,
 }
 
 /// PLOT NODAL, PLOT ELEMENT, PLOT STATE.
