@@ -101,14 +101,10 @@ pub trait Others {
     /// Appends the constraints of others that act on points which this rank answers for, and sends them those that act on
     /// theirs.
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<State>);
-    /// Begins to tell others of points that are this rank's: how far forces move them, and what constraints weigh there.
-    fn start_sharing(&mut self, moved: &[Moved]);
-    /// Brings what they have told of theirs.
-    fn finish_sharing(&mut self, moved: &mut [Moved]);
+    /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
+    fn share(&mut self, moved: &mut [Moved]);
     /// The largest of all ranks' values.
     fn largest(&mut self, value: f64) -> f64;
-    /// Whether there are any.
-    fn exist(&self) -> bool;
 }
 
 /// There are no others.
@@ -117,16 +113,10 @@ pub struct Alone;
 impl Others for Alone {
     fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<State>) {}
 
-    fn start_sharing(&mut self, _: &[Moved]) {}
-
-    fn finish_sharing(&mut self, _: &mut [Moved]) {}
+    fn share(&mut self, _: &mut [Moved]) {}
 
     fn largest(&mut self, value: f64) -> f64 {
         value
-    }
-
-    fn exist(&self) -> bool {
-        false
     }
 }
 
@@ -223,29 +213,19 @@ impl Enforcer {
             return outcome;
         }
         let mut momentum = Momentum::new();
-        self.scatter(constraints, points, times);
-        others.start_sharing(&self.moved);
-        others.finish_sharing(&mut self.moved);
+        self.scatter(constraints, points, times, others);
         loop {
             let ahead = momentum.next();
             let mut worst: f64 = 0.0;
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
                 worst = worst.max(correct(c, state, &self.moved, times, ahead));
             }
-            outcome.passes += 1;
-            // Others are told while they vote, though they may find that this was the last pass: one wait instead of two.
-            if others.exist() {
-                self.scatter(constraints, points, times);
-                others.start_sharing(&self.moved);
-            }
             outcome.left = others.largest(worst);
-            others.finish_sharing(&mut self.moved);
+            outcome.passes += 1;
             if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
                 break;
             }
-            if !others.exist() {
-                self.scatter(constraints, points, times);
-            }
+            self.scatter(constraints, points, times, others);
         }
         for (c, state) in constraints.iter_mut().zip(&self.states) {
             (c.push, c.drag) = state.last;
@@ -322,7 +302,7 @@ impl Enforcer {
     }
 
     /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move.
-    fn scatter(&mut self, constraints: &[Constraint], points: &Points, times: Times) {
+    fn scatter(&mut self, constraints: &[Constraint], points: &Points, times: Times, others: &mut dyn Others) {
         for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
             let force = add(scaled(c.normal, c.push), c.drag);
             for (point, w) in c.parts() {
@@ -339,6 +319,7 @@ impl Enforcer {
             let ([x, y, z], k) = (sum.change, times.kick);
             self.moved[p] = Moved { change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
         }
+        others.share(&mut self.moved);
     }
 
     /// Sums the forces that were found, in the order of the constraints.

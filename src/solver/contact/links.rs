@@ -71,14 +71,13 @@ impl Others for Linked<'_> {
         }
     }
 
-    fn start_sharing(&mut self, moved: &[Moved]) {
-        self.links.shares.start(moved, |moved, point| told(&moved[point as usize]), self.comm);
-    }
-
-    fn finish_sharing(&mut self, moved: &mut [Moved]) {
-        self.links.shares.finish(
+    fn share(&mut self, moved: &mut [Moved]) {
+        self.links.shares.exchange(
             moved,
-            |moved, point| told(&moved[point as usize]),
+            |moved, point| {
+                let Moved { change: [x, y, z], load } = moved[point as usize];
+                [x, y, z, load]
+            },
             |moved, point, [x, y, z, load]| moved[point as usize] = Moved { change: [x, y, z], load },
             self.comm,
         );
@@ -89,16 +88,6 @@ impl Others for Linked<'_> {
         self.comm.all_min(&mut least);
         -least[0]
     }
-
-    fn exist(&self) -> bool {
-        true
-    }
-}
-
-/// What is told of a point.
-fn told(moved: &Moved) -> [f64; 4] {
-    let Moved { change: [x, y, z], load } = *moved;
-    [x, y, z, load]
 }
 
 /// Numbers of a constraint on its way.

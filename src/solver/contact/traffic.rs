@@ -40,33 +40,12 @@ impl Pattern {
         take: impl Fn(&mut D, u32, [f64; W]),
         comm: &mut dyn Communicator,
     ) {
-        self.start(data, &give, comm);
-        self.finish(data, give, take, comm);
-    }
-
-    /// Sends `W` numbers of every entry; [`Pattern::finish`] receives those of others.
-    pub fn start<const W: usize, D: ?Sized>(
-        &mut self,
-        data: &D,
-        give: impl Fn(&D, u32) -> [f64; W],
-        comm: &mut dyn Communicator,
-    ) {
         for ((peer, send), receive) in self.peers.iter_mut().zip(&self.send).zip(&self.receive) {
             peer.send.clear();
             peer.send.extend(send.iter().flat_map(|&entry| give(data, entry)));
             peer.receive.resize(W * receive.len(), 0.0);
         }
         comm.start_exchange(&mut self.peers);
-    }
-
-    /// Receives what others have sent, and copies entries that stay here.
-    pub fn finish<const W: usize, D: ?Sized>(
-        &mut self,
-        data: &mut D,
-        give: impl Fn(&D, u32) -> [f64; W],
-        take: impl Fn(&mut D, u32, [f64; W]),
-        comm: &mut dyn Communicator,
-    ) {
         for &(from, to) in &self.own {
             let values = give(data, from);
             take(data, to, values);
