@@ -10,7 +10,6 @@ use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
 use super::faces::Faces;
 use super::locate::{Locator, Near, Rule};
 use super::neighbourhood::Found;
-use super::pairs::Pairs;
 use super::planes::PlanePoint;
 use super::points::Points;
 use super::setup::{ABSENT, Layout, Pairings};
@@ -60,7 +59,6 @@ pub struct Arena {
     rules: Vec<Rule>,
     history: Vec<[Past; TOUCHES]>,
     edge_history: Vec<PastPair>,
-    pairs: Pairs,
     planes: Vec<PlanePoint>,
     /// Constraints of this step.
     pub constraints: Vec<Constraint>,
@@ -107,7 +105,7 @@ impl Arena {
             Edge { ends: edge.ends.map(local), faces, ..edge }
         });
         let edges: Vec<Edge> = edges.collect();
-        let mut found = Found {
+        let found = Found {
             watched: found.watched.into_iter().map(local).collect(),
             first: found.first,
             near: found.near.into_iter().map(|near| Near { face: face_places[near.face as usize], ..near }).collect(),
@@ -118,8 +116,7 @@ impl Arena {
         let all = points + cast.ghosts.len();
         let values = Points::new(points);
         Arena {
-            pairs: Pairs::new(std::mem::take(&mut found.pairs), &edges),
-            locator: Locator::new(found, depth, &values, &faces),
+            locator: Locator::new(found, depth, &values, &faces, &edges),
             points: values,
             edges,
             point_block: cast.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
@@ -141,8 +138,7 @@ impl Arena {
     }
 
     /// The candidates of the last search are replaced; history is kept of points that still have any.
-    pub fn renew(&mut self, mut found: Found, depth: f64) {
-        self.pairs = Pairs::new(std::mem::take(&mut found.pairs), &self.edges);
+    pub fn renew(&mut self, found: Found, depth: f64) {
         let mut watched = found.watched.iter().peekable();
         for (point, past) in self.history.iter_mut().enumerate() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
@@ -150,7 +146,7 @@ impl Arena {
                 *past = UNTOUCHED;
             }
         }
-        self.locator = Locator::new(found, depth, &self.points, &self.faces);
+        self.locator = Locator::new(found, depth, &self.points, &self.faces, &self.edges);
     }
 
     /// What is carried from step to step.
@@ -265,28 +261,27 @@ impl Arena {
 
     /// The check of every pair of edges that may cross.
     fn check_edges(&mut self, pairings: &Pairings) {
-        let Arena { points, faces, pairs, edges, edge_history, constraints, .. } = self;
-        pairs.step(points);
+        let Arena { points, faces, locator, edges, edge_history, constraints, .. } = self;
         let check = EdgeCheck { points, faces, edges };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
-        for place in 0..pairs.list.len() {
-            if !pairs.is_due(place) {
+        for place in 0..locator.edge_pairs().len() {
+            if !locator.is_pair_due(place) {
                 continue;
             }
-            let pair = pairs.list[place];
+            let pair = locator.edge_pairs()[place];
             let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
             let mut pairing = pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
             // Neither edge is the master.
             pairing.share = 0.5;
             match check.pair(pair, past, pairing) {
                 Verdict::Touch(now, constraint) => {
-                    pairs.wait(place, 0.0);
+                    locator.let_pair_wait(place, 0.0);
                     edge_history.push(now);
                     constraints.push(*constraint);
                 }
-                Verdict::Near => pairs.wait(place, 0.0),
-                Verdict::Beside => pairs.wait(place, check.apart(pair)),
+                Verdict::Near => locator.let_pair_wait(place, 0.0),
+                Verdict::Beside => locator.let_pair_wait(place, check.apart(pair)),
             }
         }
     }

@@ -1,7 +1,9 @@
-//! Location: which points come near which faces in a step, of those that the last search has found.
+//! Location: which points come near which faces, and which edges each other, in a step, of those that the last search has
+//! found.
 
 use super::bounds::Bounds;
 use super::detect::{NONE, Past, TOUCHES};
+use super::edges::Edge;
 use super::face::area_normal;
 use super::faces::Faces;
 use super::neighbourhood::Found;
@@ -58,6 +60,9 @@ pub struct Locator {
     watched: Vec<u32>,
     first: Vec<u32>,
     near: Vec<Near>,
+    /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
+    edge_pairs: Vec<[u32; 2]>,
+    pairs_due: Vec<f64>,
     outlooks: Vec<Outlook>,
     /// How far things must have gone in all until a watched point may have anything near at all.
     quiet: Vec<f64>,
@@ -65,7 +70,7 @@ pub struct Locator {
     gone: f64,
     /// How much of that in the present step.
     last_way: f64,
-    /// Points that are watched or corners of candidates, ascending.
+    /// Points that are watched, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
     /// Whether no step has been made yet.
     fresh: bool,
@@ -88,6 +93,9 @@ const SLEEP: f64 = 6.0;
 
 /// Least sleeps after which a point looks out for candidates that are awake but need not be.
 const LOOK: f64 = 4.0;
+
+/// Part of the way between two edges that either may go before they are looked at again: half, less what rounding takes.
+const SAFE: f64 = 0.499;
 
 /// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
 const ALONG_A_NORMAL: f64 = 3.4642;
@@ -128,8 +136,11 @@ impl CaptureBoxes {
 
 impl Locator {
     /// Takes over what a search has found, in numbers of the arena.
-    pub fn new(found: Found, depth: f64, points: &Points, faces: &Faces) -> Locator {
+    pub fn new(found: Found, depth: f64, points: &Points, faces: &Faces, edges: &[Edge]) -> Locator {
         let mut is_moving = vec![false; points.len()];
+        for &edge in found.pairs.iter().flatten() {
+            edges[edge as usize].ends.iter().for_each(|&end| is_moving[end as usize] = true);
+        }
         found.watched.iter().for_each(|&point| is_moving[point as usize] = true);
         for near in &found.near {
             faces.corners[near.face as usize].iter().for_each(|&corner| is_moving[corner as usize] = true);
@@ -142,6 +153,8 @@ impl Locator {
             watched: found.watched,
             first: found.first,
             near: found.near,
+            pairs_due: vec![0.0; found.pairs.len()],
+            edge_pairs: found.pairs,
             fresh: true,
             ..Default::default()
         }
@@ -164,7 +177,7 @@ impl Locator {
         ways.fold(0.0, |longest, way| if way <= f64::MAX { way.max(longest) } else { f64::INFINITY })
     }
 
-    /// Points that are watched or corners of candidates, ascending.
+    /// Points that are watched, corners of candidates or ends of edges, ascending: those that count in the longest way.
     pub fn moving(&self) -> &[u32] {
         &self.moving
     }
@@ -222,6 +235,21 @@ impl Locator {
             *outlook = Outlook { held, ..Outlook::default() };
             self.quiet[i] = 0.0;
         }
+    }
+
+    /// Pairs of edges that may cross, ascending.
+    pub fn edge_pairs(&self) -> &[[u32; 2]] {
+        &self.edge_pairs
+    }
+
+    /// Whether the `i`-th pair of edges may be near in this step.
+    pub fn is_pair_due(&self, i: usize) -> bool {
+        self.gone + self.last_way >= self.pairs_due[i]
+    }
+
+    /// Lets a pair wait whose edges are so far apart along an axis in this step, beyond where they would be near.
+    pub fn let_pair_wait(&mut self, i: usize, distance: f64) {
+        self.pairs_due[i] = self.gone + SAFE * distance;
     }
 
     /// Finds which candidates of the `i`-th watched point may sleep, and for how long.

@@ -18,7 +18,6 @@ mod links;
 mod locate;
 mod neighbourhood;
 mod overlap;
-mod pairs;
 mod planes;
 pub mod points;
 mod regional;

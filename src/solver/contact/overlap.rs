@@ -224,7 +224,7 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super:
     let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &sites);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let mut locator = Locator::new(found, 1.0, points, &layout.faces);
+    let mut locator = Locator::new(found, 1.0, points, &layout.faces, &layout.edges);
     locator.step(points, &layout.faces);
     let check = Check { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
