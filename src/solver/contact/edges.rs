@@ -235,7 +235,7 @@ pub struct EdgeCheck<'a> {
 impl EdgeCheck<'_> {
     fn start(&self, edge: u32) -> [[f64; 3]; 2] {
         let [a, b] = self.edges[edge as usize].ends;
-        [self.points.start[a as usize], self.points.start[b as usize]]
+        [self.points.start(a), self.points.start(b)]
     }
 
     fn end(&self, edge: u32) -> [[f64; 3]; 2] {
