@@ -57,7 +57,7 @@ fn timed(points: &[[f64; 3]], ids: &[u32], cuts: Option<&Bisection>, comm: &mut 
     let mut once = || {
         comm.barrier();
         let start = Instant::now();
-        let balanced = balance(points, ids, &[], Axes::Longest, earlier, comm);
+        let balanced = balance(points, ids, &[], Axes::Widest, earlier, comm);
         (balanced, start.elapsed().as_secs_f64())
     };
     let first = once();

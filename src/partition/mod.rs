@@ -6,6 +6,7 @@ mod curve;
 pub mod dynamic;
 mod halo;
 mod rcb;
+mod spread;
 
 pub use curve::space_filling_order;
 pub use halo::{Contributors, Decomposition, LocalGroup, Neighbour, Share, SharedNode, Source};

@@ -1,6 +1,7 @@
-//! Recursive coordinate bisection (Berger and Bokhari 1987): cut the points' box across its longest side so that
-//! both halves weigh what their ranks should bear, then cut the halves.
+//! Recursive coordinate bisection (Berger and Bokhari 1987): cut the points across the axis along which they are spread
+//! most so that both halves weigh what their ranks should bear, then cut the halves.
 
+use super::spread::{Frame, Moments};
 use std::cmp::Ordering;
 
 /// The weight that a point of greatest weight gets. Integer weights have exact sums, so that the cuts do not
@@ -40,7 +41,7 @@ fn bisect(points: &mut [Point], first: u32, parts: usize, part_of: &mut [u32]) {
         return;
     }
     let (left_parts, right_parts) = (parts / 2, parts - parts / 2);
-    let axis = longest_side(points);
+    let axis = widest_axis(points);
     let order = |a: &Point, b: &Point| a.at[axis].total_cmp(&b.at[axis]).then(a.index.cmp(&b.index));
     let cut = weighted_cut(points, left_parts, parts, order);
     // At least one point for each part while there are enough, at most one for each while there are not.
@@ -54,15 +55,16 @@ fn bisect(points: &mut [Point], first: u32, parts: usize, part_of: &mut [u32]) {
     bisect(right, first + left_parts as u32, right_parts, part_of);
 }
 
-/// The axis along which the points' box is longest, the first of equals.
-fn longest_side(points: &[Point]) -> usize {
-    let length = |axis: usize| {
-        let along = points.iter().map(|point| point.at[axis]);
-        let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
-    };
-    let lengths = [0, 1, 2].map(length);
-    (1..3).fold(0, |longest, axis| if lengths[axis] > lengths[longest] { axis } else { longest })
+/// The axis along which the points are spread most.
+fn widest_axis(points: &[Point]) -> usize {
+    let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
+    for point in points {
+        low = [0, 1, 2].map(|axis| low[axis].min(point.at[axis]));
+        high = [0, 1, 2].map(|axis| high[axis].max(point.at[axis]));
+    }
+    let (frame, mut moments) = (Frame::new(low, high), Moments::default());
+    points.iter().for_each(|point| moments.add(&frame, point.at));
+    moments.widest(points.len() as u64, &frame)
 }
 
 /// Orders `points` about a cut and returns it, the number of points before it, such that they weigh as nearly as

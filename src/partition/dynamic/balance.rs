@@ -6,14 +6,15 @@ use super::median::{Found, Goal, Guess, Mass, Median, TALLY, tally};
 use super::place::{Place, coordinate_key};
 use crate::comm::Communicator;
 use crate::comm::reduce::number;
+use crate::partition::spread::{Frame, Moments};
 use std::ops::Range;
 
 /// Which axes are cut across.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
-    /// The longest side of the box of the points to be cut, the first of equals: compact regions.
-    Longest,
-    /// The longest side of the box of all points, in all cuts: slices.
+    /// That along which the points to be cut are spread most: compact regions.
+    Widest,
+    /// That along which all points are, in all cuts: slices.
     One,
 }
 
@@ -22,8 +23,8 @@ pub enum Axes {
 pub struct Earlier<'a> {
     /// The cuts.
     pub cuts: &'a Bisection,
-    /// A cut through the same point as then is kept while neither side has more than this part of its share too much;
-    /// with 0 all cuts are exact.
+    /// A cut through the same point as then is kept while neither side has more than this part of its share too much,
+    /// and its axis while the points are not twice as long along another; with 0 all cuts are exact.
     pub slack: f64,
 }
 
@@ -94,7 +95,7 @@ struct Extent {
 ///
 /// It is the algorithm of Attaway et al. 1996, figure 7, except that points stay where they are until all cuts are
 /// known, and that a round tries many places at once. It takes one collective call for the beginning and, for each
-/// level of the tree, one for boxes and one per round: one round where the point at the previous cut still is the
+/// level of the tree, one for boxes, one for axes unless all are kept, and one per round: one round where the point at the previous cut still is the
 /// point at the cut, whatever its motion, or is kept, and about five otherwise.
 pub fn balance(
     points: &[[f64; 3]],
@@ -196,15 +197,45 @@ impl Work<'_> {
 
     fn start(&mut self, level: Vec<Subset>) -> Vec<Cutting> {
         let extents = self.extents(&level);
-        level.into_iter().zip(extents).map(|(subset, extent)| self.cutting(subset, &extent)).collect()
+        let axes = self.axes_across(&level, &extents);
+        let subsets = level.into_iter().zip(extents).zip(axes);
+        subsets.map(|((subset, extent), axis)| self.cutting(subset, &extent, axis)).collect()
     }
 
-    fn cutting(&self, subset: Subset, extent: &Extent) -> Cutting {
+    /// The axes across which subsets are cut.
+    fn axes_across(&mut self, level: &[Subset], extents: &[Extent]) -> Vec<usize> {
+        let frames: Vec<Frame> = extents.iter().map(Extent::frame).collect();
+        let kept: Vec<Option<usize>> =
+            level.iter().zip(&frames).map(|(subset, frame)| self.kept_axis(subset, frame)).collect();
+        let mut sums = Vec::new();
+        for ((subset, frame), _) in level.iter().zip(&frames).zip(&kept).filter(|(_, kept)| kept.is_none()) {
+            let mut moments = Moments::default();
+            self.points[subset.local.clone()].iter().for_each(|point| moments.add(frame, point.keys.map(number)));
+            sums.extend(moments.0);
+        }
+        if !sums.is_empty() {
+            self.sum(&mut sums);
+        }
+        let mut sums = sums.chunks_exact(6).map(|sums| Moments(std::array::from_fn(|i| sums[i])));
+        let widest = |subset: &Subset, frame, moments: Moments| moments.widest(subset.all.count, frame);
+        (level.iter().zip(&frames).zip(kept))
+            .map(|((subset, frame), kept)| {
+                kept.or_else(|| Some(widest(subset, frame, sums.next()?))).unwrap_or_default()
+            })
+            .collect()
+    }
+
+    /// The axis that needs no asking.
+    fn kept_axis(&self, subset: &Subset, frame: &Frame) -> Option<usize> {
         let all = self.bisection.all();
-        let axis = match self.axes {
-            Axes::One if subset.ranks != all => self.bisection.cuts[all.cut()].axis,
-            _ => extent.longest_side(),
-        };
+        if self.axes == Axes::One && subset.ranks != all {
+            return Some(self.bisection.cuts[all.cut()].axis);
+        }
+        let earlier = self.earlier.filter(|earlier| earlier.slack > 0.0)?;
+        Some(earlier.cuts.cuts[subset.ranks.cut()].axis).filter(|&axis| frame.is_long(axis))
+    }
+
+    fn cutting(&self, subset: Subset, extent: &Extent, axis: usize) -> Cutting {
         let cut = subset.ranks.cut();
         let same_axis = self.earlier.filter(|earlier| earlier.cuts.cuts[cut].axis == axis);
         let guess = same_axis.map(|earlier| Guess { at: self.guesses[cut], slack: earlier.slack });
@@ -313,10 +344,8 @@ impl Extent {
         }
     }
 
-    /// The axis along which the box is longest, the first of equals.
-    fn longest_side(&self) -> usize {
-        let lengths = [0, 1, 2].map(|axis| number(self.high[axis]) - number(self.low[axis]));
-        (1..3).fold(0, |longest, axis| if lengths[axis] > lengths[longest] { axis } else { longest })
+    fn frame(&self) -> Frame {
+        Frame::new(self.low.map(number), self.high.map(number))
     }
 }
 

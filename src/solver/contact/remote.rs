@@ -181,7 +181,7 @@ impl Remote {
     /// The new home of every site.
     fn find_homes(&mut self, sites: &Sites, comm: &mut dyn Communicator) -> Vec<u32> {
         let axes = match self.method {
-            ContactDecomposition::Bisection => Axes::Longest,
+            ContactDecomposition::Bisection => Axes::Widest,
             ContactDecomposition::Slices => Axes::One,
             ContactDecomposition::Static => {
                 return sites.list.iter().map(|site| self.owner[site.point as usize]).collect();
