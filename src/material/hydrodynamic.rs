@@ -111,6 +111,7 @@ impl Kernel for Fluid<'_> {
     const STATE: &'static [&'static str] = &[];
     const VOLUME: bool = true;
     const STIFFNESS: bool = true;
+    const FLUID: bool = true;
 
     #[inline(always)]
     fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
@@ -132,6 +133,7 @@ impl Kernel for Explosive<'_> {
     const STATE: &'static [&'static str] = &["LIGHTING", "BURNRATE", "BURN"];
     const VOLUME: bool = true;
     const STIFFNESS: bool = true;
+    const FLUID: bool = true;
 
     fn start(&self, element: &Start, state: &mut [f64]) {
         let lit = |point: &DetonationPoint| {

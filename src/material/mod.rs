@@ -159,7 +159,8 @@ pub struct Step<V> {
     pub volume: V,
     /// V/V₀ in the middle of the step.
     pub middle_volume: V,
-    /// Internal energy and that taken up by bulk viscosity before the step, per initial volume, from zero at the start.
+    /// Internal energy and that taken up by bulk viscosity before the step, per initial volume, from zero at the start;
+    /// with [`Kernel::FLUID`] also that taken up by hourglass resistance.
     pub energy: V,
     /// Bulk viscosity of the step before, as a mean stress.
     pub viscous: V,
@@ -182,6 +183,9 @@ pub trait Kernel: Copy + Send + Sync {
 
     /// Whether [`Response::stiffness`] counts; without, the law's [`Law::moduli`] bound the time step.
     const STIFFNESS: bool = false;
+
+    /// Whether the law is a fluid's: its hourglass modes are resisted by viscosity, whose work is heat in [`Step::energy`].
+    const FLUID: bool = false;
 
     /// Whether the law is used so much that it is compiled for each hourglass control of its own.
     const FREQUENT: bool = false;

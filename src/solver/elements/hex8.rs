@@ -129,8 +129,7 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         stretch,
         volume: if K::VOLUME { volume(&x) * inverse_volume } else { V::splat(1.0) },
         middle_volume: middle_volume * inverse_volume,
-        energy: (V::load(&own[rows::INTERNAL_ENERGY], part) + V::load(&own[rows::VISCOUS_ENERGY], part))
-            * inverse_volume,
+        energy: energy::<V, K>(own, part) * inverse_volume,
         viscous: V::load(&own[rows::VISCOUS_STRESS], part),
         time: settings.time,
         time_step: settings.time_step,
@@ -151,20 +150,23 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
     let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
-    let damping = viscous_damping(settings, bound, rate);
+    let quadratic = quadratic_damping(settings, bound, rate);
+    let damping = V::splat(settings.linear_viscosity) + quadratic;
     let viscous = damping * modulus * bound * rate;
     let last = V::load(&own[rows::VISCOUS_STRESS], part);
     viscous.store(&mut own[rows::VISCOUS_STRESS], part);
     accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
     let stable_step = bound * ((V::splat(1.0) + damping * damping).sqrt() - damping);
 
-    // (v) hourglass resistance in the frame
+    // (v) hourglass resistance in the frame; in a shock a fluid's modes are damped as its volume is
+    let zero = V::splat(0.0);
     let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
     let hourglass_state = hourglass::State {
         lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
         stiffness_measure,
         mass: light,
         mu,
+        viscosity: if K::FLUID { quadratic * modulus * bound } else { zero },
         poisson: V::splat(settings.poisson),
         returned: response.returned,
         kept: if K::STIFFNESS { stiffness.kept } else { V::splat(1.0) },
@@ -173,12 +175,18 @@ pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let resistance = resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state);
     let stable_step = control.stable_step(stable_step, stiffness_measure, light, mu);
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
-    let zero = V::splat(0.0);
     let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
 
     // (vi) corner forces from the rotated stress
     let total = stress.rotate(&r).add_diagonal(viscous);
     Outcome { force: corner_forces(&total, &resistance, &x, &gradient.g24, inverse), stable_step }
+}
+
+/// Energy of the element as its law sees it: internal, and what viscosities have made of motion.
+#[inline(always)]
+fn energy<V: Lanes, K: Kernel>(own: &[Row], part: usize) -> V {
+    let energy = V::load(&own[rows::INTERNAL_ENERGY], part) + V::load(&own[rows::VISCOUS_ENERGY], part);
+    if K::FLUID { energy + V::load(&own[rows::HOURGLASS_ENERGY], part) } else { energy }
 }
 
 /// Volume of the element.
@@ -244,11 +252,11 @@ fn lengths<V: Lanes>(x: &[geometry::Modes<V>; 3], r: &Matrix3<V>, stiffness_meas
     [l1.max(l2 * l3 * share), l2.max(l3 * l1 * share), l3.max(l1 * l2 * share)]
 }
 
-/// e_b = b₁ − b₂² Δt̂ min(0, tr D), the damping ratio of the element's highest mode.
+/// −b₂² Δt̂ min(0, tr D): with b₁ the damping ratio of the element's highest mode.
 #[inline(always)]
-fn viscous_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
-    let quadratic = V::splat(settings.quadratic_viscosity * settings.quadratic_viscosity);
-    V::splat(settings.linear_viscosity) - quadratic * bound * rate.min(V::splat(0.0))
+fn quadratic_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
+    let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity);
+    quadratic * bound * rate.min(V::splat(0.0))
 }
 
 /// Dilatational modulus for the stable step: elastic, or PRONTO's estimate from the last increment,

@@ -23,6 +23,8 @@ pub struct State<V> {
     pub mass: V,
     /// Shear modulus μ.
     pub mu: V,
+    /// Viscosity that acts beside μ Δt, pressure × time; 0 except in fluids.
+    pub viscosity: V,
     /// Poisson's ratio.
     pub poisson: V,
     /// Factor by which the material's return scaled the trial deviator, 1 where elastic.
@@ -58,7 +60,9 @@ impl Control for FlanaganBelytschko {
     /// Q̇ = κ μ B:B/(4V) q̇, and ε √(2μ M/a) q̇ beside it with a = V/(2 B:B).
     #[inline(always)]
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V> {
-        let stiffness = V::splat(0.25 * self.stiffness) * state.mu * state.stiffness_measure * state.time_step;
+        let factor = V::splat(0.25 * self.stiffness);
+        let stiffness = factor * state.mu * state.stiffness_measure * state.time_step;
+        let stiffness = stiffness + factor * state.viscosity * state.stiffness_measure;
         *q = array![i in 3 => array![a in 4 => (q[i][a] + stiffness * rate[i][a]) * state.kept]];
         if self.viscosity == 0.0 {
             return *q;
@@ -115,7 +119,7 @@ impl Control for AssumedStrain {
         let diagonal = [areas[0] * areas[0] * scale, areas[1] * areas[1] * scale, areas[2] * areas[2] * scale];
         let mixed = [l1 * third, l2 * third, l3 * third];
         // Both base vectors of ±1 stand for 1/8 of themselves in the theory.
-        let mu = state.mu * state.time_step * V::splat(self.factor / 64.0);
+        let mu = (state.mu * state.time_step + state.viscosity) * V::splat(self.factor / 64.0);
         let bending = (mu + mu) / (one - nu);
         let torsion = mu * (one + nu) * V::splat(2.0 / 3.0);
         let kept = state.returned * state.kept;

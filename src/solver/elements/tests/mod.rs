@@ -8,6 +8,7 @@ mod bits;
 mod collapsed;
 mod energy;
 mod extremes;
+mod fluid;
 mod kinematics;
 mod operators;
 mod patch;
