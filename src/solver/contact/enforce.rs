@@ -103,8 +103,10 @@ pub trait Others {
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<State>);
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
     fn share(&mut self, moved: &mut [Moved]);
-    /// The largest of all ranks' values.
-    fn largest(&mut self, value: f64) -> f64;
+    /// The largest of all ranks' values, of each kind.
+    fn largest(&mut self, values: [f64; 2]) -> [f64; 2];
+    /// Whether there are any.
+    fn are_there(&self) -> bool;
 }
 
 /// There are no others.
@@ -115,8 +117,12 @@ impl Others for Alone {
 
     fn share(&mut self, _: &mut [Moved]) {}
 
-    fn largest(&mut self, value: f64) -> f64 {
-        value
+    fn largest(&mut self, values: [f64; 2]) -> [f64; 2] {
+        values
+    }
+
+    fn are_there(&self) -> bool {
+        false
     }
 }
 
@@ -202,36 +208,49 @@ impl Enforcer {
             state.last = (c.push, c.drag);
             state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
         }
-        let mut outcome = Outcome::default();
         // Where nothing overlaps and nothing was pushed there is nothing to do. One pass is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
         let wanted = constraints.iter().any(|c| c.gap < 0.0);
-        if others.largest(f64::from(u8::from(wanted))) == 0.0 {
-            constraints.iter_mut().for_each(|c| (c.push, c.drag) = (0.0, [0.0; 3]));
-            self.sum_forces(constraints);
-            return outcome;
+        let outcome = if wanted || others.are_there() {
+            self.pass(constraints, points, times, limits, wanted, others)
+        } else {
+            None
+        };
+        for (c, state) in constraints.iter_mut().zip(&self.states) {
+            (c.push, c.drag) = if outcome.is_some() { state.last } else { (0.0, [0.0; 3]) };
         }
-        let mut momentum = Momentum::new();
-        self.scatter(constraints, points, times, others);
+        self.sum_forces(constraints);
+        outcome.unwrap_or_default()
+    }
+
+    /// The passes; `None` where nobody wants them. Others are asked with the first, which costs less than to ask before.
+    fn pass(
+        &mut self,
+        constraints: &mut [Constraint],
+        points: &Points,
+        times: Times,
+        limits: Limits,
+        wanted: bool,
+        others: &mut dyn Others,
+    ) -> Option<Outcome> {
+        let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
         loop {
+            self.scatter(constraints, points, times, others);
             let ahead = momentum.next();
             let mut worst: f64 = 0.0;
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
                 worst = worst.max(correct(c, state, &self.moved, times, ahead));
             }
-            outcome.left = others.largest(worst);
-            outcome.passes += 1;
-            if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
-                break;
+            let [left, any_wanted] = others.largest([worst, f64::from(u8::from(wanted))]);
+            if any_wanted == 0.0 {
+                return None;
             }
-            self.scatter(constraints, points, times, others);
+            (outcome.left, outcome.passes) = (left, outcome.passes + 1);
+            if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
+                return Some(outcome);
+            }
         }
-        for (c, state) in constraints.iter_mut().zip(&self.states) {
-            (c.push, c.drag) = state.last;
-        }
-        self.sum_forces(constraints);
-        outcome
     }
 
     /// Change of velocity that the forces make at a point.

@@ -83,10 +83,14 @@ impl Others for Linked<'_> {
         );
     }
 
-    fn largest(&mut self, value: f64) -> f64 {
-        let mut least = [-value];
+    fn largest(&mut self, values: [f64; 2]) -> [f64; 2] {
+        let mut least = values.map(|value| -value);
         self.comm.all_min(&mut least);
-        -least[0]
+        least.map(|value| -value)
+    }
+
+    fn are_there(&self) -> bool {
+        true
     }
 }
 

@@ -103,6 +103,15 @@ impl Points {
         self.ways[point] = Bounds::of_way(four(start), end);
     }
 
+    /// Puts a point where another of the same step is, and lets it go the same way.
+    #[inline]
+    pub fn copy(&mut self, point: usize, others: &Points, other: usize) {
+        let Motion { start, velocity } = others.motion[other];
+        let end: Four = std::array::from_fn(|i| start[i] + velocity[i] * self.drift);
+        self.longest.take([self.motion[point].start, start, end], self.counts[point]);
+        (self.motion[point], self.ways[point]) = (Motion { start, velocity }, others.ways[other]);
+    }
+
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
     pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {

@@ -101,13 +101,14 @@ impl Remote {
     /// Brings the motion of a step to the homes.
     pub fn send_motion(&mut self, sites: &mut Sites, arena: &mut Arena, drift: f64, comm: &mut dyn Communicator) {
         arena.points.begin(drift);
-        self.motion.exchange(
+        self.motion.exchange_others(
             &mut (sites, arena),
             |(sites, _), site| {
                 let ([x, y, z], [u, v, w]) = (sites.points.start(site), sites.points.velocity(site));
                 [x, y, z, u, v, w]
             },
             |(_, arena), point, [x, y, z, u, v, w]| arena.points.set(point as usize, [x, y, z], [u, v, w]),
+            |(sites, arena), site, point| arena.points.copy(point as usize, &sites.points, site as usize),
             comm,
         );
     }

@@ -40,6 +40,22 @@ impl Pattern {
         take: impl Fn(&mut D, u32, [f64; W]),
         comm: &mut dyn Communicator,
     ) {
+        let keep = |data: &mut D, from, to| {
+            let values = give(data, from);
+            take(data, to, values);
+        };
+        self.exchange_others(data, &give, &take, keep, comm);
+    }
+
+    /// The same, where what stays here has a shorter way: `keep` brings an entry to another.
+    pub fn exchange_others<const W: usize, D: ?Sized>(
+        &mut self,
+        data: &mut D,
+        give: impl Fn(&D, u32) -> [f64; W],
+        take: impl Fn(&mut D, u32, [f64; W]),
+        keep: impl Fn(&mut D, u32, u32),
+        comm: &mut dyn Communicator,
+    ) {
         for ((peer, send), receive) in self.peers.iter_mut().zip(&self.send).zip(&self.receive) {
             peer.send.clear();
             peer.send.extend(send.iter().flat_map(|&entry| give(data, entry)));
@@ -47,8 +63,7 @@ impl Pattern {
         }
         comm.start_exchange(&mut self.peers);
         for &(from, to) in &self.own {
-            let values = give(data, from);
-            take(data, to, values);
+            keep(data, from, to);
         }
         comm.finish_exchange(&mut self.peers);
         for (peer, receive) in self.peers.iter().zip(&self.receive) {
