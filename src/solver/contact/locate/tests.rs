@@ -103,21 +103,9 @@ fn brick() -> impl Strategy<Value = Brick> {
     let slide = (vector(1.0), power(-4.0..-0.7)).prop_map(|(way, size)| scaled(way, size));
     let jitter = prop_oneof![Just(0.0), power(-6.0..-1.3)];
     let motion = (away, power(-5.0..-0.7), slide, vector(0.02), jitter, prop_oneof![Just(0.0), -0.1..0.1]);
-    (shape, motion).prop_map(
-        |((size, cells, turned, towards, beside), (away, speed, slide, spin, jitter, pull))| Brick {
-            size,
-            cells,
-            turned,
-            towards,
-            beside,
-            away,
-            speed,
-            slide,
-            spin,
-            jitter,
-            pull,
-        },
-    )
+    (shape, motion).prop_map(|((size, cells, turned, towards, beside), (away, speed, slide, spin, jitter, pull))| {
+        Brick { size, cells, turned, towards, beside, away, speed, slide, spin, jitter, pull }
+    })
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
@@ -179,16 +167,24 @@ impl Scene {
     fn mesh(&self) -> Mesh {
         let of = |(i, brick): (usize, &Brick)| {
             let ([x, y, z], [k, l, m]) = (brick.size, brick.cells);
-            format!("BOX, {}, {:?}, {:?}, {:?}, {x:?}, {y:?}, {z:?}, {k}, {l}, {m}\n", i + 1, -0.5 * x, -0.5 * y, -0.5 * z)
+            format!(
+                "BOX, {}, {:?}, {:?}, {:?}, {x:?}, {y:?}, {z:?}, {k}, {l}, {m}\n",
+                i + 1,
+                -0.5 * x,
+                -0.5 * y,
+                -0.5 * z
+            )
         };
         let recipe: String = self.bricks.iter().enumerate().map(of).collect();
         crate::mesher::make(&recipe, "scene", 1).unwrap_or_else(|found| panic!("{}", found.render(false)))
     }
 
     fn deck(&self) -> String {
-        let material = |i: usize| format!("MATERIAL, {i}, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n");
+        let material =
+            |i: usize| format!("MATERIAL, {i}, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n");
         let materials: String = (1..=self.bricks.len()).map(material).collect();
-        let friction: String = (2..=self.bricks.len()).map(|i| format!("CONTACT DATA, 1, {i}, {:?}\n", self.friction)).collect();
+        let friction: String =
+            (2..=self.bricks.len()).map(|i| format!("CONTACT DATA, 1, {i}, {:?}\n", self.friction)).collect();
         format!(
             "TITLE\n scene\nTERMINATION TIME, 1.\nCONTACT MATERIAL\nCONTACT EDGES, {}\nCONTACT SEARCH, GRID, {:?}, 0.1\n{friction}{materials}EXIT\n",
             self.edges, self.reach
@@ -237,7 +233,9 @@ impl Scene {
         let mut springs: Vec<(usize, usize)> = Vec::new();
         for corners in mesh.elements().map(|(_, corners)| corners) {
             let corners = corners.map(|n| n as usize);
-            springs.extend((0..8).flat_map(|i| (0..i).map(move |j| (corners[i].min(corners[j]), corners[i].max(corners[j])))));
+            springs.extend(
+                (0..8).flat_map(|i| (0..i).map(move |j| (corners[i].min(corners[j]), corners[i].max(corners[j])))),
+            );
         }
         springs.sort_unstable();
         springs.dedup();
