@@ -12,7 +12,7 @@ use super::locate::{Locator, Near, Rule};
 use super::neighbourhood::Found;
 use super::planes::PlanePoint;
 use super::points::Points;
-use super::setup::{ABSENT, Layout, Pairings};
+use super::setup::{ABSENT, Layout, Pairing, Pairings};
 use super::sites::ANSWER;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
@@ -265,15 +265,16 @@ impl Arena {
         let check = EdgeCheck { points, faces, edges };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
+        let mut past = before.iter().peekable();
         for place in 0..locator.edge_pairs().len() {
             if !locator.is_pair_due(place) {
                 continue;
             }
             let pair = locator.edge_pairs()[place];
-            let past = before.binary_search_by(|past| past.pair.cmp(&pair)).ok().map(|i| &before[i]);
-            let mut pairing = pairings.of(Rule::Blocks, block(pair[0]), block(pair[1]));
+            while past.next_if(|past| past.pair < pair).is_some() {}
+            let past = past.next_if(|past| past.pair == pair);
             // Neither edge is the master.
-            pairing.share = 0.5;
+            let pairing = || Pairing { share: 0.5, ..pairings.of(Rule::Blocks, block(pair[0]), block(pair[1])) };
             match check.pair(pair, past, pairing) {
                 Verdict::Touch(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
@@ -281,7 +282,7 @@ impl Arena {
                     constraints.push(*constraint);
                 }
                 Verdict::Near => locator.let_pair_wait(place, 0.0),
-                Verdict::Beside => locator.let_pair_wait(place, check.apart(pair)),
+                Verdict::Beside(apart) => locator.let_pair_wait(place, apart),
             }
         }
     }

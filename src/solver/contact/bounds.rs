@@ -1,5 +1,7 @@
 //! Boxes in single precision, rounded outwards: quick to compare, and never too small.
 
+use super::points::{Four, four};
+
 /// Part by which a coordinate is moved outwards: more than what rounding to single precision and one sum can take away.
 const OUTWARDS: f32 = 4e-7;
 
@@ -20,8 +22,13 @@ impl Bounds {
     /// A box around the way from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> Bounds {
-        // The fourth numbers only make whole vectors.
-        let single = |x: [f64; 3]| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
+        Bounds::of_way(four(start), four(end))
+    }
+
+    /// The same in whole vectors.
+    #[inline]
+    pub fn of_way(start: Four, end: Four) -> Bounds {
+        let single = |x: Four| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
         let (start, end) = (single(start), single(end));
         let outwards = |x: f32| x - x.abs() * OUTWARDS - f32::MIN_POSITIVE;
         let mut bounds = [0.0; 8];
@@ -40,6 +47,12 @@ impl Bounds {
         Bounds(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
 
+    /// Its low and its high corner.
+    pub fn corners(&self) -> [[f64; 3]; 2] {
+        let b = self.0.map(f64::from);
+        [[b[0], b[1], b[2]], [-b[4], -b[5], -b[6]]]
+    }
+
     /// How far two boxes are apart along the axis where they are farthest; not above zero where they have a point in
     /// common. Boxes around what is not a number in single precision, coordinates beyond 1e38 among them, may be apart from nothing.
     #[inline]
@@ -49,6 +62,27 @@ impl Bounds {
         let larger = |a: f32, b: f32| if b > a { b } else { a };
         let four: [f32; 4] = std::array::from_fn(|i| larger(larger(f32::NEG_INFINITY, apart[i]), apart[i + 4]));
         larger(larger(four[0], four[1]), larger(four[2], four[3]))
+    }
+}
+
+/// Whether boxes leave others; what is not a number leaves nothing.
+#[derive(Default)]
+pub struct Outside([f32; 8]);
+
+impl Outside {
+    /// Looks at a box and the one in which it is to be.
+    #[inline(always)]
+    pub fn take(&mut self, own: &Bounds, home: &Bounds) {
+        for i in 0..8 {
+            // `home` first in the difference and second in the choice: what is not a number is not chosen.
+            let beyond = home.0[i] - own.0[i];
+            self.0[i] = if beyond > self.0[i] { beyond } else { self.0[i] };
+        }
+    }
+
+    /// Whether any did.
+    pub fn any(&self) -> bool {
+        self.0.iter().any(|&beyond| beyond > 0.0)
     }
 }
 

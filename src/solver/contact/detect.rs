@@ -108,7 +108,7 @@ impl Check<'_> {
         }
         for touch in touches.iter_mut() {
             self.blend(near, touch);
-            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start[point as usize]);
+            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start(point));
             if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
                 let end = self.faces.end(touch.face, self.points);
                 let foot = face::foot(&end, &shares);
@@ -121,6 +121,10 @@ impl Check<'_> {
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
     fn blend(&self, near: &[u32], touch: &mut Touch) {
+        // What another face shares leaves out one corner at least, of no weight to speak of.
+        if touch.stand.weights.iter().all(|&weight| weight > 2.0 * face::TIE) {
+            return;
+        }
         let corners = self.faces.corners[touch.face as usize];
         let unit = |face: u32| {
             let normal = face::area_normal(&self.faces.end(face, self.points));
@@ -245,7 +249,7 @@ impl Check<'_> {
             return None;
         }
         let end = face::stand(&corners, self.points.end(point)).filter(|stand| stand.gap < 0.0)?;
-        let start = face::stand(&self.faces.start(face, self.points), self.points.start[point as usize])?;
+        let start = face::stand(&self.faces.start(face, self.points), self.points.start(point))?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
@@ -267,7 +271,7 @@ impl Check<'_> {
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
         self.beside(face).any(|other| {
-            let start = face::stand(&self.faces.start(other, self.points), self.points.start[point as usize]);
+            let start = face::stand(&self.faces.start(other, self.points), self.points.start(point));
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
     }
@@ -299,7 +303,7 @@ impl Check<'_> {
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
     fn slides_over(&self, point: u32, face: u32, end: &Stand) -> bool {
-        let at = self.points.start[point as usize];
+        let at = self.points.start(point);
         let corners = self.faces.start(face, self.points);
         let foot = face::foot(&corners, &end.weights);
         self.beside(face).any(|other| {

@@ -5,6 +5,7 @@
 //! the former is that of nodes and faces: by motion for a pair that comes anew, where it would be at the end of the step for
 //! one that has touched before.
 
+use super::bounds::Bounds;
 use super::cubic;
 use super::detect::FADE;
 use super::enforce::{Constraint, MEMBERS, Origin};
@@ -208,18 +209,17 @@ pub enum Verdict {
     Touch(PastPair, Box<Constraint>),
     /// They do not, but an edge is so near a line that they may in the next step.
     Near,
-    /// Neither, as far as was looked.
-    Beside,
+    /// Neither; along an axis they are so far apart in this step, beyond where they would be near, or 0.
+    Beside(f64),
 }
 
-/// Where an edge is, seen from a line.
-enum Glance {
-    /// They do not cross.
-    Beside,
-    /// It crosses on the outside, or hardly inside.
-    Above,
-    /// It has sunk in.
-    Below,
+/// Two edges that cross, seen along the normal of both, as numbers that need no root and no quotient.
+struct Glance {
+    /// Product of their directions, and its square.
+    product: [f64; 3],
+    square: f64,
+    /// Way from the first to the second, times the product.
+    fall: f64,
 }
 
 /// The check of edges against edges.
@@ -235,7 +235,7 @@ pub struct EdgeCheck<'a> {
 impl EdgeCheck<'_> {
     fn start(&self, edge: u32) -> [[f64; 3]; 2] {
         let [a, b] = self.edges[edge as usize].ends;
-        [self.points.start[a as usize], self.points.start[b as usize]]
+        [self.points.start(a), self.points.start(b)]
     }
 
     fn end(&self, edge: u32) -> [[f64; 3]; 2] {
@@ -249,30 +249,36 @@ impl EdgeCheck<'_> {
         Box3::around(&[a, b, c, d])
     }
 
-    /// How far apart the ways of two edges are along an axis, beyond where they are near; 0 where they are near.
-    pub fn apart(&self, pair: [u32; 2]) -> f64 {
-        let [a, b] = pair.map(|edge| self.way(edge));
-        let between = |i: usize| (b.low[i] - a.high[i]).max(a.low[i] - b.high[i]);
-        let margin = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
-        let rest = between(0).max(between(1)).max(between(2)) - margin[0].max(margin[1]);
-        if rest > 0.0 { rest } else { 0.0 }
+    /// How far apart the ways of two edges are along an axis, beyond where they are near; not above 0 where they are near.
+    fn apart(&self, pair: [u32; 2]) -> f64 {
+        let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
+        let bounds = |edge: u32, margin: f64| {
+            let [a, b] = self.edges[edge as usize].ends.map(|end| &self.points.ways[end as usize]);
+            Bounds::joined([a, b, a, b], margin as f32)
+        };
+        f64::from(bounds(pair[0], margins[0].max(margins[1])).distance(&bounds(pair[1], 0.0)))
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
-    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Verdict {
-        let found = if self.edges[pair[1] as usize].stands_out() {
-            self.standing_out(pair, past, pairing)
-        } else {
-            if past.is_none() {
-                match self.at_a_glance(pair) {
-                    Glance::Beside => return Verdict::Beside,
-                    Glance::Above => return Verdict::Near,
-                    Glance::Below => (),
-                }
+    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: impl FnOnce() -> Pairing) -> Verdict {
+        let stand_out = self.edges[pair[1] as usize].stands_out();
+        if past.is_none() {
+            let apart = self.apart(pair);
+            if apart > 0.0 {
+                return Verdict::Beside(apart);
             }
-            self.on_line(pair, past, pairing)
-        };
-        found.map_or(Verdict::Beside, |(now, constraint)| Verdict::Touch(now, Box::new(constraint)))
+            // Nearly all pairs on bodies that rest on each other go no further.
+            let Some(glance) = self.at_a_glance(pair) else { return Verdict::Beside(0.0) };
+            if !stand_out && self.is_above(pair[1], &glance) {
+                return Verdict::Near;
+            }
+        }
+        let pairing = pairing();
+        let found = if stand_out { self.standing_out(pair, past, pairing) } else { self.on_line(pair, past, pairing) };
+        match found {
+            Some((now, constraint)) => Verdict::Touch(now, Box::new(constraint)),
+            None => Verdict::Beside(self.apart(pair).max(0.0)),
+        }
     }
 
     /// Two edges that stand out.
@@ -300,21 +306,22 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint(pair, &end, &now, gap, pairing)))
     }
 
-    /// Where an edge is at the end of the step, seen from a line: without a root or a quotient, since nearly all pairs on
-    /// bodies that rest on each other go no further.
-    fn at_a_glance(&self, pair: [u32; 2]) -> Glance {
+    /// How two edges cross at the end of the step; `None` where they do not between their ends.
+    fn at_a_glance(&self, pair: [u32; 2]) -> Option<Glance> {
         let [a, b] = pair.map(|edge| self.end(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
         let within = |place: f64| place >= 0.0 && place <= square;
-        if !within(dot(cross(r, v), product)) || !within(dot(cross(r, u), product)) {
-            return Glance::Beside;
-        }
-        let (fall, slack) = (dot(r, product), SLACK * self.scale(pair[1]));
-        let up = || dot(product, area_normal(&self.faces.start(self.edges[pair[1] as usize].faces[0], self.points)));
-        let above = fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0);
-        if above { Glance::Above } else { Glance::Below }
+        let crosses = within(dot(cross(r, v), product)) && within(dot(cross(r, u), product));
+        crosses.then(|| Glance { product, square, fall: dot(r, product) })
+    }
+
+    /// Whether the edge that crosses a line does so on the outside, or hardly inside.
+    fn is_above(&self, line: u32, &Glance { product, square, fall }: &Glance) -> bool {
+        let slack = SLACK * self.scale(line);
+        let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.points)));
+        fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
     }
 
     /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known

@@ -72,9 +72,9 @@ impl Constraint {
         self.members.iter().zip(&self.weights).take(self.count).map(|(&point, &weight)| (point as usize, weight))
     }
 
-    /// Relative value of a field of vectors: Σ w u.
-    fn relative(&self, field: &[[f64; 3]]) -> [f64; 3] {
-        self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(field[point], weight)))
+    /// Relative velocity of its members: Σ w v.
+    fn velocity(&self, points: &Points) -> [f64; 3] {
+        self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(points.velocity(point as u32), weight)))
     }
 }
 
@@ -279,7 +279,7 @@ impl Enforcer {
                 (c.push, c.drag) = (0.0, [0.0; 3]);
             }
             if c.friction.is_some() {
-                let velocity = c.relative(&points.velocity);
+                let velocity = c.velocity(points);
                 state.slip = tangential(velocity, c.normal);
                 c.drag = tangential(c.drag, c.normal);
             } else {

@@ -120,14 +120,15 @@ impl Faces {
     }
 
     /// Corner positions at the present state.
+    #[inline]
     pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
         // Written out, as `map` would be a call for every corner.
         let [a, b, c, d] = self.corners[face as usize];
-        let start = |point: u32| points.start[point as usize];
-        [start(a), start(b), start(c), start(d)]
+        [points.start(a), points.start(b), points.start(c), points.start(d)]
     }
 
     /// Corner positions at the end of the step without contact.
+    #[inline]
     pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
         let [a, b, c, d] = self.corners[face as usize];
         [points.end(a), points.end(b), points.end(c), points.end(d)]

@@ -301,7 +301,7 @@ fn separation([point, face]: [u32; 2], points: &Points, faces: &Faces, [front, b
     let (start, end) = (faces.start(face, points), faces.end(face, points));
     let normal = area_normal(&start);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (corners, at) in [(start, points.start[point as usize]), (end, points.end(point))] {
+    for (corners, at) in [(start, points.start(point)), (end, points.end(point))] {
         for corner in corners {
             let height = dot(subtract(at, corner), normal);
             (low, high) = (low.min(height), high.max(height));

@@ -5,7 +5,6 @@ use super::locate::{Interface, Near};
 use super::search::{Box3, Candidates, Search};
 use super::setup::Layout;
 use super::sites::Sites;
-use crate::solver::nodes::{add, subtract};
 
 /// Numbers, ascending, and their boxes.
 #[derive(Debug, Clone, Default)]
@@ -39,8 +38,8 @@ pub struct Found {
 
 /// Box in which a site stays until the next search.
 fn around(sites: &Sites, site: usize) -> Box3 {
-    let (centre, allowance) = sites.reach(site);
-    Box3 { low: subtract(centre, allowance), high: add(centre, allowance) }
+    let [low, high] = sites.reach(site);
+    Box3 { low, high }
 }
 
 /// Boxes of some sites.

@@ -93,7 +93,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             positions[layout.nodes[point] as usize] =
-                add(points.start[point], enforcer.change(point, &points, still.kick));
+                add(points.start(point as u32), enforcer.change(point, &points, still.kick));
         }
     }
     Overlap { left: left(body, &layout), ..moved(mesh, body, &layout) }

@@ -1,15 +1,22 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
-use super::bounds::Bounds;
+use super::bounds::{Bounds, Outside};
 use crate::solver::nodes::{add, scaled};
+
+/// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+struct Motion {
+    /// Position at the present state.
+    start: Four,
+    /// Velocity over the coming step as it would be without contact.
+    velocity: Four,
+}
 
 /// Contact points, structure of arrays, in the order of the mesh's nodes.
 #[derive(Debug, Clone, Default)]
 pub struct Points {
-    /// Position at the present state.
-    pub start: Vec<[f64; 3]>,
-    /// Velocity over the coming step as it would be without contact.
-    pub velocity: Vec<[f64; 3]>,
+    motion: Vec<Motion>,
     /// Box around the way over that step.
     pub ways: Vec<Bounds>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
@@ -24,15 +31,18 @@ pub struct Points {
 /// The longest way along each axis. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Longest {
-    ways: [f64; 3],
+    ways: Four,
     /// Not a number where a way is not one or has no end, else zero.
-    poison: [f64; 3],
+    poison: Four,
 }
+
+/// Three coordinates, and a number without meaning that makes whole vectors of them.
+pub type Four = [f64; 4];
 
 impl Longest {
     #[inline(always)]
-    fn take(&mut self, [before, start, end]: [&[f64; 3]; 3], counts: u64) {
-        for i in 0..3 {
+    fn take(&mut self, [before, start, end]: [Four; 3], counts: u64) {
+        for i in 0..4 {
             let way = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
             let way = f64::from_bits(way.to_bits() & counts);
             self.poison[i] += 0.0 * way;
@@ -47,15 +57,22 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// Makes whole vectors of three coordinates.
+pub fn four([x, y, z]: [f64; 3]) -> Four {
+    [x, y, z, 0.0]
+}
+
+fn three([x, y, z, _]: Four) -> [f64; 3] {
+    [x, y, z]
+}
+
 impl Points {
     /// So many points at the origin.
     pub fn new(count: usize) -> Points {
-        let zero = vec![[0.0; 3]; count];
         Points {
-            start: zero.clone(),
-            velocity: zero.clone(),
+            motion: vec![Motion::default(); count],
             ways: vec![Bounds::EVERYTHING; count],
-            inverse_mass: zero,
+            inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
             ..Default::default()
         }
@@ -63,12 +80,12 @@ impl Points {
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.start.len()
+        self.motion.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.start.is_empty()
+        self.motion.is_empty()
     }
 
     /// Begins a step of length `drift`, for which every point is to be put where it is.
@@ -79,25 +96,27 @@ impl Points {
     /// Puts a point where it is and lets it go its way.
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3]) {
-        let end = add(start, scaled(velocity, self.drift));
-        self.longest.take([&self.start[point], &start, &end], self.counts[point]);
-        (self.start[point], self.velocity[point]) = (start, velocity);
-        self.ways[point] = Bounds::around(start, end);
+        let end = four(add(start, scaled(velocity, self.drift)));
+        let motion = &mut self.motion[point];
+        self.longest.take([motion.start, four(start), end], self.counts[point]);
+        *motion = Motion { start: four(start), velocity: four(velocity) };
+        self.ways[point] = Bounds::of_way(four(start), end);
     }
 
-    /// Puts all points where they are, each with its velocity, and lets them go their ways. The largest of the third
-    /// numbers.
-    pub fn set_all(&mut self, motions: impl Iterator<Item = ([f64; 3], [f64; 3], f64)>) -> f64 {
-        let (drift, mut longest, mut largest) = (self.drift, self.longest, f64::NEG_INFINITY);
-        let places = self.start.iter_mut().zip(&mut self.velocity).zip(&mut self.ways).zip(&self.counts);
-        for ((((place, way_velocity), way), &counts), (start, velocity, number)) in places.zip(motions) {
-            let end = add(start, scaled(velocity, drift));
-            longest.take([place, &start, &end], counts);
-            largest = larger(number, largest);
-            (*place, *way_velocity, *way) = (start, velocity, Bounds::around(start, end));
+    /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
+    /// home on it.
+    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
+        let (drift, mut longest, mut outside) = (self.drift, self.longest, Outside::default());
+        let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
+        for ((((motion, way), &counts), home), (start, velocity)) in places.zip(motions) {
+            let end: Four = std::array::from_fn(|i| start[i] + velocity[i] * drift);
+            longest.take([motion.start, start, end], counts);
+            *way = Bounds::of_way(start, end);
+            outside.take(way, home);
+            *motion = Motion { start, velocity };
         }
         self.longest = longest;
-        largest
+        outside.any()
     }
 
     /// Chooses the points that count in the longest way.
@@ -108,20 +127,33 @@ impl Points {
 
     /// The farthest that a point which counts has gone in the last step or will go in this one, along an axis.
     pub fn longest_way(&self) -> f64 {
-        let Longest { ways: [x, y, z], poison } = self.longest;
+        let Longest { ways: [x, y, z, _], poison } = self.longest;
         // A way that is not a number leaves nobody at rest.
-        if poison == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
+        if poison[..3] == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
+    }
+
+    /// Position at the present state.
+    #[inline]
+    pub fn start(&self, point: u32) -> [f64; 3] {
+        three(self.motion[point as usize].start)
     }
 
     /// Position at the end of the step without contact.
     #[inline]
     pub fn end(&self, point: u32) -> [f64; 3] {
-        add(self.start[point as usize], scaled(self.velocity[point as usize], self.drift))
+        let Motion { start, velocity } = &self.motion[point as usize];
+        add(three(*start), scaled(three(*velocity), self.drift))
     }
 
-    /// How far a point goes.
+    /// Velocity over the coming step as it would be without contact.
+    #[inline]
+    pub fn velocity(&self, point: u32) -> [f64; 3] {
+        three(self.motion[point as usize].velocity)
+    }
+
+    /// Where a point is, and how far it goes.
     pub fn path(&self, point: u32) -> ([f64; 3], [f64; 3]) {
-        let (start, end) = (self.start[point as usize], self.end(point));
+        let (start, end) = (self.start(point), self.end(point));
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])
     }
 }

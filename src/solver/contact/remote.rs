@@ -18,7 +18,7 @@ use super::regional::Regional;
 use super::routing::route;
 use super::search::Search;
 use super::setup::Layout;
-use super::sites::{ANSWER, FORCES, STATUS, Sites};
+use super::sites::{ANSWER, FORCES, STATUS, Site, Sites};
 use super::traffic::{Lists, Pattern};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::model::ContactDecomposition;
@@ -104,7 +104,7 @@ impl Remote {
         self.motion.exchange(
             &mut (sites, arena),
             |(sites, _), site| {
-                let ([x, y, z], [u, v, w]) = (sites.points.start[site as usize], sites.points.velocity[site as usize]);
+                let ([x, y, z], [u, v, w]) = (sites.points.start(site), sites.points.velocity(site));
                 [x, y, z, u, v, w]
             },
             |(_, arena), point, [x, y, z, u, v, w]| arena.points.set(point as usize, [x, y, z], [u, v, w]),
@@ -191,14 +191,15 @@ impl Remote {
         sites.pushed.iter().for_each(|&site| weights[site as usize] = PUSHED);
         let (mut places, mut ids, mut own_weights) = (Vec::new(), Vec::new(), Vec::new());
         for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
-            places.push(sites.points.start[i]);
+            places.push(sites.points.start(i as u32));
             ids.push(site.point);
             own_weights.push(weights[i]);
         }
         let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
         let balanced = dynamic::balance(&places, &ids, &own_weights, axes, earlier, comm);
         let cuts = self.cuts.insert(balanced.bisection);
-        sites.list.iter().zip(&sites.points.start).map(|(site, at)| cuts.owner(*at, site.point)).collect()
+        let owner = |(at, site): (u32, &Site)| cuts.owner(sites.points.start(at), site.point);
+        (0..).zip(&sites.list).map(owner).collect()
     }
 
     /// Brings history from where it was to the new homes, by way of the ranks that own the nodes and know the homes.

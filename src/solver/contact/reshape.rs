@@ -66,7 +66,7 @@ impl Contact {
         }
         let mut corners = [[0.0; 3]; 4];
         for (corner, &point) in corners.iter_mut().zip(&self.layout.faces.corners[face as usize]) {
-            *corner = self.sites.points.start[self.sites.of(point)?];
+            *corner = self.sites.points.start(self.sites.of(point)? as u32);
         }
         Some(edges::side(&corners))
     }

@@ -1,9 +1,10 @@
 //! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
 
+use super::bounds::Bounds;
 use super::points::{Points, larger};
 use super::setup::ABSENT;
 use crate::solver::constraints::StepTimes;
-use crate::solver::nodes::{Nodes, add, dot, scaled};
+use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A point that is a node here.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,9 +38,8 @@ pub struct Sites {
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub points: Points,
-    /// Box that the last search gave each: its centre, and how far it goes from there along each axis.
-    centre: Vec<[f64; 3]>,
-    allowance: Vec<[f64; 3]>,
+    /// Box that the last search gave each.
+    stays: Vec<Bounds>,
     /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
@@ -97,44 +97,35 @@ impl Sites {
 
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
-        // Nothing is away from what is not a number.
-        self.centre.resize(self.list.len(), [f64::NAN; 3]);
-        self.allowance.resize(self.list.len(), [0.0; 3]);
-        let sites = self.list.iter().zip(self.centre.iter().zip(&self.allowance));
+        self.stays.resize(self.list.len(), Bounds::EVERYTHING);
         self.points.begin(step.drift);
-        let beyond = self.points.set_all(sites.map(|(site, (centre, allowance))| {
+        let motion = |site: &Site| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
-            let start = [row[0], row[1], row[2]];
-            let predicted = |axis: usize| row[4 + axis] + step.kick * (force[axis] * row[7]);
-            let velocity = [predicted(0), predicted(1), predicted(2)];
-            let away = |axis: usize| {
-                let end = start[axis] + velocity[axis] * step.drift;
-                larger((start[axis] - centre[axis]).abs(), (end - centre[axis]).abs()) - allowance[axis]
-            };
-            (start, velocity, larger(away(0), larger(away(1), away(2))))
-        }));
-        self.expired = beyond > 0.0 || !self.searched;
+            let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
+            ([row[0], row[1], row[2], row[3]], velocity)
+        };
+        let leaves = self.points.set_all(self.list.iter().map(motion), &self.stays);
+        self.expired = leaves || !self.searched;
     }
 
     /// Gives every site a new box: around the way that it would go in `steps` of the present one, with room on all sides
     /// for a turn, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
         self.searched = true;
-        self.centre.clear();
-        self.allowance.clear();
+        self.stays.clear();
         for site in 0..self.list.len() as u32 {
             let (start, way) = self.points.path(site);
             let half = scaled(way, 0.5 * steps);
             let longest = half.iter().fold(0.0, |longest, way| larger(way.abs(), longest));
             let room = larger(SIDE * longest, least);
-            self.centre.push(add(start, half));
-            self.allowance.push(half.map(|way| way.abs() + room));
+            let (centre, side) = (add(start, half), half.map(|way| way.abs() + room));
+            self.stays.push(Bounds::around(subtract(centre, side), add(centre, side)));
         }
     }
 
-    /// Centre of a site's box, and how far the box goes from there along each axis.
-    pub fn reach(&self, site: usize) -> ([f64; 3], [f64; 3]) {
-        (self.centre[site], self.allowance[site])
+    /// Low and high corner of the box in which a site stays until the next search.
+    pub fn reach(&self, site: usize) -> [[f64; 3]; 2] {
+        self.stays[site].corners()
     }
 
     /// Force on a site, normal and friction apart.
