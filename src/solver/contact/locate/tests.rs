@@ -51,8 +51,9 @@ impl Locator {
 struct Brick {
     size: [f64; 3],
     cells: [usize; 3],
-    /// Axis and angle of its attitude.
+    /// Axis and angle of its attitude; and whether its third axis is first put along `towards`.
     turned: ([f64; 3], f64),
+    aligned: bool,
     /// Which way it lies from the one before, how far off that way, and how far away.
     towards: [f64; 3],
     beside: [f64; 3],
@@ -64,6 +65,8 @@ struct Brick {
     jitter: f64,
     /// What pulls it back to where it came from or on, as a part of its speed a step.
     pull: f64,
+    /// Whether the one before it comes as fast to meet it, as sleepers must fear.
+    both: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -97,15 +100,22 @@ fn brick() -> impl Strategy<Value = Brick> {
         (0.0..1.0).prop_map(|angle| ([0.0, 0.0, 1.0], angle)),
         (vector(1.0), 0.0..3.0),
     ];
-    let towards = prop_oneof![3 => Just([0.0, 0.0, 1.0]), 1 => vector(1.0)];
-    let shape = (side(), prop::array::uniform3(1usize..3), turned, towards, vector(0.6));
-    let away = prop_oneof![1 => Just(0.0), 3 => power(-4.0..-0.5)];
+    let towards = prop_oneof![3 => Just([0.0, 0.0, 1.0]), 1 => Just([1.0; 3]), 1 => vector(1.0)];
+    let shape = (side(), prop::array::uniform3(1usize..3), (turned, any::<bool>()), towards, vector(0.6));
+    // In steps at its speed.
+    let away = prop_oneof![1 => Just(0.0), 3 => 0.0..90.0];
     let slide = (vector(1.0), power(-4.0..-0.7)).prop_map(|(way, size)| scaled(way, size));
     let jitter = prop_oneof![Just(0.0), power(-6.0..-1.3)];
-    let motion = (away, power(-5.0..-0.7), slide, vector(0.02), jitter, prop_oneof![Just(0.0), -0.1..0.1]);
-    (shape, motion).prop_map(|((size, cells, turned, towards, beside), (away, speed, slide, spin, jitter, pull))| {
-        Brick { size, cells, turned, towards, beside, away, speed, slide, spin, jitter, pull }
-    })
+    let slide = prop_oneof![Just([0.0; 3]), slide];
+    let spin = prop_oneof![Just([0.0; 3]), vector(0.02)];
+    let pull = prop_oneof![Just(0.0), -0.1..0.1];
+    let motion = (away, power(-5.0..-0.7), slide, spin, jitter, pull, any::<bool>());
+    (shape, motion).prop_map(
+        |((size, cells, (turned, aligned), towards, beside), (away, speed, slide, spin, jitter, pull, both))| {
+            let away = away * speed;
+            Brick { size, cells, turned, aligned, towards, beside, away, speed, slide, spin, jitter, pull, both }
+        },
+    )
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
@@ -197,14 +207,15 @@ impl Scene {
         let nodes = mesh.coordinates.len();
         let (mut velocity, mut pull, mut fixed) = (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![false; nodes]);
         let mut noise = Noise(self.noise);
-        let mut placed: Vec<usize> = Vec::new();
+        let (mut placed, mut last): (Vec<usize>, Vec<usize>) = Default::default();
         for (i, brick) in self.bricks.iter().enumerate() {
             let mut own: Vec<usize> = mesh.blocks[i].connectivity.iter().flatten().map(|&n| n as usize).collect();
             own.sort_unstable();
             own.dedup();
-            own.iter().for_each(|&n| mesh.coordinates[n] = turn(mesh.coordinates[n], brick.turned));
             let length = dot(brick.towards, brick.towards).sqrt().max(1e-3);
             let way = scaled(brick.towards, 1.0 / length);
+            let upright = if brick.aligned { (cross([0.0, 0.0, 1.0], way), way[2].acos()) } else { brick.turned };
+            own.iter().for_each(|&n| mesh.coordinates[n] = turn(mesh.coordinates[n], upright));
             let height = |&n: &usize| dot(mesh.coordinates[n], way);
             let top = placed.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
             let foot = own.iter().map(height).fold(f64::INFINITY, f64::min);
@@ -218,7 +229,14 @@ impl Scene {
                 pull[n] = scaled(way, brick.pull * brick.speed);
                 fixed[n] = self.held && i == 0;
             }
-            placed.extend(own);
+            if brick.both {
+                for &n in &last {
+                    velocity[n] = add(velocity[n], scaled(way, brick.speed));
+                    pull[n] = subtract(pull[n], scaled(way, brick.pull * brick.speed));
+                }
+            }
+            placed.extend(&own);
+            last = own;
         }
         self.hold_together(mesh, velocity, pull, fixed)
     }
