@@ -22,7 +22,7 @@ const STEP: StepTimes = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
 const STIFFNESS: f64 = 0.01;
 
 /// Scenes, unless PROPTEST_CASES asks for more, and steps of each.
-const SCENES: u32 = 40;
+const SCENES: u32 = 150;
 const STEPS: usize = 50;
 
 impl Locator {
