@@ -164,6 +164,72 @@ fn v23_bars_of_unequal_impedance() {
     }
 }
 
+/// The bars joined to one, without contact. The node where the first two meet begins with the velocity that a plastic impact
+/// of its two halves leaves, as contact makes it.
+fn joined(deck: &str, recipe_text: &str, contact: &str, end: &str) -> (Mesh, Run) {
+    let mesh = recipe(&format!("{recipe_text}\nMERGE\nNODE SET FACE, 9, 1, RIGHT\n"));
+    let deck = deck
+        .replace(&format!("{contact}\n"), "")
+        .replace(", CONTACT", "")
+        .replace(
+            "INITIAL VELOCITY MATERIAL, 1, 5., 0., 0.",
+            "INITIAL VELOCITY MATERIAL, 1, 5., 0., 0.\nINITIAL VELOCITY NODESET, 9, 2.5, 0., 0.",
+        )
+        .replace("PLOT TIME, 10.E-6", "PLOT TIME, 1.E-6");
+    let ends = deck.lines().filter(|line| line.starts_with("TERMINATION TIME")).collect::<String>();
+    let run = run(&deck.replace(&ends, &format!("TERMINATION TIME, {end}")), &mesh);
+    (mesh, run)
+}
+
+/// Mean velocities of the blocks at a time, over v. Of elements and not of nodes, which joined blocks share.
+fn velocities_at(mesh: &Mesh, run: &Run, time: f64) -> Vec<f64> {
+    let velocity = run.at(time).nodal("VELX");
+    let of = |corners: &[u32; 8]| corners.iter().map(|&node| velocity[node as usize]).sum::<f64>() / 8.0;
+    let mean = |elements: &[[u32; 8]]| elements.iter().map(of).sum::<f64>() / elements.len() as f64;
+    mesh.blocks.iter().map(|block| mean(&block.connectivity) / 5.0).collect()
+}
+
+/// What the short bar keeps is not the wave's alone: through bars that are joined to one it goes and leaves rest behind. Bars
+/// that touch hand on the pushes of the ringing behind the front and not its pulls. Where steps are near h/c there is hardly any
+/// ringing, and the short bar rests.
+#[test]
+fn v22_the_rest_is_ringing_at_a_joint_that_cannot_pull() {
+    for (width, rests) in [("0.01", 0.004), ("0.1", 0.0005)] {
+        let text = TWO_BARS_MESH.replace("1., 0.01, 0.01,  50", &format!("1., {width}, {width},  50")).replace(
+            &format!("BOX, 2,  1., 0., 0.,  1., {width}, {width},  50"),
+            &format!("BOX, 2,  1., 0., 0.,  2., {width}, {width},  100"),
+        );
+        let mesh = recipe(&text);
+        let touching = velocities(&mesh, &collide(&mesh, "", "1.E-3"));
+        let (mesh, one) = joined(TWO_BARS, &text, "CONTACT MATERIAL, 1, 2", "700.E-6");
+        let through = velocities_at(&mesh, &one, 600e-6);
+        println!(
+            "V-22 1:2 N = 50, {width} m thick: velocities over v of bars {touching:.5?}, joined to one {through:.5?}"
+        );
+        between("V-22", "velocity of the short bar over v, joined", through[0].abs(), 0.0, 0.0005);
+        between("V-22", "velocity of the short bar over v", touching[0].abs(), 0.0, rests);
+    }
+}
+
+/// Of what the bars of the cradle keep nearly all is left by the wave itself: through a row that is joined to one, without
+/// contact, it goes the same way. At 5 L/c the wave is just being reflected: its two halves are both in the last bar.
+#[test]
+fn v26_what_stays_behind_is_the_spreading_of_the_wave() {
+    let reflected = 5.0 / steel::bar_speed();
+    for (n, width, off) in [(50, "0.01", 0.006), (100, "0.01", 0.003), (50, "0.1", 0.001)] {
+        let text = CRADLE_MESH.replace("0.01, 0.01,  50", &format!("{width}, {width},  {n}"));
+        let mesh = recipe(&text);
+        let touching =
+            velocities_at(&mesh, &run(&CRADLE.replace("PLOT TIME, 10.E-6", "PLOT TIME, 1.E-6"), &mesh), reflected);
+        let (mesh, one) = joined(CRADLE, &text, "CONTACT MATERIAL", "1.E-3");
+        let through = velocities_at(&mesh, &one, reflected);
+        println!("V-26 N = {n}, {width} m thick, at 5 L/c: touching {touching:.4?}, joined {through:.4?}");
+        let worst = touching.iter().zip(&through).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+        between("V-26", &format!("N = {n}, velocities over v against those of one bar"), worst, 0.0, off);
+        between("V-26", &format!("N = {n}, last bar, joined"), through[4], 0.965, 1.0);
+    }
+}
+
 /// What goes in at one end of the row comes out at the other. The wave that passes is smeared over some elements, and its
 /// tail stays with the bars it leaves behind: less with smaller elements.
 #[test]

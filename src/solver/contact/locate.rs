@@ -310,3 +310,6 @@ fn separation([point, face]: [u32; 2], points: &Points, faces: &Faces, [front, b
     let (length, border) = (dot(normal, normal).sqrt(), BORDER * faces.size[face as usize]);
     (low / length - front - border).max(-high / length - behind - border)
 }
+
+#[cfg(test)]
+mod tests;
