@@ -69,7 +69,10 @@ const COLUMNS: [(&str, &str); 18] = [
     ("SET BY ELEMENT", "number in the mesh of the element that limits the step"),
     ("OF BLOCK", "the block of that element"),
     ("INTERNAL ENERGY", "work of stresses, elastic and dissipated"),
-    ("HOURGLASS ENERGY", "work of hourglass resistance; small beside the internal energy in a sound run"),
+    (
+        "HOURGLASS ENERGY",
+        "work of hourglass resistance; small beside the internal energy in a sound run, in fluids heat",
+    ),
     ("BULK VISC. ENERGY", "dissipated by bulk viscosity"),
     ("FRICTION ENERGY", "dissipated by friction"),
     ("EXTERNAL WORK", "work of loads and prescribed motions"),

@@ -64,7 +64,7 @@ fn widest_axis(points: &[Point]) -> usize {
     }
     let (frame, mut moments) = (Frame::new(low, high), Moments::default());
     points.iter().for_each(|point| moments.add(&frame, point.at));
-    moments.widest(points.len() as u64, &frame)
+    moments.widest(points.len() as u64, &frame, None)
 }
 
 /// Orders `points` about a cut and returns it, the number of points before it, such that they weigh as nearly as

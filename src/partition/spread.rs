@@ -1,7 +1,7 @@
 //! Along which axis points are spread most: a cut across it leaves the least between the halves.
 //!
-//! The variance says it, not the side of the box: a plate with a long thin rod on it is to be cut through the rod's end of
-//! the plate, not along the plate between front and back.
+//! The variance says it, not the side of the box: a plate with a long thin rod in front of it is to be cut across, not between
+//! its front and its back.
 
 /// Steps that the longest side is divided into: the squares of places add up exactly for 2³² points.
 const STEPS: f64 = 65535.0;
@@ -19,11 +19,6 @@ impl Frame {
     pub fn new(low: [f64; 3], high: [f64; 3]) -> Frame {
         let sides = [0, 1, 2].map(|axis| high[axis] - low[axis]);
         Frame { low, sides, longest: sides.into_iter().fold(0.0, f64::max) }
-    }
-
-    /// Whether the box is at least half as long along an axis as along any.
-    pub fn is_long(&self, axis: usize) -> bool {
-        2.0 * self.sides[axis] >= self.longest
     }
 
     /// A coordinate in whole steps from the low side; 0 where there is no side or it has no end.
@@ -47,14 +42,16 @@ impl Moments {
         }
     }
 
-    /// The axis along which `count` points have the greatest variance; of equals the longest side of their box, then the first.
-    pub fn widest(&self, count: u64, frame: &Frame) -> usize {
+    /// The axis along which `count` points have the greatest variance; of equals the longest side of their box, then the
+    /// first. The axis `before` stays while its variance is at least half of that.
+    pub fn widest(&self, count: u64, frame: &Frame, before: Option<usize>) -> usize {
         let spread = |axis: usize| {
             let [first, second] = [self.0[axis], self.0[3 + axis]].map(u128::from);
             u128::from(count) * second - first * first
         };
         let better = |a: usize, b: usize| (spread(a), frame.sides[a]) > (spread(b), frame.sides[b]);
-        (1..3).fold(0, |best, axis| if better(axis, best) { axis } else { best })
+        let widest = (1..3).fold(0, |best, axis| if better(axis, best) { axis } else { best });
+        before.filter(|&axis| spread(axis) >= spread(widest) / 2).unwrap_or(widest)
     }
 }
 
@@ -70,7 +67,10 @@ mod tests {
         let frame = Frame::new([0.0, -29.0, 0.0], [19.0, 2.0, 20.0]);
         let mut moments = Moments::default();
         plate.chain(rod).for_each(|at| moments.add(&frame, at));
-        assert_eq!(moments.widest(20 * 3 * 21 + 30, &frame), 2);
+        let count = 20 * 3 * 21 + 30;
+        // The other side of the plate is nearly as good, its thickness is not.
+        let widest = [None, Some(0), Some(1)].map(|before| moments.widest(count, &frame, before));
+        assert_eq!(widest, [2, 0, 2]);
     }
 
     #[test]
@@ -79,7 +79,7 @@ mod tests {
         let mut moments = Moments::default();
         moments.add(&frame, [f64::MIN, 0.0, 0.0]);
         moments.add(&frame, [f64::MAX, 1.0, 0.0]);
-        assert_eq!(moments.widest(2, &frame), 0);
-        assert_eq!(Moments::default().widest(0, &Frame::new([0.0; 3], [0.0; 3])), 0);
+        assert_eq!(moments.widest(2, &frame, None), 0);
+        assert_eq!(Moments::default().widest(0, &Frame::new([0.0; 3], [0.0; 3]), None), 0);
     }
 }

@@ -24,7 +24,7 @@ pub struct Earlier<'a> {
     /// The cuts.
     pub cuts: &'a Bisection,
     /// A cut through the same point as then is kept while neither side has more than this part of its share too much,
-    /// and its axis while the points are not twice as long along another; with 0 all cuts are exact.
+    /// and its axis while the points' variance along another is not twice as great; with 0 all cuts are exact.
     pub slack: f64,
 }
 
@@ -95,7 +95,7 @@ struct Extent {
 ///
 /// It is the algorithm of Attaway et al. 1996, figure 7, except that points stay where they are until all cuts are
 /// known, and that a round tries many places at once. It takes one collective call for the beginning and, for each
-/// level of the tree, one for boxes, one for axes unless all are kept, and one per round: one round where the point at the previous cut still is the
+/// level of the tree, one for boxes, one for axes unless all are given, and one per round: one round where the point at the previous cut still is the
 /// point at the cut, whatever its motion, or is kept, and about five otherwise.
 pub fn balance(
     points: &[[f64; 3]],
@@ -204,35 +204,26 @@ impl Work<'_> {
 
     /// The axes across which subsets are cut.
     fn axes_across(&mut self, level: &[Subset], extents: &[Extent]) -> Vec<usize> {
+        let all = self.bisection.all();
+        if self.axes == Axes::One && level.iter().all(|subset| subset.ranks != all) {
+            return vec![self.bisection.cuts[all.cut()].axis; level.len()];
+        }
         let frames: Vec<Frame> = extents.iter().map(Extent::frame).collect();
-        let kept: Vec<Option<usize>> =
-            level.iter().zip(&frames).map(|(subset, frame)| self.kept_axis(subset, frame)).collect();
-        let mut sums = Vec::new();
-        for ((subset, frame), _) in level.iter().zip(&frames).zip(&kept).filter(|(_, kept)| kept.is_none()) {
+        let mut sums = Vec::with_capacity(6 * level.len());
+        for (subset, frame) in level.iter().zip(&frames) {
             let mut moments = Moments::default();
             self.points[subset.local.clone()].iter().for_each(|point| moments.add(frame, point.keys.map(number)));
             sums.extend(moments.0);
         }
-        if !sums.is_empty() {
-            self.sum(&mut sums);
-        }
-        let mut sums = sums.chunks_exact(6).map(|sums| Moments(std::array::from_fn(|i| sums[i])));
-        let widest = |subset: &Subset, frame, moments: Moments| moments.widest(subset.all.count, frame);
-        (level.iter().zip(&frames).zip(kept))
-            .map(|((subset, frame), kept)| {
-                kept.or_else(|| Some(widest(subset, frame, sums.next()?))).unwrap_or_default()
+        self.sum(&mut sums);
+        let moments = sums.chunks_exact(6).map(|sums| Moments(std::array::from_fn(|i| sums[i])));
+        let earlier = self.earlier.filter(|earlier| earlier.slack > 0.0);
+        (level.iter().zip(&frames).zip(moments))
+            .map(|((subset, frame), moments)| {
+                let before = earlier.map(|earlier| earlier.cuts.cuts[subset.ranks.cut()].axis);
+                moments.widest(subset.all.count, frame, before)
             })
             .collect()
-    }
-
-    /// The axis that needs no asking.
-    fn kept_axis(&self, subset: &Subset, frame: &Frame) -> Option<usize> {
-        let all = self.bisection.all();
-        if self.axes == Axes::One && subset.ranks != all {
-            return Some(self.bisection.cuts[all.cut()].axis);
-        }
-        let earlier = self.earlier.filter(|earlier| earlier.slack > 0.0)?;
-        Some(earlier.cuts.cuts[subset.ranks.cut()].axis).filter(|&axis| frame.is_long(axis))
     }
 
     fn cutting(&self, subset: Subset, extent: &Extent, axis: usize) -> Cutting {

@@ -229,17 +229,18 @@ fn few_calls_find_the_cuts() {
         let (_, _, again) = balanced(&still, size, |i| i, Axes::Widest, Some(&cuts));
         let shifted: Vec<Point> = still.iter().map(|(at, id, _)| (at.map(|x| 1.25 * x + 7.0), *id, 1)).collect();
         let (_, _, carried) = balanced(&shifted, size, |i| i, Axes::Widest, Some(&cuts));
-        assert!(fresh <= 1 + 8 * levels, "{fresh}");
+        assert!(fresh <= 1 + 9 * levels, "{fresh}");
         assert_eq!((again, carried), (1 + 3 * levels, 1 + 3 * levels));
         for amount in [1e-9, 1e-6, 1e-4, 1e-2] {
             let (_, _, moved) = balanced(&brick(22, amount), size, |i| i, Axes::Widest, Some(&cuts));
-            assert!(moved <= 1 + 8 * levels, "{moved}");
+            assert!(moved <= 1 + 9 * levels, "{moved}");
         }
     }
 }
 
 /// Points that each go their own way, a little. Kept cuts leave no part of more than its share and the slack, or one
-/// point; they are known after a call for the beginning and two for each level, for axes are kept as well.
+/// point; they are known after a call for the beginning and three for each level, or two where the axis is given, which
+/// exact ones are not.
 #[test]
 fn cuts_are_kept_within_their_slack() {
     let mixed = |i: u32, salt: u32| f64::from((i ^ salt).wrapping_mul(0x9e37_79b1) >> 8) / f64::from(1 << 24);
@@ -250,7 +251,7 @@ fn cuts_are_kept_within_their_slack() {
             let (cuts, ..) = balanced(&at(0.0), size, |i| i, axes, None);
             let (_, owners, calls) = followed(&at(0.01), size, |i| i, axes, Some(&cuts), 0.05);
             let (_, _, exact) = balanced(&at(0.01), size, |i| i, axes, Some(&cuts));
-            assert_eq!(calls, 1 + 2 * levels);
+            assert_eq!(calls, if axes == Axes::One { 2 + 2 * levels } else { 1 + 3 * levels });
             assert!(exact > calls);
             let most = 6400.0 / size as f64 * f64::powi(1.05, levels as i32) + 1.0;
             assert!(sizes(&owners, size).iter().all(|count| (*count as f64) < most), "{:?}", sizes(&owners, size));

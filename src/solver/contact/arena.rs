@@ -114,7 +114,7 @@ impl Arena {
         let planes = watches.iter().map(|watch| PlanePoint { point: local(watch.point), ..*watch }).collect();
         (points as u32..).zip(&cast.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + cast.ghosts.len();
-        let values = Points::new(points);
+        let values = Points::new(points, layout.origin);
         Arena {
             locator: Locator::new(found, depth, &values, &faces, &edges),
             points: values,

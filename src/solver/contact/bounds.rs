@@ -74,7 +74,7 @@ impl Outside {
     #[inline(always)]
     pub fn take(&mut self, own: &Bounds, home: &Bounds) {
         for i in 0..8 {
-            // `home` first in the difference and second in the choice: what is not a number is not chosen.
+            // What is not a number is not larger than anything, and so never chosen.
             let beyond = home.0[i] - own.0[i];
             self.0[i] = if beyond > self.0[i] { beyond } else { self.0[i] };
         }

@@ -121,7 +121,7 @@ impl Check<'_> {
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
     fn blend(&self, near: &[u32], touch: &mut Touch) {
-        // What another face shares leaves out one corner at least, of no weight to speak of.
+        // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
         if touch.stand.weights.iter().all(|&weight| weight > 2.0 * face::TIE) {
             return;
         }

@@ -277,7 +277,8 @@ impl EdgeCheck<'_> {
         let found = if stand_out { self.standing_out(pair, past, pairing) } else { self.on_line(pair, past, pairing) };
         match found {
             Some((now, constraint)) => Verdict::Touch(now, Box::new(constraint)),
-            None => Verdict::Beside(self.apart(pair).max(0.0)),
+            // Newcomers that come so far are near.
+            None => Verdict::Beside(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
         }
     }
 

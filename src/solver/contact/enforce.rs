@@ -208,12 +208,12 @@ impl Enforcer {
             state.last = (c.push, c.drag);
             state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
         }
-        // Where nothing overlaps and nothing was pushed there is nothing to do. One pass is made for the smallest overlap:
+        // Where nothing overlaps there is nothing to do. One pass is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
         let wanted = constraints.iter().any(|c| c.gap < 0.0);
         let outcome = if wanted || others.are_there() {
-            self.pass(constraints, points, times, limits, wanted, others)
+            self.passes(constraints, points, times, limits, wanted, others)
         } else {
             None
         };
@@ -224,8 +224,8 @@ impl Enforcer {
         outcome.unwrap_or_default()
     }
 
-    /// The passes; `None` where nobody wants them. Others are asked with the first, which costs less than to ask before.
-    fn pass(
+    /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is nearly always, it costs nothing.
+    fn passes(
         &mut self,
         constraints: &mut [Constraint],
         points: &Points,

@@ -173,7 +173,7 @@ impl Contact {
     fn meet(&mut self, local: impl Fn(u32) -> u32, nodes: &Nodes, comm: &mut dyn Communicator) {
         let Contact { layout, held, elements, .. } = self;
         let here = |point: u32| local(layout.nodes[point as usize]);
-        self.sites = Sites::new(layout.nodes.len(), here, held, nodes);
+        self.sites = Sites::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes.
             self.arena = alone(layout, &self.sites, &self.watches, Default::default(), 0.0);

@@ -74,7 +74,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
     let pairings = Pairings::new(mesh, model, body);
-    let mut points = Points::new(layout.nodes.len());
+    let mut points = Points::new(layout.nodes.len(), layout.origin);
     weigh(mesh, model, body, &layout, &mut points);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(points.len());

@@ -3,6 +3,9 @@
 use super::bounds::{Bounds, Outside};
 use crate::solver::nodes::{add, scaled};
 
+/// Three coordinates, and a number without meaning that makes whole vectors of them.
+pub type Four = [f64; 4];
+
 /// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
@@ -13,14 +16,16 @@ struct Motion {
     velocity: Four,
 }
 
-/// Contact points, structure of arrays, in the order of the mesh's nodes.
+/// Contact points, in the order of the mesh's nodes.
 #[derive(Debug, Clone, Default)]
 pub struct Points {
     motion: Vec<Motion>,
-    /// Box around the way over that step.
+    /// Box around the way over that step, seen from the origin.
     pub ways: Vec<Bounds>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
+    /// Near which the points are: boxes are as fine as single precision is there.
+    origin: [f64; 3],
     /// Length of the step, for ways.
     drift: f64,
     /// Whether a point counts in the longest way: all bits or none.
@@ -35,9 +40,6 @@ struct Longest {
     /// Not a number where a way is not one or has no end, else zero.
     poison: Four,
 }
-
-/// Three coordinates, and a number without meaning that makes whole vectors of them.
-pub type Four = [f64; 4];
 
 impl Longest {
     #[inline(always)]
@@ -62,20 +64,31 @@ pub fn four([x, y, z]: [f64; 3]) -> Four {
     [x, y, z, 0.0]
 }
 
+#[inline(always)]
+fn seen_from(origin: Four, at: Four) -> Four {
+    std::array::from_fn(|i| at[i] - origin[i])
+}
+
 fn three([x, y, z, _]: Four) -> [f64; 3] {
     [x, y, z]
 }
 
 impl Points {
-    /// So many points at the origin.
-    pub fn new(count: usize) -> Points {
+    /// So many points, all at zero. Their boxes are seen from `origin`, near which they should be.
+    pub fn new(count: usize, origin: [f64; 3]) -> Points {
         Points {
+            origin,
             motion: vec![Motion::default(); count],
             ways: vec![Bounds::EVERYTHING; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
             ..Default::default()
         }
+    }
+
+    /// Near which they are; see [`Points::new`].
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin
     }
 
     /// Number of points.
@@ -100,7 +113,7 @@ impl Points {
         let motion = &mut self.motion[point];
         self.longest.take([motion.start, four(start), end], self.counts[point]);
         *motion = Motion { start: four(start), velocity: four(velocity) };
-        self.ways[point] = Bounds::of_way(four(start), end);
+        self.ways[point] = self.box_around(four(start), end);
     }
 
     /// Puts a point where another of the same step is, and lets it go the same way.
@@ -115,17 +128,24 @@ impl Points {
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
     pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
-        let (drift, mut longest, mut outside) = (self.drift, self.longest, Outside::default());
+        let (drift, origin) = (self.drift, four(self.origin));
+        let (mut longest, mut outside) = (self.longest, Outside::default());
         let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
         for ((((motion, way), &counts), home), (start, velocity)) in places.zip(motions) {
             let end: Four = std::array::from_fn(|i| start[i] + velocity[i] * drift);
             longest.take([motion.start, start, end], counts);
-            *way = Bounds::of_way(start, end);
+            *way = Bounds::of_way(seen_from(origin, start), seen_from(origin, end));
             outside.take(way, home);
             *motion = Motion { start, velocity };
         }
         self.longest = longest;
         outside.any()
+    }
+
+    /// Box around a way, seen from the origin.
+    fn box_around(&self, start: Four, end: Four) -> Bounds {
+        let origin = four(self.origin);
+        Bounds::of_way(seen_from(origin, start), seen_from(origin, end))
     }
 
     /// Chooses the points that count in the longest way.

@@ -3,6 +3,7 @@
 use super::edges::{self, Edge, Shape};
 use super::faces::Faces;
 use super::locate::{Interface, Rule};
+use super::search::Box3;
 use super::surface::{Surface, face_nodes};
 use crate::mesh::Mesh;
 use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
@@ -74,6 +75,8 @@ impl Pairings {
 /// Points and faces as they are now.
 #[derive(Debug, Clone, Default)]
 pub struct Layout {
+    /// Middle of the points at the start: boxes in single precision are seen from there.
+    pub origin: [f64; 3],
     /// Node of the mesh of each point, ascending.
     pub nodes: Vec<u32>,
     /// Block of each point: that of the first of its faces.
@@ -118,6 +121,13 @@ impl Layout {
     pub fn face(&self, number: u32) -> u32 {
         self.faces.number.binary_search(&number).map_or(ABSENT, |face| face as u32)
     }
+}
+
+/// Middle of the box around some points, or what is left of one without end.
+fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
+    let of = positions.iter().fold(Box3::empty(), |all, &at| all.joined(&Box3::around(&[at])));
+    let middle = [0, 1, 2].map(|axis| 0.5 * of.low[axis] + 0.5 * of.high[axis]);
+    middle.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
 /// What layouts are made of, and made of again when elements go.
@@ -185,6 +195,7 @@ impl Skin {
         nodes.sort_unstable();
         nodes.dedup();
         let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
+        layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
         let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
         layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));

@@ -38,7 +38,7 @@ pub struct Sites {
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub points: Points,
-    /// Box that the last search gave each.
+    /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
     stays: Vec<Bounds>,
     /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
     searched: bool,
@@ -55,7 +55,12 @@ pub struct Sites {
 
 impl Sites {
     /// Sites at these points; `here` gives the local node of a point, or [`ABSENT`], `held` the constraints of nodes.
-    pub fn new(points: usize, here: impl Fn(u32) -> u32, held: &[[u32; 3]], nodes: &Nodes) -> Sites {
+    pub fn new(
+        (points, origin): (usize, [f64; 3]),
+        here: impl Fn(u32) -> u32,
+        held: &[[u32; 3]],
+        nodes: &Nodes,
+    ) -> Sites {
         let site = |point: u32| {
             let node = here(point);
             (node != ABSENT).then(|| Site { point, node, owned: nodes.owned[node as usize] })
@@ -66,7 +71,7 @@ impl Sites {
         let mut sites = Sites {
             holders: list.iter().map(held).collect(),
             list,
-            points: Points::new(count),
+            points: Points::new(count, origin),
             answers: vec![[0.0; ANSWER]; count],
             works: vec![[0.0; 2]; count],
             ..Default::default()
@@ -118,12 +123,13 @@ impl Sites {
             let half = scaled(way, 0.5 * steps);
             let longest = half.iter().fold(0.0, |longest, way| larger(way.abs(), longest));
             let room = larger(SIDE * longest, least);
-            let (centre, side) = (add(start, half), half.map(|way| way.abs() + room));
+            let centre = subtract(add(start, half), self.points.origin());
+            let side = half.map(|way| way.abs() + room);
             self.stays.push(Bounds::around(subtract(centre, side), add(centre, side)));
         }
     }
 
-    /// Low and high corner of the box in which a site stays until the next search.
+    /// Low and high corner of the box in which a site stays until the next search, seen from the origin of the points.
     pub fn reach(&self, site: usize) -> [[f64; 3]; 2] {
         self.stays[site].corners()
     }

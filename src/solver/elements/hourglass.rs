@@ -57,12 +57,14 @@ pub struct FlanaganBelytschko {
 impl Control for FlanaganBelytschko {
     const LENGTHS: bool = false;
 
-    /// Q̇ = κ μ B:B/(4V) q̇, and ε √(2μ M/a) q̇ beside it with a = V/(2 B:B).
+    /// ΔQ = (κ μΔt + min(κ, 1) η) B:B/(4V) q̇ with the viscosity η of a fluid, and ε √(2μ M/a) q̇ beside it with a = V/(2 B:B).
+    /// The step pays for κ and not for η, see docs/theory.md.
     #[inline(always)]
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V> {
         let factor = V::splat(0.25 * self.stiffness);
         let stiffness = factor * state.mu * state.stiffness_measure * state.time_step;
-        let stiffness = stiffness + factor * state.viscosity * state.stiffness_measure;
+        let kept_stable = V::splat(0.25 * self.stiffness.min(1.0));
+        let stiffness = stiffness + kept_stable * state.viscosity * state.stiffness_measure;
         *q = array![i in 3 => array![a in 4 => (q[i][a] + stiffness * rate[i][a]) * state.kept]];
         if self.viscosity == 0.0 {
             return *q;
@@ -119,7 +121,9 @@ impl Control for AssumedStrain {
         let diagonal = [areas[0] * areas[0] * scale, areas[1] * areas[1] * scale, areas[2] * areas[2] * scale];
         let mixed = [l1 * third, l2 * third, l3 * third];
         // Both base vectors of ±1 stand for 1/8 of themselves in the theory.
-        let mu = (state.mu * state.time_step + state.viscosity) * V::splat(self.factor / 64.0);
+        // The step pays for the factor on the stiffness, not for one on the viscosity of a fluid.
+        let viscosity = state.viscosity * V::splat(self.factor.min(1.0) / 64.0);
+        let mu = state.mu * state.time_step * V::splat(self.factor / 64.0) + viscosity;
         let bending = (mu + mu) / (one - nu);
         let torsion = mu * (one + nu) * V::splat(2.0 / 3.0);
         let kept = state.returned * state.kept;
