@@ -92,7 +92,7 @@ struct Outlook {
 const SLEEP: f64 = 6.0;
 
 /// Least sleeps after which a point looks out for candidates that are awake but need not be.
-const LOOK: f64 = 4.0;
+const LOOK: f64 = 8.0;
 
 /// Part of the way between two edges that either may go before they are looked at again: half, less what rounding takes.
 const SAFE: f64 = 0.499;
