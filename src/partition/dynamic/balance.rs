@@ -95,8 +95,8 @@ struct Extent {
 ///
 /// It is the algorithm of Attaway et al. 1996, figure 7, except that points stay where they are until all cuts are
 /// known, and that a round tries many places at once. It takes one collective call for the beginning and, for each
-/// level of the tree, one for boxes, one for axes unless all are given, and one per round: one round where the point at the previous cut still is the
-/// point at the cut, whatever its motion, or is kept, and about five otherwise.
+/// level of the tree, one for boxes, one for axes unless all are given, and one per round: one round where the point at
+/// the previous cut still is the point at the cut, whatever its motion, or is kept, and about five otherwise.
 pub fn balance(
     points: &[[f64; 3]],
     ids: &[u32],

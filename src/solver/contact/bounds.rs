@@ -54,7 +54,8 @@ impl Bounds {
     }
 
     /// How far two boxes are apart along the axis where they are farthest; not above zero where they have a point in
-    /// common. Boxes around what is not a number in single precision, coordinates beyond 1e38 among them, may be apart from nothing.
+    /// common. Boxes around what is not a number in single precision, coordinates beyond 1e38 among them, may be apart
+    /// from nothing.
     #[inline]
     pub fn distance(&self, other: &Bounds) -> f32 {
         // Without short cuts, so that it is a few instructions on vectors.

@@ -224,7 +224,8 @@ impl Enforcer {
         outcome.unwrap_or_default()
     }
 
-    /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is nearly always, it costs nothing.
+    /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is
+    /// nearly always, it costs nothing.
     fn passes(
         &mut self,
         constraints: &mut [Constraint],
