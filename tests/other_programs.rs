@@ -1,5 +1,5 @@
-//! Results as other programs read them: Python's netCDF4, and VTK, which is ParaView's reader, where it is installed.
-//! `.ci/packages` installs netCDF4; with no interpreter that has it, these tests say that they were skipped.
+//! Results as other programs read them: Python's netCDF4, the EXODUS library, and VTK, which is ParaView's reader, where it is
+//! installed. `.ci/packages` installs the former two; without one of them, its tests say that they were skipped.
 
 mod program;
 
@@ -146,6 +146,26 @@ fn netcdf4_joins_our_pieces_by_their_numbers() {
                 assert!(compared >= 6 * (6 * 60 + 7 * 24), "{out}");
             }
             Err(why) => skipped("netCDF4", &why),
+        }
+    }
+}
+
+/// By the calls of programs that join pieces: load balance, maps, and what pieces share.
+#[test]
+fn the_exodus_library_finds_what_our_pieces_share() {
+    let desk = ran();
+    for ranks in [3, 40] {
+        desk.urto(&["two.i", "-q", "--split", "--ranks", &ranks.to_string(), "-o", "shared"]).with(0);
+        let pieces: Vec<_> =
+            (0..ranks).map(|rank| exodus::pieces::piece_path(&desk.path("shared.e"), ranks, rank)).collect();
+        let files: Vec<&Path> = pieces.iter().map(|path| path.as_path()).collect();
+        match run_script("tests/python/nemesis_pieces.py", &files) {
+            // The 24 elements and 60 nodes, and those that several pieces have.
+            Ok(out) => {
+                let compared: usize = out.split_whitespace().next().and_then(|n| n.parse().ok()).unwrap_or(0);
+                assert!(compared > 24 + 60, "{out}");
+            }
+            Err(why) => skipped("the EXODUS library", &why),
         }
     }
 }
