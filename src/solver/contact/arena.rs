@@ -281,7 +281,6 @@ impl Arena {
                     edge_history.push(now);
                     constraints.push(*constraint);
                 }
-                Verdict::Near => locator.let_pair_wait(place, 0.0),
                 Verdict::Beside(apart) => locator.let_pair_wait(place, apart),
             }
         }

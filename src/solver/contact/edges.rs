@@ -207,9 +207,7 @@ impl Crossing {
 pub enum Verdict {
     /// They touch.
     Touch(PastPair, Box<Constraint>),
-    /// They do not, but an edge is so near a line that they may in the next step.
-    Near,
-    /// Neither; along an axis they are so far apart in this step, beyond where they would be near, or 0.
+    /// They do not; along an axis they are so far apart in this step, beyond where they would be near, or 0.
     Beside(f64),
 }
 
@@ -270,7 +268,7 @@ impl EdgeCheck<'_> {
             // Nearly all pairs on bodies that rest on each other go no further.
             let Some(glance) = self.at_a_glance(pair) else { return Verdict::Beside(0.0) };
             if !stand_out && self.is_above(pair[1], &glance) {
-                return Verdict::Near;
+                return Verdict::Beside(0.0);
             }
         }
         let pairing = pairing();

@@ -1,7 +1,6 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
 use super::bounds::{Bounds, Outside};
-use crate::solver::nodes::{add, scaled};
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.
 pub type Four = [f64; 4];
@@ -14,6 +13,21 @@ struct Motion {
     start: Four,
     /// Velocity over the coming step as it would be without contact.
     velocity: Four,
+}
+
+impl Motion {
+    /// Position at the end of a step of length `drift`.
+    #[inline(always)]
+    fn end(&self, drift: f64) -> Four {
+        std::array::from_fn(|i| self.start[i] + self.velocity[i] * drift)
+    }
+
+    /// Box around the way to that end, seen from an origin.
+    #[inline(always)]
+    fn way_to(&self, end: Four, origin: Four) -> Bounds {
+        let seen = |at: Four| std::array::from_fn(|i| at[i] - origin[i]);
+        Bounds::of_way(seen(self.start), seen(end))
+    }
 }
 
 /// Contact points, in the order of the mesh's nodes.
@@ -64,11 +78,6 @@ pub fn four([x, y, z]: [f64; 3]) -> Four {
     [x, y, z, 0.0]
 }
 
-#[inline(always)]
-fn seen_from(origin: Four, at: Four) -> Four {
-    std::array::from_fn(|i| at[i] - origin[i])
-}
-
 fn three([x, y, z, _]: Four) -> [f64; 3] {
     [x, y, z]
 }
@@ -109,20 +118,18 @@ impl Points {
     /// Puts a point where it is and lets it go its way.
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3]) {
-        let end = four(add(start, scaled(velocity, self.drift)));
-        let motion = &mut self.motion[point];
-        self.longest.take([motion.start, four(start), end], self.counts[point]);
-        *motion = Motion { start: four(start), velocity: four(velocity) };
-        self.ways[point] = self.box_around(four(start), end);
+        let motion = Motion { start: four(start), velocity: four(velocity) };
+        let end = motion.end(self.drift);
+        self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
+        (self.motion[point], self.ways[point]) = (motion, motion.way_to(end, four(self.origin)));
     }
 
     /// Puts a point where another of the same step is, and lets it go the same way.
     #[inline]
     pub fn copy(&mut self, point: usize, others: &Points, other: usize) {
-        let Motion { start, velocity } = others.motion[other];
-        let end: Four = std::array::from_fn(|i| start[i] + velocity[i] * self.drift);
-        self.longest.take([self.motion[point].start, start, end], self.counts[point]);
-        (self.motion[point], self.ways[point]) = (Motion { start, velocity }, others.ways[other]);
+        let motion = others.motion[other];
+        self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
+        (self.motion[point], self.ways[point]) = (motion, others.ways[other]);
     }
 
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
@@ -131,21 +138,16 @@ impl Points {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
         let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
-        for ((((motion, way), &counts), home), (start, velocity)) in places.zip(motions) {
-            let end: Four = std::array::from_fn(|i| start[i] + velocity[i] * drift);
-            longest.take([motion.start, start, end], counts);
-            *way = Bounds::of_way(seen_from(origin, start), seen_from(origin, end));
+        for ((((before, way), &counts), home), (start, velocity)) in places.zip(motions) {
+            let motion = Motion { start, velocity };
+            let end = motion.end(drift);
+            longest.take([before.start, start, end], counts);
+            *way = motion.way_to(end, origin);
             outside.take(way, home);
-            *motion = Motion { start, velocity };
+            *before = motion;
         }
         self.longest = longest;
         outside.any()
-    }
-
-    /// Box around a way, seen from the origin.
-    fn box_around(&self, start: Four, end: Four) -> Bounds {
-        let origin = four(self.origin);
-        Bounds::of_way(seen_from(origin, start), seen_from(origin, end))
     }
 
     /// Chooses the points that count in the longest way.
@@ -170,8 +172,7 @@ impl Points {
     /// Position at the end of the step without contact.
     #[inline]
     pub fn end(&self, point: u32) -> [f64; 3] {
-        let Motion { start, velocity } = &self.motion[point as usize];
-        add(three(*start), scaled(three(*velocity), self.drift))
+        three(self.motion[point as usize].end(self.drift))
     }
 
     /// Velocity over the coming step as it would be without contact.

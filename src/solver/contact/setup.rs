@@ -125,7 +125,7 @@ impl Layout {
 
 /// Middle of the box around some points, or what is left of one without end.
 fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
-    let of = positions.iter().fold(Box3::empty(), |all, &at| all.joined(&Box3::around(&[at])));
+    let of = Box3::around(positions);
     let middle = [0, 1, 2].map(|axis| 0.5 * of.low[axis] + 0.5 * of.high[axis]);
     middle.map(|x| if x.is_finite() { x } else { 0.0 })
 }
