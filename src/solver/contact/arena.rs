@@ -239,12 +239,14 @@ impl Arena {
             near_faces.extend(near.iter().map(|near| near.face));
             strict.clear();
             strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
-            check.point(point, near_faces, strict, past, touches);
+            // The history of the many that nothing holds need not be fetched.
+            let before = if locator.is_held(i) { *past } else { UNTOUCHED };
+            check.point(point, near_faces, strict, &before, touches);
             if touches.is_empty() && !locator.is_held(i) {
                 continue;
             }
             locator.set_held(i, !touches.is_empty());
-            let before = std::mem::replace(past, UNTOUCHED);
+            *past = UNTOUCHED;
             for (place, touch) in touches.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];

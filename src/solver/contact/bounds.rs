@@ -11,6 +11,7 @@ const OUTWARDS: f32 = 4e-7;
 pub struct Bounds([f32; 8]);
 
 /// The smaller of two numbers, without a say for those that are none: half the instructions of `f32::min`.
+#[inline(always)]
 fn smaller(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
@@ -26,7 +27,7 @@ impl Bounds {
     }
 
     /// The same in whole vectors.
-    #[inline]
+    #[inline(always)]
     pub fn of_way(start: Four, end: Four) -> Bounds {
         let single = |x: Four| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
         let (start, end) = (single(start), single(end));

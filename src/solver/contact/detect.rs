@@ -218,10 +218,7 @@ impl Check<'_> {
             for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
                 let corners = self.faces.end(face, self.points);
                 let hollow = dot(subtract(face::centre(&corners), middle), old.stand.normal) > 0.0;
-                if !hollow
-                    || face::is_in_front(&corners, self.points.end(point))
-                    || touches.iter().any(|touch| touch.face == face)
-                {
+                if !hollow || self.is_in_front(point, face) || touches.iter().any(|touch| touch.face == face) {
                     continue;
                 }
                 let Some(stand) = face::stand(&corners, self.points.end(point)) else { continue };
@@ -244,11 +241,11 @@ impl Check<'_> {
 
     /// A point that this face has not seen before.
     fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
-        let corners = self.faces.end(face, self.points);
-        if face::is_in_front(&corners, self.points.end(point)) {
+        if self.is_in_front(point, face) {
             return None;
         }
-        let end = face::stand(&corners, self.points.end(point)).filter(|stand| stand.gap < 0.0)?;
+        let end =
+            face::stand(&self.faces.end(face, self.points), self.points.end(point)).filter(|stand| stand.gap < 0.0)?;
         let start = face::stand(&self.faces.start(face, self.points), self.points.start(point))?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {
@@ -265,6 +262,14 @@ impl Check<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &end);
         inside.then(|| touch(0.0, start.gap))
+    }
+
+    /// Whether a point surely is in front of a face at the end of the step.
+    #[inline(always)]
+    fn is_in_front(&self, point: u32, face: u32) -> bool {
+        let [a, b, c, d] = self.faces.corners[face as usize];
+        let end = |point| self.points.end_four(point);
+        face::is_in_front([end(a), end(b), end(c), end(d)], end(point))
     }
 
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,

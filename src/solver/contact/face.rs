@@ -4,6 +4,7 @@
 //! the mean of its corners; neighbouring faces then share their edges exactly, and the outside has no gaps.
 
 use super::cubic::{self, Path};
+use super::points::Four;
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
@@ -47,12 +48,20 @@ pub fn area_normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
 }
 
 /// Whether a point is surely in front of a face: above the plane of its middle by more than the corners are. Cheap, for
-/// the many that are.
-pub fn is_in_front(corners: &[[f64; 3]; 4], point: [f64; 3]) -> bool {
-    let (middle, normal) = (centre(corners), area_normal(corners));
+/// the many that are, and in whole vectors.
+#[inline(always)]
+pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
+    let each = |of: fn(f64, f64) -> f64, u: Four, v: Four| -> Four { std::array::from_fn(|i| of(u[i], v[i])) };
+    let (sum, less) = (|u, v| each(|a, b| a + b, u, v), |u, v| each(|a, b| a - b, u, v));
+    let (u, v) = (less(c, a), less(d, b));
+    let turned = |[x, y, z, w]: Four| [y, z, x, w];
+    // The product of the diagonals, its last coordinate first.
+    let product = less(each(|a, b| a * b, u, turned(v)), each(|a, b| a * b, turned(u), v));
+    let along = |r: Four| product[1] * r[0] + product[2] * r[1] + product[0] * r[2];
+    let middle = sum(sum(a, b), sum(c, d)).map(|x| 0.25 * x);
     // The diagonals are parallel to that plane, so the corners are above it and below by the same height.
-    let warp = dot(subtract(corners[0], middle), normal).abs();
-    dot(subtract(point, middle), normal) > warp * (1.0 + BORDER)
+    let warp = along(less(a, middle)).abs();
+    along(less(point, middle)) > warp * (1.0 + BORDER)
 }
 
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.

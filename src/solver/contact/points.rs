@@ -1,6 +1,7 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
 use super::bounds::{Bounds, Outside};
+use crate::lanes::InstructionSet;
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.
 pub type Four = [f64; 4];
@@ -45,6 +46,7 @@ pub struct Points {
     /// Whether a point counts in the longest way: all bits or none.
     counts: Vec<u64>,
     longest: Longest,
+    instructions: InstructionSet,
 }
 
 /// The longest way along each axis. Without branches, which nobody could foretell.
@@ -91,6 +93,7 @@ impl Points {
             ways: vec![Bounds::EVERYTHING; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
+            instructions: InstructionSet::detect(),
             ..Default::default()
         }
     }
@@ -135,19 +138,22 @@ impl Points {
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
     pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
-        let (drift, origin) = (self.drift, four(self.origin));
-        let (mut longest, mut outside) = (self.longest, Outside::default());
-        let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
-        for ((((before, way), &counts), home), (start, velocity)) in places.zip(motions) {
-            let motion = Motion { start, velocity };
-            let end = motion.end(drift);
-            longest.take([before.start, start, end], counts);
-            *way = motion.way_to(end, origin);
-            outside.take(way, home);
-            *before = motion;
-        }
-        self.longest = longest;
-        outside.any()
+        let instructions = self.instructions;
+        instructions.run(|| {
+            let (drift, origin) = (self.drift, four(self.origin));
+            let (mut longest, mut outside) = (self.longest, Outside::default());
+            let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
+            for ((((before, way), &counts), home), (start, velocity)) in places.zip(motions) {
+                let motion = Motion { start, velocity };
+                let end = motion.end(drift);
+                longest.take([before.start, start, end], counts);
+                *way = motion.way_to(end, origin);
+                outside.take(way, home);
+                *before = motion;
+            }
+            self.longest = longest;
+            outside.any()
+        })
     }
 
     /// Chooses the points that count in the longest way.
@@ -173,6 +179,12 @@ impl Points {
     #[inline]
     pub fn end(&self, point: u32) -> [f64; 3] {
         three(self.motion[point as usize].end(self.drift))
+    }
+
+    /// The same as a whole vector.
+    #[inline(always)]
+    pub fn end_four(&self, point: u32) -> Four {
+        self.motion[point as usize].end(self.drift)
     }
 
     /// Velocity over the coming step as it would be without contact.
