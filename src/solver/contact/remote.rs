@@ -17,7 +17,7 @@ use super::planes::PlanePoint;
 use super::regional::Regional;
 use super::routing::route;
 use super::search::Search;
-use super::setup::Layout;
+use super::setup::{ABSENT, Layout};
 use super::sites::{ANSWER, FORCES, STATUS, Site, Sites};
 use super::traffic::{Lists, Pattern};
 use crate::comm::{Communicator, numbers_of_others};
@@ -50,7 +50,9 @@ pub struct Remote {
     method: ContactDecomposition,
     cuts: Option<Bisection>,
     motion: Pattern,
+    /// Ways of the answers to other ranks; for every point of the arena that is at home here, its site here, or [`ABSENT`].
     answers: Pattern,
+    own: Vec<u32>,
     links: Links,
 }
 
@@ -89,6 +91,7 @@ impl Remote {
             cuts: None,
             motion: Pattern::default(),
             answers: Pattern::default(),
+            own: Vec::new(),
             links: Links::default(),
         }
     }
@@ -116,8 +119,14 @@ impl Remote {
     /// Brings the forces that contact has found to the nodes.
     pub fn send_forces(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
         sites.pushed.clear();
+        let take = |sites: &mut Sites, site: u32, forces: &[f64; FORCES]| {
+            let answer = &mut sites.answers[site as usize];
+            answer[..FORCES].copy_from_slice(forces);
+            answer[FORCES..].fill(0.0);
+            sites.pushed.push(site);
+        };
         self.answers.exchange(
-            &mut (&mut *sites, arena),
+            &mut (&mut *sites, &*arena),
             |(_, arena), point| {
                 let answer = &arena.answers[point as usize];
                 if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
@@ -126,27 +135,37 @@ impl Remote {
                 // All bits at once: comparing the arrays would be a call for every point.
                 let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
                 if unlike != 0 {
-                    let answer = &mut sites.answers[site as usize];
-                    answer[..FORCES].copy_from_slice(&forces);
-                    answer[FORCES..].fill(0.0);
-                    sites.pushed.push(site);
+                    take(sites, site, &forces);
                 }
             },
             comm,
         );
+        for (point, site) in self.at_home(arena) {
+            let answer = &arena.answers[point as usize];
+            take(sites, site, &std::array::from_fn(|i| answer[i]));
+        }
         sites.pushed.sort_unstable();
     }
 
     /// Brings the rest of what contact has found in this step to the nodes that are pushed: only output asks for it.
     pub fn send_rest(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
         self.answers.exchange(
-            &mut (sites, arena),
+            &mut (&mut *sites, &*arena),
             |(_, arena), point| -> [f64; ANSWER - FORCES] {
                 std::array::from_fn(|i| arena.answers[point as usize][FORCES + i])
             },
             |(sites, _), site, rest| sites.answers[site as usize][FORCES..].copy_from_slice(&rest),
             comm,
         );
+        for (point, site) in self.at_home(arena) {
+            sites.answers[site as usize] = arena.answers[point as usize];
+        }
+    }
+
+    /// Points of the arena that are pushed and nodes here, with their sites.
+    fn at_home<'a>(&'a self, arena: &'a Arena) -> impl Iterator<Item = (u32, u32)> + 'a {
+        let site = |&point: &u32| Some((point, *self.own.get(point as usize).filter(|&&site| site != ABSENT)?));
+        arena.pushed.iter().filter_map(site)
     }
 
     /// What homes tell each other, for one step.
@@ -245,10 +264,11 @@ impl Remote {
 
     /// Tells every rank that has the node of a point which may be pushed that forces will come for it.
     fn connect_answers(&mut self, pushed: &[u32], sites: &Sites, arena: &Arena, comm: &mut dyn Communicator) {
+        let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(comm.size(), 0);
         let mut send = Lists::new();
         for &point in pushed {
-            for &holder in self.holders(point) {
+            for &holder in self.holders(point).iter().filter(|&&holder| holder != rank) {
                 parcels.add(holder, point, &[]);
                 send.entry(holder as usize).or_default().push(arena.place(point));
             }
@@ -257,6 +277,13 @@ impl Remote {
         let site = |point: &u32| sites.of(*point).map(|site| site as u32);
         let receive = by_sender(&records, |ids| ids.iter().filter_map(site).collect());
         self.answers = Pattern::new(send, receive, comm.rank());
+        // Few are pushed: those that are at home here need not all be asked.
+        self.own = vec![ABSENT; arena.cast.points.len()];
+        for point in pushed {
+            if let Some(own) = self.own.get_mut(arena.place(*point) as usize) {
+                *own = site(point).unwrap_or(ABSENT);
+            }
+        }
     }
 
     /// Asks the owners for the motion of all points of the arena, and for their masses.

@@ -34,6 +34,8 @@ pub const STATUS: usize = 7;
 pub struct Sites {
     /// Who they are.
     pub list: Vec<Site>,
+    /// Where each point is in the list, or [`ABSENT`].
+    places: Vec<u32>,
     /// For each axis of each, the constraint that holds the node, or [`ABSENT`].
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
@@ -70,6 +72,7 @@ impl Sites {
         let held = |site: &Site| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
         let mut sites = Sites {
             holders: list.iter().map(held).collect(),
+            places: places(&list, points),
             list,
             points: Points::new(count, origin),
             answers: vec![[0.0; ANSWER]; count],
@@ -88,16 +91,16 @@ impl Sites {
         let site = |point: u32| Site { point, node: point, owned: true };
         let list: Vec<Site> = (0..points.len() as u32).map(site).collect();
         let holders = vec![[ABSENT; 3]; list.len()];
-        let mut sites = Sites { list, holders, points: points.clone(), ..Default::default() };
+        let places = places(&list, points.len());
+        let mut sites = Sites { list, places, holders, points: points.clone(), ..Default::default() };
         sites.renew(1.0, 0.0);
         sites
     }
 
     /// The site of a point.
+    #[inline]
     pub fn of(&self, point: u32) -> Option<usize> {
-        // On one rank all points are sites.
-        let at_its_place = self.list.get(point as usize).is_some_and(|site| site.point == point);
-        if at_its_place { Some(point as usize) } else { self.list.binary_search_by_key(&point, |site| site.point).ok() }
+        self.places.get(point as usize).filter(|&&place| place != ABSENT).map(|&place| place as usize)
     }
 
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
@@ -166,4 +169,11 @@ impl Sites {
             work[1] += half_step * dot(friction, v);
         }
     }
+}
+
+/// Where each of so many points is in a list.
+fn places(list: &[Site], points: usize) -> Vec<u32> {
+    let mut places = vec![ABSENT; points];
+    (0..).zip(list).for_each(|(place, site)| places[site.point as usize] = place);
+    places
 }
