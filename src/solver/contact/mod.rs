@@ -214,6 +214,17 @@ impl Contact {
         step: &StepTimes,
         comm: &mut dyn Communicator,
     ) {
+        self.bring_motion(nodes, step, comm);
+        comm.enter(Traffic::ContactPasses);
+        let outcome = self.enforce(step, comm);
+        self.count(outcome);
+        comm.enter(Traffic::ContactMotion);
+        self.bring_forces(comm);
+        self.sites.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
+    }
+
+    /// Finds where the nodes would go, searches if that is due, and brings their motion to the arena.
+    fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
         self.sites.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
         let reshaped = self.reshape(comm);
@@ -227,10 +238,10 @@ impl Contact {
             // The arena's points are the sites: lent, not copied.
             None => std::mem::swap(&mut arena.points, &mut sites.points),
         }
-        comm.enter(Traffic::ContactPasses);
-        let outcome = self.enforce(step, comm);
-        self.count(outcome);
-        comm.enter(Traffic::ContactMotion);
+    }
+
+    /// Brings the forces that the arena has found to the sites.
+    fn bring_forces(&mut self, comm: &mut dyn Communicator) {
         let Contact { sites, arena, remote, .. } = self;
         match remote {
             Some(remote) => remote.send_forces(sites, arena, comm),
@@ -242,7 +253,6 @@ impl Contact {
                 }
             }
         }
-        sites.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
     }
 
     /// Brings what [`Contact::node_values`] and [`Contact::plane_forces`] tell beside forces to the nodes; before them,

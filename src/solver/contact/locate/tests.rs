@@ -305,24 +305,16 @@ impl Stage {
     }
 }
 
-/// One step of contact, as `Contact::apply` does it on one rank, with everything awake if asked.
+/// One step on one rank, with everything awake if asked.
 fn step(contact: &mut Contact, nodes: &mut Nodes, awake: bool) {
-    contact.sites.predict(nodes, &STEP);
-    if contact.reshape(&mut Serial) || contact.sites.expired {
-        contact.search(&mut Serial);
-    }
-    std::mem::swap(&mut contact.arena.points, &mut contact.sites.points);
+    contact.bring_motion(nodes, &STEP, &mut Serial);
     if awake {
         // On one rank the points of the arena are those of the layout.
         let held: Vec<u32> = contact.arena.history().points.iter().map(|(point, _)| *point).collect();
         contact.arena.locator.wake(&held);
     }
     contact.enforce(&STEP, &mut Serial);
-    std::mem::swap(&mut contact.arena.points, &mut contact.sites.points);
-    contact.sites.pushed.clone_from(&contact.arena.pushed);
-    for &point in &contact.arena.pushed {
-        contact.sites.answers[point as usize] = contact.arena.answers[point as usize];
-    }
+    contact.bring_forces(&mut Serial);
     contact.sites.hand_over(nodes, |_, _| ());
     nodes.integrate(STEP.kick, STEP.drift);
 }
