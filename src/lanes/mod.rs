@@ -151,18 +151,6 @@ impl InstructionSet {
         }
     }
 
-    /// Does some work with four numbers to a register where the processor can, as far as the compiler finds them in
-    /// it: in the closure itself and in what is inlined there. The results are the same bits.
-    #[inline]
-    pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
-        match self {
-            // SAFETY: `InstructionSet::detect` and `widest` return these only on processors that have AVX2.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { run_avx2(work) },
-            _ => work(),
-        }
-    }
-
     /// The widest set this processor has.
     #[cfg(target_arch = "x86_64")]
     pub fn widest() -> InstructionSet {
@@ -192,15 +180,4 @@ impl InstructionSet {
             InstructionSet::Avx512 => "AVX-512",
         }
     }
-}
-
-/// Work that the compiler may do with AVX2. `unsafe` for a sixth of contact on a crushed can (docs/performance.md).
-///
-/// # Safety
-///
-/// The processor must have AVX2.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-unsafe fn run_avx2<R>(work: impl FnOnce() -> R) -> R {
-    work()
 }
