@@ -209,6 +209,8 @@ fn patch(mesh: &Mesh, lines: &str) -> Run {
 fn v27_patch_test() {
     let both_ways = [
         ("CONTACT PASSES, 1", 0.15),
+        ("CONTACT PASSES, 3", 0.15),
+        ("CONTACT PASSES, 20", 0.15),
         ("CONTACT PASSES, 20, 1.E-6", 0.15),
         ("CONTACT PASSES, 100, 1.E-6", 0.02),
         ("CONTACT PASSES, 1000, 1.E-12", 2e-4),
