@@ -247,6 +247,28 @@ fn contact_of_few_points_in_one_place() {
     assert!(velocities[8..16].iter().all(|v| *v > 1.0), "the second cube was struck: {velocities:?}");
 }
 
+/// All that contact is about goes, and a bar goes on along a rough wall: the forces there were known where contact was.
+#[test]
+fn a_wall_alone_is_left() {
+    let recipe = "TITLE\n plate and bar\nBOX, 1, 0.02, 0., 0.005, 0.01, 0.01, 0.01, 2, 2, 2\n\
+                  BOX, 2, 0., 0., 0., 0.01, 0.01, 0.04, 2, 2, 8\nSIDE SET FACE, 100, 2, BOTTOM\n";
+    let steel =
+        |block| format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    let deck = format!(
+        "TITLE\n plate and bar\nTERMINATION TIME, 60.E-6\nOUTPUT TIME, 2.E-6\nPLOT TIME, 5.E-6\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nCONTACT MATERIAL, 1\nDELETE MATERIAL, 1, 20.E-6\n\
+         INITIAL VELOCITY MATERIAL, 1, 0., 50., 0.\nINITIAL VELOCITY MATERIAL, 2, 10., 5., -100.\n\
+         RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.2\n{}{}EXIT\n",
+        steel(1),
+        steel(2)
+    );
+    let desk = Desk::new();
+    desk.put("case.i", &deck);
+    let mesh = mesher::make(recipe, "case.mesh", 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    desk.put_mesh("case.g", &mesh);
+    on_any_number_of_ranks(&desk);
+}
+
 /// Processes read a mesh of this size in slabs, and a deck without one fails on all of them.
 #[test]
 fn a_mesh_read_in_slabs_over_mpi() {

@@ -123,6 +123,26 @@ fn edges_that_touch_on_any_number_of_ranks() {
     matrix(&crossing_edges(), [60, 40], &["CONTEDGES"]);
 }
 
+/// All that contact is about has gone before the restart, or goes after it; the bar stays on its rough wall.
+#[test]
+fn a_wall_alone_on_any_number_of_ranks() {
+    let deck = format!(
+        "TITLE\n plate and bar\nTERMINATION TIME, 1.E-3\nPLOT TIME, 1.E-5\nPLOT NODAL, VELOCITY, CONTACT\n\
+         CONTACT MATERIAL, 1\nDELETE MATERIAL, 1, 20.E-6\nINITIAL VELOCITY MATERIAL, 2, 10., 5., -100.\n\
+         RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.2\n\
+         MATERIAL, 1, ELASTIC PLASTIC, 7850.\n{PLATE}END\nMATERIAL, 2, ELASTIC PLASTIC, 7850.\n{PLATE}END\nEXIT\n"
+    );
+    let mesh = || {
+        recipe(
+            "TITLE\n plate and bar\nBOX, 1, 0.02, 0., 0.005, 0.01, 0.01, 0.01, 2, 2, 2\n\
+             BOX, 2, 0., 0., 0., 0.01, 0.01, 0.04, 2, 2, 8\nSIDE SET FACE, 100, 2, BOTTOM\n",
+        )
+    };
+    for steps in [[15, 40], [40, 20]] {
+        matrix(&Case::new(&deck, mesh()), steps, &["CONTWORK"]);
+    }
+}
+
 /// Wedges and pyramids, whose masses and bounds of the step are their own, with some of them gone before the restart.
 #[test]
 fn collapsed_elements_on_any_number_of_ranks() {

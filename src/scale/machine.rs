@@ -47,9 +47,9 @@ impl Price {
 }
 
 /// Costs of contact relative to that of an element, measured: docs/performance.md says how.
-const CONTACT_POINT: f64 = 0.23;
-const CANDIDATE: f64 = 0.105;
-const CORRECTION: f64 = 2.0;
+const CONTACT_POINT: f64 = 0.4;
+const CANDIDATE: f64 = 0.004;
+const CORRECTION: f64 = 1.77;
 
 impl Machine {
     /// The same machine with a processor that needs so long for an element; contact is slower or faster in proportion.

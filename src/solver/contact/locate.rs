@@ -222,7 +222,7 @@ impl Locator {
         self.gone + self.last_way < self.quiet[i]
     }
 
-    /// Whether a face holds the `i`-th watched point.
+    /// Whether a face holds the `i`-th watched point; in a step known from [`Locator::near`] on.
     pub fn is_held(&self, i: usize) -> bool {
         self.outlooks[i].held
     }

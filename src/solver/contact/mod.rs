@@ -47,6 +47,7 @@ use faces::Faces;
 use locate::Reach;
 use planes::PlanePoint;
 use remote::Remote;
+use routing::to_all;
 use search::{Search, SearchKind};
 use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
@@ -175,7 +176,10 @@ impl Contact {
         let here = |point: u32| local(layout.nodes[point as usize]);
         self.sites = Sites::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
-            // Planes alone need nobody else's nodes.
+            // Planes alone need nobody else's nodes. Where there was more before, their forces were known at homes only.
+            if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
+                history.planes = to_all(&history.planes, comm);
+            }
             self.arena = alone(layout, &self.sites, &self.watches, Default::default(), 0.0);
             // Nor a search, which would put history back.
             self.arena.restore(self.carried.take().unwrap_or_default());

@@ -146,7 +146,7 @@ impl Points {
         }
     }
 
-    /// The same with four numbers to a register. `unsafe` for a sixth of contact on a crushed can (docs/performance.md).
+    /// The same with four numbers to a register. `unsafe` for a twelfth of contact on a crushed can (docs/performance.md).
     ///
     /// # Safety
     ///

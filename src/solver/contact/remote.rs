@@ -50,8 +50,9 @@ pub struct Remote {
     method: ContactDecomposition,
     cuts: Option<Bisection>,
     motion: Pattern,
-    /// Ways of the answers to other ranks; for every point of the arena that is at home here, its site here, or [`ABSENT`].
+    /// Ways of the answers to other ranks.
     answers: Pattern,
+    /// For every point of the arena that may be pushed and is at home here, its site here; else [`ABSENT`].
     own: Vec<u32>,
     links: Links,
 }
@@ -117,7 +118,7 @@ impl Remote {
     }
 
     /// Brings the forces that contact has found to the nodes.
-    pub fn send_forces(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
+    pub fn send_forces(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
         sites.pushed.clear();
         let take = |sites: &mut Sites, site: u32, forces: &[f64; FORCES]| {
             let answer = &mut sites.answers[site as usize];
@@ -126,7 +127,7 @@ impl Remote {
             sites.pushed.push(site);
         };
         self.answers.exchange(
-            &mut (&mut *sites, &*arena),
+            &mut (&mut *sites, arena),
             |(_, arena), point| {
                 let answer = &arena.answers[point as usize];
                 if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
@@ -148,9 +149,9 @@ impl Remote {
     }
 
     /// Brings the rest of what contact has found in this step to the nodes that are pushed: only output asks for it.
-    pub fn send_rest(&mut self, sites: &mut Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
+    pub fn send_rest(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
         self.answers.exchange(
-            &mut (&mut *sites, &*arena),
+            &mut (&mut *sites, arena),
             |(_, arena), point| -> [f64; ANSWER - FORCES] {
                 std::array::from_fn(|i| arena.answers[point as usize][FORCES + i])
             },
@@ -162,7 +163,7 @@ impl Remote {
         }
     }
 
-    /// Points of the arena that are pushed and nodes here, with their sites.
+    /// Points of the arena that are pushed, at home and nodes here, with their sites.
     fn at_home<'a>(&'a self, arena: &'a Arena) -> impl Iterator<Item = (u32, u32)> + 'a {
         let site = |&point: &u32| Some((point, *self.own.get(point as usize).filter(|&&site| site != ABSENT)?));
         arena.pushed.iter().filter_map(site)
@@ -262,7 +263,7 @@ impl Remote {
         self.links = Links::new(rank as u32, homes, &arena.cast, shares, contract);
     }
 
-    /// Tells every rank that has the node of a point which may be pushed that forces will come for it.
+    /// Tells every other rank that has the node of a point which may be pushed that forces will come for it.
     fn connect_answers(&mut self, pushed: &[u32], sites: &Sites, arena: &Arena, comm: &mut dyn Communicator) {
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(comm.size(), 0);

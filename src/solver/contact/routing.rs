@@ -45,12 +45,29 @@ pub fn route(
         let pair = [records.ids[i], v[0] as u32];
         PastPair { pair, sense: v[1], allowed: v[2], push: v[3], drag: [v[4], v[5], v[6]] }
     }));
+    come.planes = received(planes, comm);
+    come
+}
+
+/// A plane's watch: its number and its forces.
+type Watched = (u32, f64, [f64; 3]);
+
+/// Tells all ranks of the planes' watches of each. All ranks call it.
+pub fn to_all(planes: &[Watched], comm: &mut dyn Communicator) -> Vec<Watched> {
+    let mut parcels = Parcels::new(comm.size(), 4);
+    for (number, push, [x, y, z]) in planes {
+        (0..comm.size()).for_each(|rank| parcels.add(rank as u32, *number, &[*push, *x, *y, *z]));
+    }
+    received(parcels, comm)
+}
+
+fn received(planes: Parcels, comm: &mut dyn Communicator) -> Vec<Watched> {
     let records = planes.exchange(comm);
-    come.planes.extend((0..records.len()).map(|i| {
+    let watched = |i: usize| {
         let v = records.values(i);
         (records.ids[i], v[0], [v[1], v[2], v[3]])
-    }));
-    come
+    };
+    (0..records.len()).map(watched).collect()
 }
 
 fn pack_past(past: Past) -> [f64; 6] {
