@@ -139,7 +139,7 @@ impl Points {
     /// home on it.
     pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
         match self.instructions {
-            // SAFETY: `InstructionSet::detect` returns these only on processors that have AVX2.
+            // SAFETY: `InstructionSet::detect` returns these only on processors that have AVX2, which AVX-512 includes.
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.set_all_avx2(motions, homes) },
             _ => self.set_each(motions, homes),
