@@ -49,11 +49,20 @@ fn text(name: &str) -> String {
 }
 
 fn desk(deck: &str, recipe: &str) -> Desk {
+    desk_of(deck, &text(recipe))
+}
+
+/// The same with the text of a recipe.
+fn desk_of(deck: &str, recipe: &str) -> Desk {
     let desk = Desk::new();
     desk.put("case.i", deck);
-    let mesh = mesher::make(&text(recipe), recipe, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
+    let mesh = mesher::make(recipe, "case.mesh", 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
     desk.put_mesh("case.g", &mesh);
     desk
+}
+
+fn steel(block: u32) -> String {
+    format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n")
 }
 
 /// A deck with another end and a coarser mesh: `(from, to)` are words of its recipe.
@@ -67,11 +76,7 @@ fn lighter(name: &str, end: f64, words: &[(&str, &str)]) -> Desk {
         assert!(recipe.contains(from), "the recipe is as this test knows it");
         recipe = recipe.replace(from, to);
     }
-    let desk = Desk::new();
-    desk.put("case.i", &deck);
-    let mesh = mesher::make(&recipe, name, 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
-    desk.put_mesh("case.g", &mesh);
-    desk
+    desk_of(&deck, &recipe)
 }
 
 /// Runs the case on one rank: what all others are held against.
@@ -226,8 +231,6 @@ fn more_ranks_than_elements() {
 fn contact_of_few_points_in_one_place() {
     let recipe = "TITLE\n two cubes and a bar\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.01, 1, 1, 1\n\
                   BOX, 2, 0.0101, 0.002, 0.003, 0.01, 0.01, 0.01, 1, 1, 1\nBOX, 3, 1., 0., 0., 1., 0.01, 0.01, 60, 1, 1\n";
-    let steel =
-        |block| format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
     let deck = format!(
         "TITLE\n two cubes and a bar\nTERMINATION TIME, 60.E-6\nOUTPUT TIME, 2.E-6\nPLOT TIME, 5.E-6\n\
          PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nCONTACT MATERIAL, 1, 2\n\
@@ -236,10 +239,7 @@ fn contact_of_few_points_in_one_place() {
         steel(2),
         steel(3)
     );
-    let desk = Desk::new();
-    desk.put("case.i", &deck);
-    let mesh = mesher::make(recipe, "case.mesh", 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
-    desk.put_mesh("case.g", &mesh);
+    let desk = desk_of(&deck, recipe);
     on_any_number_of_ranks(&desk);
     however_contact_is_shared_out(&desk, &["2", "7", "64"]);
     let results = desk.results("one.e");
@@ -252,8 +252,6 @@ fn contact_of_few_points_in_one_place() {
 fn a_wall_alone_is_left() {
     let recipe = "TITLE\n plate and bar\nBOX, 1, 0.02, 0., 0.005, 0.01, 0.01, 0.01, 2, 2, 2\n\
                   BOX, 2, 0., 0., 0., 0.01, 0.01, 0.04, 2, 2, 8\nSIDE SET FACE, 100, 2, BOTTOM\n";
-    let steel =
-        |block| format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
     let deck = format!(
         "TITLE\n plate and bar\nTERMINATION TIME, 60.E-6\nOUTPUT TIME, 2.E-6\nPLOT TIME, 5.E-6\n\
          PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nCONTACT MATERIAL, 1\nDELETE MATERIAL, 1, 20.E-6\n\
@@ -262,10 +260,7 @@ fn a_wall_alone_is_left() {
         steel(1),
         steel(2)
     );
-    let desk = Desk::new();
-    desk.put("case.i", &deck);
-    let mesh = mesher::make(recipe, "case.mesh", 1).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)));
-    desk.put_mesh("case.g", &mesh);
+    let desk = desk_of(&deck, recipe);
     on_any_number_of_ranks(&desk);
 }
 

@@ -3,7 +3,6 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
-use super::contract::inverse;
 use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
 use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
 use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
@@ -12,7 +11,7 @@ use super::locate::{Locator, Near, Rule};
 use super::neighbourhood::Found;
 use super::planes::PlanePoint;
 use super::points::Points;
-use super::setup::{ABSENT, Layout, Pairing, Pairings};
+use super::setup::{ABSENT, Layout, Pairing, Pairings, inverse};
 use super::sites::ANSWER;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
@@ -26,8 +25,11 @@ pub struct History {
     /// Pairs of edges that touch.
     pub edges: Vec<PastPair>,
     /// Watches of planes and their forces.
-    pub planes: Vec<(u32, f64, [f64; 3])>,
+    pub planes: Vec<Watched>,
 }
+
+/// A watch of a plane: its number, and the normal and the friction force of the last step.
+pub type Watched = (u32, f64, [f64; 3]);
 
 /// Points, faces and edges of an arena, by the numbers of the layout, ascending.
 #[derive(Debug, Clone, Default)]
@@ -90,8 +92,8 @@ impl Arena {
     /// answers for.
     pub fn new(cast: Cast, found: Found, depth: f64, layout: &Layout, watches: &[PlanePoint]) -> Arena {
         let points = cast.points.len();
-        let mut places = inverse(&cast.points, layout.nodes.len());
-        let face_places = inverse(&cast.faces, layout.faces.len());
+        let mut places = inverse(cast.points.iter().copied(), layout.nodes.len());
+        let face_places = inverse(cast.faces.iter().copied(), layout.faces.len());
         let whole = points == layout.nodes.len() && cast.faces.len() == layout.faces.len();
         let faces = if whole {
             layout.faces.clone()

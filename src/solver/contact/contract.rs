@@ -4,7 +4,7 @@ use super::arena::{Arena, Cast};
 use super::neighbourhood::Found;
 use super::planes::PlanePoint;
 use super::regional::Regional;
-use super::setup::{ABSENT, Layout};
+use super::setup::{Layout, inverse};
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +54,7 @@ impl Contract {
         let [points, faces] = [layout.nodes.len(), layout.faces.len()];
         let mut contract =
             Contract { here: Chosen::none_of(points), faces: Chosen::none_of(faces), ..Default::default() };
-        let face_places = inverse(&regional.faces.ids, faces);
+        let face_places = inverse(regional.faces.ids.iter().copied(), faces);
         for (i, &point) in found.watched.iter().enumerate() {
             contract.here.choose(point);
             for near in &found.near[found.first[i] as usize..found.first[i + 1] as usize] {
@@ -163,13 +163,4 @@ pub fn cast(layout: &Layout, found: &Found, contract: &Contract, watches: &[Plan
     let come = contract.receive.values().flatten().copied();
     let ghosts: BTreeSet<u32> = come.filter(|&point| !points.0[point as usize]).collect();
     Cast { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }
-}
-
-/// Where each of `count` numbers is in an ascending list, [`ABSENT`] for those that are not.
-pub fn inverse(list: &[u32], count: usize) -> Vec<u32> {
-    let mut places = vec![ABSENT; count];
-    for (place, &number) in (0..).zip(list) {
-        places[number as usize] = place;
-    }
-    places
 }

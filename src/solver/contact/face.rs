@@ -182,7 +182,9 @@ fn on_triangle(r: [f64; 3], e1: [f64; 3], e2: [f64; 3]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::points::four;
     use super::*;
+    use proptest::prelude::*;
 
     const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
@@ -193,6 +195,19 @@ mod tests {
         assert!((s.gap + 0.1).abs() < 1e-15 && s.outside == 0.0 && s.normal == [0.0, 0.0, 1.0]);
         assert!(subtract(foot, [0.3, 0.6, 0.0]).iter().all(|d| d.abs() < 1e-15), "{foot:?}");
         assert!((s.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+
+    proptest! {
+        #[test]
+        fn in_front_is_above_all_corners(x in prop::array::uniform5(prop::array::uniform3(-1.0..1.0))) {
+            let [a, b, c, d, point] = x.map(four);
+            let (corners, normal) = ([x[0], x[1], x[2], x[3]], area_normal(&[x[0], x[1], x[2], x[3]]));
+            let above = |at: [f64; 3]| dot(subtract(at, centre(&corners)), normal);
+            let highest = corners.map(above).into_iter().fold(0.0, f64::max);
+            // Margins and round-off decide between these.
+            prop_assume!((above(x[4]) - highest).abs() > 1e-5);
+            prop_assert_eq!(is_in_front([a, b, c, d], point), above(x[4]) > highest);
+        }
     }
 
     #[test]

@@ -47,7 +47,7 @@ use faces::Faces;
 use locate::Reach;
 use planes::PlanePoint;
 use remote::Remote;
-use routing::to_all;
+use routing::share_planes;
 use search::{Search, SearchKind};
 use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
@@ -178,7 +178,8 @@ impl Contact {
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes. Where there was more before, their forces were known at homes only.
             if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
-                history.planes = to_all(&history.planes, comm);
+                let all = 0..comm.size() as u32;
+                history.planes = share_planes(&history.planes, |_| all.clone(), comm);
             }
             self.arena = alone(layout, &self.sites, &self.watches, Default::default(), 0.0);
             // Nor a search, which would put history back.

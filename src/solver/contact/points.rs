@@ -197,7 +197,7 @@ impl Points {
     /// Position at the end of the step without contact.
     #[inline]
     pub fn end(&self, point: u32) -> [f64; 3] {
-        three(self.motion[point as usize].end(self.drift))
+        three(self.end_four(point))
     }
 
     /// The same as a whole vector.

@@ -120,12 +120,6 @@ impl Remote {
     /// Brings the forces that contact has found to the nodes.
     pub fn send_forces(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
         sites.pushed.clear();
-        let take = |sites: &mut Sites, site: u32, forces: &[f64; FORCES]| {
-            let answer = &mut sites.answers[site as usize];
-            answer[..FORCES].copy_from_slice(forces);
-            answer[FORCES..].fill(0.0);
-            sites.pushed.push(site);
-        };
         self.answers.exchange(
             &mut (&mut *sites, arena),
             |(_, arena), point| {
@@ -136,37 +130,33 @@ impl Remote {
                 // All bits at once: comparing the arrays would be a call for every point.
                 let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
                 if unlike != 0 {
-                    take(sites, site, &forces);
+                    let answer = &mut sites.answers[site as usize];
+                    answer[..FORCES].copy_from_slice(&forces);
+                    answer[FORCES..].fill(0.0);
+                    sites.pushed.push(site);
                 }
             },
             comm,
         );
-        for (point, site) in self.at_home(arena) {
-            let answer = &arena.answers[point as usize];
-            take(sites, site, &std::array::from_fn(|i| answer[i]));
+        for &point in &arena.pushed {
+            if let Some(&site) = self.own.get(point as usize).filter(|&&site| site != ABSENT) {
+                sites.answers[site as usize] = arena.answers[point as usize];
+                sites.pushed.push(site);
+            }
         }
         sites.pushed.sort_unstable();
     }
 
-    /// Brings the rest of what contact has found in this step to the nodes that are pushed: only output asks for it.
+    /// Brings the rest of what contact has found in this step to the nodes that other ranks push: only output asks for it.
     pub fn send_rest(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
         self.answers.exchange(
-            &mut (&mut *sites, arena),
+            &mut (sites, arena),
             |(_, arena), point| -> [f64; ANSWER - FORCES] {
                 std::array::from_fn(|i| arena.answers[point as usize][FORCES + i])
             },
             |(sites, _), site, rest| sites.answers[site as usize][FORCES..].copy_from_slice(&rest),
             comm,
         );
-        for (point, site) in self.at_home(arena) {
-            sites.answers[site as usize] = arena.answers[point as usize];
-        }
-    }
-
-    /// Points of the arena that are pushed, at home and nodes here, with their sites.
-    fn at_home<'a>(&'a self, arena: &'a Arena) -> impl Iterator<Item = (u32, u32)> + 'a {
-        let site = |&point: &u32| Some((point, *self.own.get(point as usize).filter(|&&site| site != ABSENT)?));
-        arena.pushed.iter().filter_map(site)
     }
 
     /// What homes tell each other, for one step.

@@ -1,11 +1,12 @@
 //! History on its way: at a search it follows each point to its new home.
 
-use super::arena::History;
+use super::arena::{History, Watched};
 use super::detect::{NONE, Past, TOUCHES, UNTOUCHED};
 use super::edges::PastPair;
 use super::planes::PlanePoint;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
+use std::ops::Range;
 
 /// Numbers that tell what a point touches.
 const PASTS: usize = 6 * TOUCHES;
@@ -19,7 +20,7 @@ pub fn route(
     comm: &mut dyn Communicator,
 ) -> History {
     let size = comm.size();
-    let [mut points, mut edges, mut planes] = [PASTS, 7, 4].map(|width| Parcels::new(size, width));
+    let [mut points, mut edges] = [PASTS, 7].map(|width| Parcels::new(size, width));
     for (point, pasts) in &history.points {
         let values: Vec<f64> = pasts.iter().flat_map(|past| pack_past(*past)).collect();
         points.add(rank(*point), *point, &values);
@@ -28,9 +29,6 @@ pub fn route(
         let [x, y, z] = past.drag;
         let values = [f64::from(past.pair[1]), past.sense, past.allowed, past.push, x, y, z];
         edges.add(rank(end_of(past.pair[0])), past.pair[0], &values);
-    }
-    for (number, push, [x, y, z]) in &history.planes {
-        planes.add(rank(watches[*number as usize].point), *number, &[*push, *x, *y, *z]);
     }
     let mut come = History::default();
     let records = points.exchange(comm);
@@ -45,24 +43,22 @@ pub fn route(
         let pair = [records.ids[i], v[0] as u32];
         PastPair { pair, sense: v[1], allowed: v[2], push: v[3], drag: [v[4], v[5], v[6]] }
     }));
-    come.planes = received(planes, comm);
+    let of = |number: u32| rank(watches[number as usize].point);
+    come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
     come
 }
 
-/// A plane's watch: its number and its forces.
-type Watched = (u32, f64, [f64; 3]);
-
-/// Tells all ranks of the planes' watches of each. All ranks call it.
-pub fn to_all(planes: &[Watched], comm: &mut dyn Communicator) -> Vec<Watched> {
+/// Sends every watch of a plane to some `ranks`. All ranks call it.
+pub fn share_planes(
+    planes: &[Watched],
+    ranks: impl Fn(u32) -> Range<u32>,
+    comm: &mut dyn Communicator,
+) -> Vec<Watched> {
     let mut parcels = Parcels::new(comm.size(), 4);
     for (number, push, [x, y, z]) in planes {
-        (0..comm.size()).for_each(|rank| parcels.add(rank as u32, *number, &[*push, *x, *y, *z]));
+        ranks(*number).for_each(|rank| parcels.add(rank, *number, &[*push, *x, *y, *z]));
     }
-    received(parcels, comm)
-}
-
-fn received(planes: Parcels, comm: &mut dyn Communicator) -> Vec<Watched> {
-    let records = planes.exchange(comm);
+    let records = parcels.exchange(comm);
     let watched = |i: usize| {
         let v = records.values(i);
         (records.ids[i], v[0], [v[1], v[2], v[3]])

@@ -13,6 +13,13 @@ use std::sync::Arc;
 /// No point.
 pub const ABSENT: u32 = u32::MAX;
 
+/// Where each of `count` numbers is among some of them, [`ABSENT`] for those that are not.
+pub fn inverse(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
+    let mut places = vec![ABSENT; count];
+    (0..).zip(numbers).for_each(|(place, number)| places[number as usize] = place);
+    places
+}
+
 /// What holds where a point of one kind touches a face of another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pairing {

@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::points::{Points, larger};
-use super::setup::ABSENT;
+use super::setup::{ABSENT, inverse};
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
@@ -72,7 +72,7 @@ impl Sites {
         let held = |site: &Site| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
         let mut sites = Sites {
             holders: list.iter().map(held).collect(),
-            places: places(&list, points),
+            places: inverse(list.iter().map(|site| site.point), points),
             list,
             points: Points::new(count, origin),
             answers: vec![[0.0; ANSWER]; count],
@@ -91,7 +91,7 @@ impl Sites {
         let site = |point: u32| Site { point, node: point, owned: true };
         let list: Vec<Site> = (0..points.len() as u32).map(site).collect();
         let holders = vec![[ABSENT; 3]; list.len()];
-        let places = places(&list, points.len());
+        let places = (0..points.len() as u32).collect();
         let mut sites = Sites { list, places, holders, points: points.clone(), ..Default::default() };
         sites.renew(1.0, 0.0);
         sites
@@ -169,11 +169,4 @@ impl Sites {
             work[1] += half_step * dot(friction, v);
         }
     }
-}
-
-/// Where each of so many points is in a list.
-fn places(list: &[Site], points: usize) -> Vec<u32> {
-    let mut places = vec![ABSENT; points];
-    (0..).zip(list).for_each(|(place, site)| places[site.point as usize] = place);
-    places
 }
