@@ -3,9 +3,11 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
+use super::carried::Carried;
+use super::certificate::Bank;
 use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
 use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
-use super::enforce::{Constraint, Enforcer, Limits, Origin, Others, Outcome};
+use super::enforce::{Constraint, Enforcer, Ledger, Limits, Origin, Others, Outcome};
 use super::faces::Faces;
 use super::locate::{Locator, Near, Rule};
 use super::neighbourhood::Found;
@@ -28,8 +30,8 @@ pub struct History {
     pub planes: Vec<Watched>,
 }
 
-/// A watch of a plane: its number, and the normal and the friction force of the last step.
-pub type Watched = (u32, f64, [f64; 3]);
+/// A watch of a plane: its number, and what its contact carries.
+pub type Watched = (u32, Carried);
 
 /// Points, faces and edges of an arena, by the numbers of the layout, ascending.
 #[derive(Debug, Clone, Default)]
@@ -157,13 +159,13 @@ impl Arena {
         let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != UNTOUCHED);
         let points = touching.map(|(past, &point)| (point, past.map(|past| Past { face: face(past.face), ..past })));
         let edges = self.edge_history.iter();
-        let planes = self.planes.iter().filter(|watch| watch.push != 0.0 || watch.drag != [0.0; 3]);
+        let planes = self.planes.iter().filter(|watch| watch.carried != Carried::NOTHING);
         History {
             points: points.collect(),
             edges: edges
                 .map(|past| PastPair { pair: past.pair.map(|e| self.cast.edges[e as usize]), ..*past })
                 .collect(),
-            planes: planes.map(|watch| (watch.number, watch.push, watch.drag)).collect(),
+            planes: planes.map(|watch| (watch.number, watch.carried)).collect(),
         }
     }
 
@@ -182,15 +184,15 @@ impl Arena {
             Some(PastPair { pair: [edge(first)?, edge(second)?], ..past })
         });
         self.edge_history = pairs.collect();
-        for (number, push, drag) in history.planes {
+        for (number, carried) in history.planes {
             if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
-                self.planes[watch].remember(push, drag);
+                self.planes[watch].carried = carried;
             }
         }
     }
 
     /// Finds the contact forces of a step, whose motion is in `points`.
-    pub fn step(&mut self, setting: &Setting, step: &StepTimes, others: &mut dyn Others) -> Outcome {
+    pub fn step(&mut self, setting: &Setting, step: &StepTimes, bank: &mut Bank, others: &mut dyn Others) -> Outcome {
         self.constraints.clear();
         if !self.rules.is_empty() {
             self.locator.step(&self.points, &self.faces);
@@ -202,7 +204,7 @@ impl Arena {
             self.constraints.extend(watch.constraint(setting.planes, &self.points, setting.mean_size, always));
         }
         self.origins();
-        let outcome = self.enforce(setting, step, others);
+        let outcome = self.enforce(setting, step, bank, others);
         self.answer();
         outcome
     }
@@ -254,7 +256,7 @@ impl Arena {
                 let rule = rules[interface as usize];
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[touch.face as usize]);
                 if let Some(mut constraint) = super::constraint(faces, pairing, point, touch) {
-                    (constraint.push, constraint.drag) = push_before(faces, &before, touches, touch);
+                    constraint.carried = carried_before(faces, &before, touches, touch);
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
@@ -290,13 +292,15 @@ impl Arena {
         }
     }
 
-    fn enforce(&mut self, setting: &Setting, step: &StepTimes, others: &mut dyn Others) -> Outcome {
-        let Arena { constraints, enforcer, points, .. } = self;
-        enforcer.prepare(constraints, points);
+    fn enforce(&mut self, setting: &Setting, step: &StepTimes, bank: &mut Bank, others: &mut dyn Others) -> Outcome {
+        let Arena { constraints, enforcer, points, rules, .. } = self;
+        // Of planes alone each rank knows its own.
+        let ledger = if rules.is_empty() { Ledger::Points } else { Ledger::Bank(bank) };
+        enforcer.prepare(constraints, points, step.drift, &ledger);
         let own = constraints.len();
         others.copy(constraints, enforcer.states());
         let order = enforcer.merge(constraints, own);
-        let outcome = enforcer.solve(constraints, points, step, setting.limits, others);
+        let outcome = enforcer.solve(constraints, points, step, setting.limits, (ledger, others));
         match order {
             None => (0..own).for_each(|i| self.remember(i)),
             Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
@@ -310,17 +314,17 @@ impl Arena {
         match c.origin {
             Origin::Face(_, place) => {
                 let past = &mut self.history[c.members[0] as usize][place as usize];
-                (past.push, past.drag) = (c.push, c.drag);
+                past.carried = c.carried;
             }
             Origin::Edges(first, second) => {
                 let pair = [first, second].map(|edge| place(&self.cast.edges, edge));
                 if let Ok(i) = self.edge_history.binary_search_by(|past| past.pair.cmp(&pair)) {
-                    (self.edge_history[i].push, self.edge_history[i].drag) = (c.push, c.drag);
+                    self.edge_history[i].carried = c.carried;
                 }
             }
             Origin::Plane(number) => {
                 if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
-                    self.planes[watch].remember(c.push, c.drag);
+                    self.planes[watch].carried = c.carried;
                 }
             }
         }
@@ -330,7 +334,7 @@ impl Arena {
     /// face), the face, and the force of planes.
     fn answer(&mut self) {
         self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
-        for c in self.constraints.iter().filter(|c| c.push > 0.0) {
+        for c in self.constraints.iter().filter(|c| c.carried.push > 0.0) {
             for (point, _) in c.parts() {
                 let answer = &mut self.answers[point];
                 if answer[7] == 0.0 {
@@ -349,7 +353,9 @@ impl Arena {
                         (first[7], first[8]) = (2.0, f64::from(self.faces.number[past as usize]));
                     }
                 }
-                Origin::Plane(_) => (0..3).for_each(|i| first[9 + i] += c.push * c.normal[i] + c.drag[i]),
+                Origin::Plane(_) => {
+                    (0..3).for_each(|i| first[9 + i] += c.carried.push * c.normal[i] + c.carried.drag[i])
+                }
                 Origin::Edges(..) => (),
             }
         }
@@ -372,12 +378,12 @@ fn place(list: &[u32], number: u32) -> u32 {
     list.binary_search(&number).map_or(ABSENT, |place| place as u32)
 }
 
-/// The force of the last step at a touch. A point that has slid on to the next face takes the force along.
-fn push_before(faces: &Faces, before: &[Past; TOUCHES], touches: &[Touch], touch: &Touch) -> (f64, [f64; 3]) {
+/// What a touch carries from the last step. A point that has slid on to the next face takes it along.
+fn carried_before(faces: &Faces, before: &[Past; TOUCHES], touches: &[Touch], touch: &Touch) -> Carried {
     let same = before.iter().find(|past| past.face == touch.face);
     let left = |past: &&Past| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
     let beside = || before.iter().filter(left).find(|past| faces.touch(past.face, touch.face));
-    same.or_else(beside).map_or((0.0, [0.0; 3]), |past| (past.push, past.drag))
+    same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
 }
 
 /// Pasts with the faces that are left first.

@@ -5,6 +5,7 @@
 //! come first; ties go to the face that the point's body faces most, then to the lower number (Heinstein et al. 1993;
 //! Attaway et al. 1996, figures 3 and 4).
 
+use super::carried::Carried;
 use super::face::{self, Stand};
 use super::faces::Faces;
 use super::points::Points;
@@ -39,9 +40,6 @@ const FACING: f64 = -0.02;
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
-/// Part of an old overlap that stays each step: it fades without giving velocity.
-pub const FADE: f64 = 0.998;
-
 /// Where a face has seen a point before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Past {
@@ -49,14 +47,12 @@ pub struct Past {
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
     pub allowed: f64,
-    /// Normal force on the point in the last step.
-    pub push: f64,
-    /// Friction force on it.
-    pub drag: [f64; 3],
+    /// What the contact carries.
+    pub carried: Carried,
 }
 
 /// Of a point that touches nothing.
-pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0, push: 0.0, drag: [0.0; 3] }; TOUCHES];
+pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0, carried: Carried::NOTHING }; TOUCHES];
 
 /// A point on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +159,7 @@ impl Check<'_> {
             let Some(stand) = self.stand_at_end(point, past.face) else { continue };
             if stand.outside == 0.0 {
                 if self.in_reach(past.face, &stand, past.allowed) {
-                    touches.push(self.held(past.face, stand, past.allowed * FADE));
+                    touches.push(self.held(past.face, stand, past.allowed));
                 }
             } else if left.is_none() {
                 left = Some((past.face, past.allowed, stand));
@@ -192,12 +188,12 @@ impl Check<'_> {
             }
         }
         match next {
-            Some((face, stand)) => touches.push(self.held(face, stand, allowed * FADE)),
+            Some((face, stand)) => touches.push(self.held(face, stand, allowed)),
             // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
             None if (slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs())
                 && self.in_reach(old, &stand, allowed) =>
             {
-                touches.push(self.held(old, stand, allowed * FADE));
+                touches.push(self.held(old, stand, allowed));
             }
             None => (),
         }

@@ -6,8 +6,8 @@
 //! one that has touched before.
 
 use super::bounds::Bounds;
+use super::carried::Carried;
 use super::cubic;
-use super::detect::FADE;
 use super::enforce::{Constraint, MEMBERS, Origin};
 use super::face::{area_normal, centre};
 use super::faces::Faces;
@@ -109,10 +109,8 @@ pub struct PastPair {
     pub sense: f64,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
     pub allowed: f64,
-    /// Normal force on the first edge in the last step.
-    pub push: f64,
-    /// Friction force on it.
-    pub drag: [f64; 3],
+    /// What the contact carries: forces on the first edge.
+    pub carried: Carried,
 }
 
 impl Edge {
@@ -162,7 +160,7 @@ pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
         _ => return None,
     };
     // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
-    Some(if swaps { PastPair { pair: [b, a], drag: scaled(past.drag, -1.0), ..past } } else { past })
+    Some(if swaps { PastPair { pair: [b, a], carried: past.carried.reversed(), ..past } } else { past })
 }
 
 /// Where two edges are nearest to each other.
@@ -294,7 +292,7 @@ impl EdgeCheck<'_> {
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
-            Some(past) => PastPair { allowed: (FADE * past.allowed).max((past.sense * end.gap).min(0.0)), ..*past },
+            Some(past) => PastPair { allowed: past.allowed.max((past.sense * end.gap).min(0.0)), ..*past },
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - now.allowed;
@@ -350,7 +348,7 @@ impl EdgeCheck<'_> {
                 if gap >= tolerated || before <= -SUNK * scale {
                     return None;
                 }
-                PastPair { pair, sense, allowed: before.min(tolerated), push: 0.0, drag: [0.0; 3] }
+                PastPair { pair, sense, allowed: before.min(tolerated), carried: Carried::NOTHING }
             }
         };
         let beyond = gap - now.allowed;
@@ -389,7 +387,7 @@ impl EdgeCheck<'_> {
             sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
-        let touch = |sense, allowed| PastPair { pair, sense, allowed, push: 0.0, drag: [0.0; 3] };
+        let touch = |sense, allowed| PastPair { pair, sense, allowed, carried: Carried::NOTHING };
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
             return self.meets(pair).then_some(touch(sense, 0.0));
         }
@@ -434,8 +432,7 @@ impl EdgeCheck<'_> {
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,
-            push: now.push,
-            drag: now.drag,
+            carried: now.carried,
             origin: Origin::Edges(pair[0], pair[1]),
         }
     }

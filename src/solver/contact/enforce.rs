@@ -15,6 +15,8 @@
 //! before (Nesterov 1983, the sequence of Beck and Teboulle 2009), but not where a force would turn back (O'Donoghue
 //! and Candès 2015, for each force by itself).
 
+use super::carried::Carried;
+use super::certificate::{Bank, Sums, Target, Terms, sunk, tangential};
 use super::points::Points;
 use crate::model::Friction;
 use crate::solver::constraints::StepTimes;
@@ -24,6 +26,10 @@ use crate::solver::nodes::{add, dot, scaled, subtract};
 /// of this filter: a point on a spring of any stiffness that passes can make gains energy from 1/2 on (the roots of
 /// z³ − (2 + β) z² + (1 + 2β) z − β + 2α z² − α z with β = `BEGINNING` (1 − α)).
 const BEGINNING: f64 = 0.4;
+
+/// A constraint that its members can follow only by less than this part of how far they can move at all is held: a tilt of
+/// a thousandth between a normal and the directions that are held. Round-off would move it.
+const HELD: f64 = 1e-6;
 
 /// Points that one constraint can join: a point and four corners.
 pub const MEMBERS: usize = 5;
@@ -39,7 +45,7 @@ pub struct Constraint {
     pub count: usize,
     /// Unit normal along which the first member is pushed.
     pub normal: [f64; 3],
-    /// Gap at the end of the step without contact; closed when it is negative.
+    /// Gap at the end of the step without contact.
     pub gap: f64,
     /// Length that the gap is small against.
     pub size: f64,
@@ -47,10 +53,9 @@ pub struct Constraint {
     pub share: f64,
     /// Coulomb friction.
     pub friction: Friction,
-    /// Normal force λ: that of the last step, until [`Enforcer::solve`] finds the new one.
-    pub push: f64,
-    /// Friction force on the first member, likewise.
-    pub drag: [f64; 3],
+    /// Forces of the last step, until [`Enforcer::solve`] finds the new ones: the normal force λ and the friction force on
+    /// the first member.
+    pub carried: Carried,
     /// What has made it. Constraints are in the order of their origins.
     pub origin: Origin,
 }
@@ -72,9 +77,46 @@ impl Constraint {
         self.members.iter().zip(&self.weights).take(self.count).map(|(&point, &weight)| (point as usize, weight))
     }
 
-    /// Relative velocity of its members: Σ w v.
-    fn velocity(&self, points: &Points) -> [f64; 3] {
-        self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(points.velocity(point as u32), weight)))
+    /// Relative velocity of its members: Σ w v, over the step without contact, and over the step before.
+    fn velocities(&self, points: &Points) -> [[f64; 3]; 2] {
+        let of = |velocity: fn(&Points, u32) -> [f64; 3]| {
+            self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(points, point as u32), weight)))
+        };
+        [of(Points::velocity), of(Points::velocity_before)]
+    }
+
+    /// Relative velocity that forces give its members.
+    fn change(&self, moved: &[Moved]) -> [f64; 3] {
+        self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)))
+    }
+
+    /// Goes only a part of the way along the ray of the forces, which give it the velocity `change` in all.
+    fn shorten(&mut self, state: &State, change: [f64; 3], ray: f64, drift: f64) {
+        let Carried { sunk: before, push, drag } = self.carried;
+        let along = ray * dot(change, self.normal);
+        let sunk = sunk(before, self.gap + drift * along, state.free + along, drift);
+        self.carried = Carried { sunk, push: ray * push, drag: scaled(drag, ray) };
+    }
+}
+
+/// Who pays for what contact gives back.
+pub enum Ledger<'a> {
+    /// All contacts of all ranks draw on one bank.
+    Bank(&'a mut Bank),
+    /// The constraints of each point are for themselves, and nothing is given back: rigid planes alone.
+    Points,
+    /// Nobody: nodes are moved before the run, without velocities.
+    Nobody,
+}
+
+impl Ledger<'_> {
+    /// Part of the lifts that is granted when forces are sought.
+    fn part(&self) -> f64 {
+        match self {
+            Ledger::Bank(bank) => bank.part(),
+            Ledger::Points => 0.0,
+            Ledger::Nobody => 1.0,
+        }
     }
 }
 
@@ -105,6 +147,8 @@ pub trait Others {
     fn share(&mut self, moved: &mut [Moved]);
     /// The largest of all ranks' values, of each kind.
     fn largest(&mut self, values: [f64; 2]) -> [f64; 2];
+    /// Replaces sums by those over all ranks.
+    fn sum(&mut self, sums: &mut Sums);
     /// Whether there are any.
     fn are_there(&self) -> bool;
 }
@@ -120,6 +164,8 @@ impl Others for Alone {
     fn largest(&mut self, values: [f64; 2]) -> [f64; 2] {
         values
     }
+
+    fn sum(&mut self, _: &mut Sums) {}
 
     fn are_there(&self) -> bool {
         false
@@ -144,6 +190,19 @@ pub struct State {
     pub softness: [[f64; 2]; MEMBERS],
     /// Velocity of sliding without contact forces.
     pub slip: [f64; 3],
+    /// The same over the step before.
+    pub slip_before: [f64; 3],
+    /// Velocity along the normal without contact forces, u*.
+    pub free: f64,
+    /// The same over the step before, u⁻.
+    pub before: f64,
+    /// Velocity along the normal that it is to have at least after the step.
+    pub target: Target,
+    /// How far the constraint would stay behind that velocity over the step without contact forces: a length, negative
+    /// where it would.
+    pub closing: f64,
+    /// Whether this rank has made it.
+    pub own: bool,
     /// Normal and friction force of the last pass.
     pub last: (f64, [f64; 3]),
     /// Whether it pushes or overlaps.
@@ -161,6 +220,8 @@ pub struct Enforcer {
     /// Forces and loads while they are summed.
     sums: Vec<Moved>,
     states: Vec<State>,
+    /// Rays of single points, where the ledger is theirs.
+    rays: Vec<Terms>,
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
@@ -200,28 +261,74 @@ impl Enforcer {
         points: &Points,
         step: &StepTimes,
         limits: Limits,
-        others: &mut dyn Others,
+        (ledger, others): (Ledger, &mut dyn Others),
     ) -> Outcome {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
         for (c, state) in constraints.iter().zip(&mut self.states) {
-            state.last = (c.push, c.drag);
-            state.active = state.strength > 0.0 && (c.push > 0.0 || c.gap < 0.0);
+            state.last = (c.carried.push, c.carried.drag);
+            state.active = state.strength > 0.0 && (c.carried.push > 0.0 || state.closing < 0.0);
         }
         // Where nothing overlaps there is nothing to do. One pass is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
-        let wanted = constraints.iter().any(|c| c.gap < 0.0);
+        let wanted = self.states.iter().any(|state| state.closing < 0.0);
         let outcome = if wanted || others.are_there() {
             self.passes(constraints, points, times, limits, wanted, others)
         } else {
             None
         };
-        for (c, state) in constraints.iter_mut().zip(&self.states) {
-            (c.push, c.drag) = if outcome.is_some() { state.last } else { (0.0, [0.0; 3]) };
+        if outcome.is_some() {
+            for (c, state) in constraints.iter_mut().zip(&self.states) {
+                (c.carried.push, c.carried.drag) = state.last;
+            }
+            self.settle(constraints, points, times, ledger, others);
+        } else {
+            for (c, state) in constraints.iter_mut().zip(&self.states) {
+                c.shorten(state, [0.0; 3], 0.0, times.drift);
+            }
         }
         self.sum_forces(constraints);
         outcome.unwrap_or_default()
+    }
+
+    /// Goes along the ray of the forces only so far that they give no energy which the ledger does not pay.
+    fn settle(
+        &mut self,
+        constraints: &mut [Constraint],
+        points: &Points,
+        times: Times,
+        ledger: Ledger,
+        others: &mut dyn Others,
+    ) {
+        if let Ledger::Nobody = ledger {
+            return;
+        }
+        self.scatter(constraints, points, times, others);
+        let part = ledger.part();
+        let mut all = Sums::default();
+        self.rays.clear();
+        if let Ledger::Points = ledger {
+            self.rays.resize(self.moved.len(), Terms::default());
+        }
+        for (c, state) in constraints.iter().zip(&self.states).filter(|(c, _)| c.carried.push > 0.0) {
+            match ledger {
+                Ledger::Points => self.rays[c.members[0] as usize].add(&Terms::of(c, state, c.change(&self.moved))),
+                _ if state.own => all.add(&Terms::of(c, state, c.change(&self.moved))),
+                _ => (),
+            }
+        }
+        let ray = match ledger {
+            Ledger::Bank(bank) => {
+                others.sum(&mut all);
+                all.terms().settle(part, times.kick, bank)
+            }
+            _ => 1.0,
+        };
+        for (c, state) in constraints.iter_mut().zip(&self.states) {
+            let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(part));
+            c.shorten(state, c.change(&self.moved), ray, times.drift);
+        }
     }
 
     /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is
@@ -280,30 +387,40 @@ impl Enforcer {
 
     /// Finds what does not change in the passes, and the friction of the last step in the new planes; before
     /// [`Enforcer::solve`].
-    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &Points) {
+    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &Points, drift: f64, ledger: &Ledger) {
         self.states.clear();
+        let part = ledger.part();
         for c in constraints {
-            (c.push, c.drag) = (BEGINNING * c.push, scaled(c.drag, BEGINNING));
-            let mut state = State::default();
-            let mut inverse = 0.0;
+            let Carried { sunk, push, drag } = c.carried;
+            (c.carried.push, c.carried.drag) = (BEGINNING * push, scaled(drag, BEGINNING));
+            let mut state = State { own: true, ..Default::default() };
+            let (mut inverse, mut isotropic) = (0.0, 0.0);
             for (i, (point, w)) in c.parts().enumerate() {
                 let m = points.inverse_mass[point];
                 let one = along(m, c.normal);
                 inverse += w * w * one;
-                state.softness[i] = [w.abs() * one, w.abs() * m[0].max(m[1]).max(m[2])];
+                let most = m[0].max(m[1]).max(m[2]);
+                isotropic += w * w * most;
+                state.softness[i] = [w.abs() * one, w.abs() * most];
             }
+            let [free, before] = c.velocities(points);
+            (state.free, state.before) = (dot(free, c.normal), dot(before, c.normal));
+            state.target = match ledger {
+                Ledger::Nobody => Target { least: state.free - c.gap / drift, ..Default::default() },
+                _ => Target::of(c.gap, sunk, [state.before, state.free], drift),
+            };
             // Where all members are held there is nothing to move.
-            if inverse > 0.0 {
+            if inverse > HELD * isotropic {
                 state.strength = c.share / inverse;
+                state.closing = drift * (state.free - (state.target.least + part * state.target.lift));
             } else {
-                (c.push, c.drag) = (0.0, [0.0; 3]);
+                (c.carried.push, c.carried.drag) = (0.0, [0.0; 3]);
             }
             if c.friction.is_some() {
-                let velocity = c.velocity(points);
-                state.slip = tangential(velocity, c.normal);
-                c.drag = tangential(c.drag, c.normal);
+                (state.slip, state.slip_before) = (tangential(free, c.normal), tangential(before, c.normal));
+                c.carried.drag = tangential(c.carried.drag, c.normal);
             } else {
-                c.drag = [0.0; 3];
+                c.carried.drag = [0.0; 3];
             }
             self.states.push(state);
         }
@@ -324,7 +441,7 @@ impl Enforcer {
     /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move.
     fn scatter(&mut self, constraints: &[Constraint], points: &Points, times: Times, others: &mut dyn Others) {
         for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
-            let force = add(scaled(c.normal, c.push), c.drag);
+            let force = add(scaled(c.normal, c.carried.push), c.carried.drag);
             for (point, w) in c.parts() {
                 let sum = &mut self.sums[point];
                 sum.change = add(sum.change, scaled(force, w));
@@ -347,10 +464,10 @@ impl Enforcer {
         for &point in &self.members {
             (self.normal_force[point as usize], self.friction_force[point as usize]) = ([0.0; 3], [0.0; 3]);
         }
-        for c in constraints.iter().filter(|c| c.push > 0.0) {
+        for c in constraints.iter().filter(|c| c.carried.push > 0.0) {
             for (point, w) in c.parts() {
-                self.normal_force[point] = add(self.normal_force[point], scaled(c.normal, w * c.push));
-                self.friction_force[point] = add(self.friction_force[point], scaled(c.drag, w));
+                self.normal_force[point] = add(self.normal_force[point], scaled(c.normal, w * c.carried.push));
+                self.friction_force[point] = add(self.friction_force[point], scaled(c.carried.drag, w));
             }
         }
     }
@@ -371,17 +488,14 @@ impl Momentum {
     }
 }
 
-fn tangential(v: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
-    subtract(v, scaled(normal, dot(v, normal)))
-}
-
 /// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
 /// part `ahead`. How much it moves, as a part of the face's size.
 fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times, ahead: f64) -> f64 {
-    let change = c.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)));
-    let gap = c.gap + times.drift * dot(change, c.normal);
-    if c.push == 0.0 && gap >= 0.0 {
-        (c.drag, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
+    let change = c.change(moved);
+    let gap = state.closing + times.drift * dot(change, c.normal);
+    let Carried { push: tried, drag: tried_drag, .. } = c.carried;
+    if tried == 0.0 && gap >= 0.0 {
+        (c.carried.drag, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
         return 0.0;
     }
     let (mut inverse, mut sliding) = (0.0, 0.0);
@@ -392,20 +506,20 @@ fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times,
         inverse += share * softness[0];
         sliding += share * softness[1];
     }
-    let push = (c.push - gap / (times.both * inverse)).max(0.0);
-    let mut way = (push - c.push).abs() * times.both * inverse;
-    let push_ahead = further(c.push, push, state.last.0, ahead).max(0.0);
+    let push = (tried - gap / (times.both * inverse)).max(0.0);
+    let mut way = (push - tried).abs() * times.both * inverse;
+    let push_ahead = further(tried, push, state.last.0, ahead).max(0.0);
     if c.friction.is_some() {
         let slip = add(state.slip, tangential(change, c.normal));
-        let wanted = subtract(c.drag, scaled(slip, 1.0 / (times.kick * sliding)));
+        let wanted = subtract(tried_drag, scaled(slip, 1.0 / (times.kick * sliding)));
         let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * push);
         let drag = if size > most { scaled(wanted, most / size) } else { wanted };
-        let turn = subtract(drag, c.drag);
+        let turn = subtract(drag, tried_drag);
         way = way.max(dot(turn, turn).sqrt() * times.both * sliding);
-        c.drag = [0, 1, 2].map(|i| further(c.drag[i], drag[i], state.last.1[i], ahead));
+        c.carried.drag = [0, 1, 2].map(|i| further(tried_drag[i], drag[i], state.last.1[i], ahead));
         state.last.1 = drag;
     }
-    (c.push, state.last.0, state.active) = (push_ahead, push, true);
+    (c.carried.push, state.last.0, state.active) = (push_ahead, push, true);
     way / c.size
 }
 

@@ -1,10 +1,12 @@
 //! Messages in the passes: what homes tell each other of constraints that act on points of both.
 
 use super::arena::Cast;
+use super::carried::Carried;
+use super::certificate::Sums;
 use super::contract::Contract;
 use super::enforce::{Constraint, MEMBERS, Moved, Origin, Others, State};
 use super::traffic::{Letters, Pattern};
-use crate::comm::Communicator;
+use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
 
 /// What homes tell each other in a step.
@@ -89,6 +91,10 @@ impl Others for Linked<'_> {
         least.map(|value| -value)
     }
 
+    fn sum(&mut self, sums: &mut Sums) {
+        ExactSum::merge_ranks(&mut sums.0, self.comm);
+    }
+
     fn are_there(&self) -> bool {
         true
     }
@@ -102,7 +108,7 @@ fn pack(c: &Constraint, state: &State, members: [u32; MEMBERS]) -> [f64; COPY] {
     v.extend(members.map(f64::from));
     v.extend(c.weights);
     v.extend(c.normal);
-    v.extend(c.drag);
+    v.extend(c.carried.drag);
     v.extend(state.slip);
     let Friction { at_rest, high_speed, decay } = c.friction;
     let (kind, a, b) = match c.origin {
@@ -110,7 +116,17 @@ fn pack(c: &Constraint, state: &State, members: [u32; MEMBERS]) -> [f64; COPY] {
         Origin::Edges(a, b) => (1, a, b),
         Origin::Plane(a) => (2, a, 0),
     };
-    v.extend([at_rest, high_speed, decay, c.gap, c.size, c.share, c.push, state.strength, c.count as f64]);
+    v.extend([
+        at_rest,
+        high_speed,
+        decay,
+        state.closing,
+        c.size,
+        c.share,
+        c.carried.push,
+        state.strength,
+        c.count as f64,
+    ]);
     v.extend([kind, a, b].map(f64::from));
     v.extend(state.softness.as_flattened());
     v.resize(COPY, 0.0);
@@ -120,18 +136,18 @@ fn pack(c: &Constraint, state: &State, members: [u32; MEMBERS]) -> [f64; COPY] {
 fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, State) {
     let three = |at: usize| [v[at], v[at + 1], v[at + 2]];
     let (a, b) = (v[29] as u32, v[30] as u32);
-    let mut state = State { strength: v[26], slip: three(16), ..Default::default() };
+    let mut state = State { strength: v[26], slip: three(16), closing: v[22], ..Default::default() };
     state.softness.as_flattened_mut().copy_from_slice(&v[31..31 + 2 * MEMBERS]);
     let constraint = Constraint {
         members: [0, 1, 2, 3, 4].map(|i| place(v[i] as u32)),
         weights: [5, 6, 7, 8, 9].map(|i| v[i]),
         normal: three(10),
-        drag: three(13),
         friction: Friction { at_rest: v[19], high_speed: v[20], decay: v[21] },
-        gap: v[22],
+        // Only its own rank asks for that.
+        gap: 0.0,
         size: v[23],
         share: v[24],
-        push: v[25],
+        carried: Carried { sunk: 0.0, push: v[25], drag: three(13) },
         count: v[27] as usize,
         origin: match v[28] as u32 {
             0 => Origin::Face(a, b),

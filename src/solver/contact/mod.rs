@@ -6,6 +6,8 @@
 
 mod arena;
 mod bounds;
+mod carried;
+mod certificate;
 mod contract;
 mod cubic;
 pub mod detect;
@@ -40,6 +42,8 @@ use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
 use arena::{Arena, Cast, History, Setting};
+use carried::Carried;
+use certificate::Bank;
 use detect::{NONE, Past, Touch};
 use edges::PastPair;
 use enforce::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
@@ -82,6 +86,8 @@ pub struct Contact {
     limits: Limits,
     /// Work of normal and friction forces at points that are gone, those of this rank.
     lost_work: Vec<[f64; 2]>,
+    /// What contact may give back of what it has taken.
+    bank: Bank,
     /// What the log tells.
     pub tally: Tally,
     /// Number of searches so far.
@@ -156,6 +162,7 @@ impl Contact {
             watches: plane_points(&watched, model, body, &layout),
             limits: limits(model, &watched),
             lost_work: Vec::new(),
+            bank: Bank::default(),
             tally: Tally::default(),
             searches: 0,
             age: 0,
@@ -310,11 +317,11 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
-        let Contact { arena, remote, pairings, planes, mean_size, limits, .. } = self;
+        let Contact { arena, remote, pairings, planes, mean_size, limits, bank, .. } = self;
         let setting = Setting { pairings, planes, mean_size: *mean_size, limits: *limits };
         match remote {
-            Some(remote) => arena.step(&setting, step, &mut remote.others(comm)),
-            None => arena.step(&setting, step, &mut Alone),
+            Some(remote) => arena.step(&setting, step, bank, &mut remote.others(comm)),
+            None => arena.step(&setting, step, bank, &mut Alone),
         }
     }
 
@@ -482,8 +489,7 @@ fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &Touch) -> Opt
         size: faces.size[face],
         share,
         friction: pairing.friction,
-        push: 0.0,
-        drag: [0.0; 3],
+        carried: Carried::NOTHING,
         origin: Origin::Face(point, 0),
     };
     constraint.members[1..].copy_from_slice(&faces.corners[face]);

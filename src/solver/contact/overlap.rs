@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::detect::{Check, UNTOUCHED};
-use super::enforce::{Alone, Enforcer, Limits};
+use super::enforce::{Alone, Enforcer, Ledger, Limits};
 use super::face;
 use super::locate::{Locator, Near};
 use super::neighbourhood::{self, Boxes};
@@ -81,15 +81,15 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     for _ in 0..ROUNDS {
         points.begin(0.0);
         for (point, &node) in layout.nodes.iter().enumerate() {
-            points.set(point, body.positions[node as usize], [0.0; 3]);
+            points.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
         }
         let mut constraints = overlaps(&layout, &pairings, &points);
         if constraints.is_empty() {
             break;
         }
         let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
-        enforcer.prepare(&mut constraints, &points);
-        enforcer.solve(&mut constraints, &points, &still, limits, &mut Alone);
+        enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Nobody);
+        enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Nobody, &mut Alone));
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             positions[layout.nodes[point] as usize] =

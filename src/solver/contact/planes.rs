@@ -1,5 +1,6 @@
 //! Fixed rigid planes: constraints on single points.
 
+use super::carried::Carried;
 use super::enforce::{Constraint, MEMBERS, Origin};
 use super::points::Points;
 use crate::model::{Friction, RigidSurface};
@@ -17,8 +18,7 @@ pub struct PlanePoint {
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
     pub(super) allowed: f64,
-    pub(super) push: f64,
-    pub(super) drag: [f64; 3],
+    pub(super) carried: Carried,
 }
 
 fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
@@ -33,14 +33,8 @@ impl PlanePoint {
             point,
             plane: number as u32,
             allowed: gap(plane, position).min(0.0),
-            push: 0.0,
-            drag: [0.0; 3],
+            carried: Carried::NOTHING,
         }
-    }
-
-    /// Keeps the force of a step.
-    pub fn remember(&mut self, push: f64, drag: [f64; 3]) {
-        (self.push, self.drag) = (push, drag);
     }
 
     /// The constraint that keeps the point from crossing, when it would or when `always`; overlaps are measured in units of
@@ -56,7 +50,7 @@ impl PlanePoint {
         let end = points.end(self.point);
         let gap = gap(plane, end) - self.allowed;
         if gap >= 0.0 && !always {
-            self.remember(0.0, [0.0; 3]);
+            self.carried = Carried::NOTHING;
             return None;
         }
         let mut constraint = Constraint {
@@ -68,8 +62,7 @@ impl PlanePoint {
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),
-            push: self.push,
-            drag: self.drag,
+            carried: self.carried,
             origin: Origin::Plane(self.number),
         };
         (constraint.members[0], constraint.weights[0]) = (self.point, 1.0);

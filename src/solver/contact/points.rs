@@ -37,6 +37,8 @@ pub struct Points {
     motion: Vec<Motion>,
     /// Box around the way over that step, seen from the origin.
     pub ways: Vec<Bounds>,
+    /// Velocity over the step before.
+    before: Vec<[f64; 3]>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
     /// Near which the points are: boxes are as fine as single precision is there.
@@ -91,6 +93,7 @@ impl Points {
             origin,
             motion: vec![Motion::default(); count],
             ways: vec![Bounds::EVERYTHING; count],
+            before: vec![[0.0; 3]; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
             instructions: InstructionSet::detect(),
@@ -118,9 +121,10 @@ impl Points {
         (self.drift, self.longest) = (drift, Longest::default());
     }
 
-    /// Puts a point where it is and lets it go its way.
+    /// Puts a point where it is and lets it go its way; `before` is its velocity over the step before.
     #[inline]
-    pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3]) {
+    pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
+        self.before[point] = before;
         let motion = Motion { start: four(start), velocity: four(velocity) };
         let end = motion.end(self.drift);
         self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
@@ -133,11 +137,12 @@ impl Points {
         let motion = others.motion[other];
         self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
         (self.motion[point], self.ways[point]) = (motion, others.ways[other]);
+        self.before[point] = others.before[other];
     }
 
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
-    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
+    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
         match self.instructions {
             // SAFETY: `InstructionSet::detect` returns these only on processors that have AVX2, which AVX-512 includes.
             #[cfg(target_arch = "x86_64")]
@@ -153,23 +158,24 @@ impl Points {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn set_all_avx2(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
+    unsafe fn set_all_avx2(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
         self.set_each(motions, homes)
     }
 
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four)>, homes: &[Bounds]) -> bool {
+    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
-        let places = self.motion.iter_mut().zip(&mut self.ways).zip(&self.counts).zip(homes);
-        for ((((before, way), &counts), home), (start, velocity)) in places.zip(motions) {
+        let places = self.motion.iter_mut().zip(&mut self.ways).zip(&mut self.before).zip(&self.counts).zip(homes);
+        for (((((before, way), slow), &counts), home), (start, velocity, last)) in places.zip(motions) {
             let motion = Motion { start, velocity };
             let end = motion.end(drift);
             longest.take([before.start, start, end], counts);
             *way = motion.way_to(end, origin);
             outside.take(way, home);
             *before = motion;
+            *slow = last;
         }
         self.longest = longest;
         outside.any()
@@ -210,6 +216,12 @@ impl Points {
     #[inline]
     pub fn velocity(&self, point: u32) -> [f64; 3] {
         three(self.motion[point as usize].velocity)
+    }
+
+    /// Velocity over the step before.
+    #[inline]
+    pub fn velocity_before(&self, point: u32) -> [f64; 3] {
+        self.before[point as usize]
     }
 
     /// Where a point is, and how far it goes.

@@ -109,9 +109,12 @@ impl Remote {
             &mut (sites, arena),
             |(sites, _), site| {
                 let ([x, y, z], [u, v, w]) = (sites.points.start(site), sites.points.velocity(site));
-                [x, y, z, u, v, w]
+                let [p, q, r] = sites.points.velocity_before(site);
+                [x, y, z, u, v, w, p, q, r]
             },
-            |(_, arena), point, [x, y, z, u, v, w]| arena.points.set(point as usize, [x, y, z], [u, v, w]),
+            |(_, arena), point, [x, y, z, u, v, w, p, q, r]| {
+                arena.points.set(point as usize, [x, y, z], [u, v, w], [p, q, r]);
+            },
             |(sites, arena), site, point| arena.points.copy(point as usize, &sites.points, site as usize),
             comm,
         );

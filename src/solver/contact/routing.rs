@@ -1,6 +1,7 @@
 //! History on its way: at a search it follows each point to its new home.
 
 use super::arena::{History, Watched};
+use super::carried::{Carried, WIDTH};
 use super::detect::{NONE, Past, TOUCHES, UNTOUCHED};
 use super::edges::PastPair;
 use super::planes::PlanePoint;
@@ -9,7 +10,13 @@ use crate::partition::dynamic::Parcels;
 use std::ops::Range;
 
 /// Numbers that tell what a point touches.
-const PASTS: usize = 6 * TOUCHES;
+const PASTS: usize = PAST * TOUCHES;
+
+/// Numbers of one of them: the face, the tolerated overlap, and what is carried.
+const PAST: usize = 2 + WIDTH;
+
+/// Numbers of a pair of edges: the second edge, the sense, the tolerated overlap, and what is carried.
+const PAIR: usize = 3 + WIDTH;
 
 /// Sends every part of a history to the `rank` of its point; `end_of` gives a point of an edge. All ranks call it.
 pub fn route(
@@ -20,28 +27,28 @@ pub fn route(
     comm: &mut dyn Communicator,
 ) -> History {
     let size = comm.size();
-    let [mut points, mut edges] = [PASTS, 7].map(|width| Parcels::new(size, width));
+    let [mut points, mut edges] = [PASTS, PAIR].map(|width| Parcels::new(size, width));
     for (point, pasts) in &history.points {
         let values: Vec<f64> = pasts.iter().flat_map(|past| pack_past(*past)).collect();
         points.add(rank(*point), *point, &values);
     }
     for past in &history.edges {
-        let [x, y, z] = past.drag;
-        let values = [f64::from(past.pair[1]), past.sense, past.allowed, past.push, x, y, z];
+        let own = [f64::from(past.pair[1]), past.sense, past.allowed];
+        let values = [own.as_slice(), &past.carried.to_array()].concat();
         edges.add(rank(end_of(past.pair[0])), past.pair[0], &values);
     }
     let mut come = History::default();
     let records = points.exchange(comm);
     for i in 0..records.len() {
         let mut pasts = UNTOUCHED;
-        pasts.iter_mut().zip(records.values(i).chunks_exact(6)).for_each(|(past, v)| *past = unpack_past(v));
+        pasts.iter_mut().zip(records.values(i).chunks_exact(PAST)).for_each(|(past, v)| *past = unpack_past(v));
         come.points.push((records.ids[i], pasts));
     }
     let records = edges.exchange(comm);
     come.edges.extend((0..records.len()).map(|i| {
         let v = records.values(i);
         let pair = [records.ids[i], v[0] as u32];
-        PastPair { pair, sense: v[1], allowed: v[2], push: v[3], drag: [v[4], v[5], v[6]] }
+        PastPair { pair, sense: v[1], allowed: v[2], carried: Carried::from_slice(&v[3..]) }
     }));
     let of = |number: u32| rank(watches[number as usize].point);
     come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
@@ -54,25 +61,22 @@ pub fn share_planes(
     ranks: impl Fn(u32) -> Range<u32>,
     comm: &mut dyn Communicator,
 ) -> Vec<Watched> {
-    let mut parcels = Parcels::new(comm.size(), 4);
-    for (number, push, [x, y, z]) in planes {
-        ranks(*number).for_each(|rank| parcels.add(rank, *number, &[*push, *x, *y, *z]));
+    let mut parcels = Parcels::new(comm.size(), WIDTH);
+    for (number, carried) in planes {
+        ranks(*number).for_each(|rank| parcels.add(rank, *number, &carried.to_array()));
     }
     let records = parcels.exchange(comm);
-    let watched = |i: usize| {
-        let v = records.values(i);
-        (records.ids[i], v[0], [v[1], v[2], v[3]])
-    };
+    let watched = |i: usize| (records.ids[i], Carried::from_slice(records.values(i)));
     (0..records.len()).map(watched).collect()
 }
 
-fn pack_past(past: Past) -> [f64; 6] {
-    let [x, y, z] = past.drag;
+fn pack_past(past: Past) -> [f64; PAST] {
+    let [sunk, push, x, y, z] = past.carried.to_array();
     // The mark of no face is beyond all faces and exact in a double.
-    [f64::from(past.face), past.allowed, past.push, x, y, z]
+    [f64::from(past.face), past.allowed, sunk, push, x, y, z]
 }
 
 fn unpack_past(v: &[f64]) -> Past {
     let face = v[0] as u32;
-    Past { face: if face == u32::MAX { NONE } else { face }, allowed: v[1], push: v[2], drag: [v[3], v[4], v[5]] }
+    Past { face: if face == u32::MAX { NONE } else { face }, allowed: v[1], carried: Carried::from_slice(&v[2..]) }
 }

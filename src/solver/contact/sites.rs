@@ -110,7 +110,7 @@ impl Sites {
         let motion = |site: &Site| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
             let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
-            ([row[0], row[1], row[2], row[3]], velocity)
+            ([row[0], row[1], row[2], row[3]], velocity, [row[4], row[5], row[6]])
         };
         let leaves = self.points.set_all(self.list.iter().map(motion), &self.stays);
         self.expired = leaves || !self.searched;

@@ -4,7 +4,9 @@
 //! neither erosion nor the decomposition has a say. What touches is saved by the rank that computes it, works by the rank
 //! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
 
-use super::arena::History;
+use super::arena::{History, Watched};
+use super::carried::{Carried, WIDTH};
+use super::certificate::Bank;
 use super::detect::{NONE, Past, UNTOUCHED};
 use super::edges::{PastPair, Shape};
 use super::setup::Layout;
@@ -13,14 +15,15 @@ use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;
 use crate::solver::nodes::Nodes;
 
-/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, force.
-const TOUCH: usize = 9;
-/// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, force.
-const PAIR: usize = 10;
+/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, and what
+/// it carries.
+const TOUCH: usize = 5 + WIDTH;
+/// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, and what it carries.
+const PAIR: usize = 6 + WIDTH;
 /// Columns of an edge: its nodes, its shape.
 const SHAPE: usize = 3;
-/// Columns of a point that a plane pushes: node, number of the plane, force.
-const PLANE: usize = 6;
+/// Columns of a point that a plane pushes: node, number of the plane, and what it carries.
+const PLANE: usize = 2 + WIDTH;
 /// Columns of a point's work: node, work of normal forces, work of friction.
 const WORK: usize = 3;
 
@@ -36,6 +39,7 @@ impl Contact {
             watches: _,
             lost_work: _,
             tally: Tally { steps, passes, capped, left },
+            bank: Bank { balance, asked, work, gain },
             searches,
             age,
             skin,
@@ -61,6 +65,10 @@ impl Contact {
             archive.count("CONTPASSES", passes);
             archive.count("CONTCAPPED", capped);
             archive.number("CONTLEFT", left);
+            archive.number("CONTBANK", balance);
+            archive.number("CONTASKED", asked);
+            archive.number("CONTSUM", work);
+            archive.number("CONTGAIN", gain);
             archive.count("CONTSEARCHES", searches);
             archive.count("CONTAGE", age);
         }
@@ -137,11 +145,14 @@ impl Contact {
     fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [Past; 3])> {
         let mut rows = Vec::new();
         for (point, pasts) in &now.points {
-            for (slot, Past { face, allowed, push, drag }) in
+            for (slot, Past { face, allowed, carried }) in
                 pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
             {
                 let node = f64::from(self.layout.nodes[*point as usize]);
-                rows.extend([[node, slot as f64].as_slice(), &self.face_key(*face), &[*allowed, *push], drag].concat());
+                rows.extend([node, slot as f64]);
+                rows.extend(self.face_key(*face));
+                rows.push(*allowed);
+                rows.extend(carried.to_array());
             }
         }
         archive.list("CONTTOUCH", TOUCH, &mut rows);
@@ -161,7 +172,7 @@ impl Contact {
             let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
             let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
             if let (Ok(face), Some(past)) = (face, pasts) {
-                *past = Past { face: faces[face].1, allowed: row[4], push: row[5], drag: [row[6], row[7], row[8]] };
+                *past = Past { face: faces[face].1, allowed: row[4], carried: Carried::from_slice(&row[5..]) };
             }
         }
         points
@@ -175,11 +186,11 @@ impl Contact {
 
     fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<PastPair> {
         let mut rows = Vec::new();
-        for PastPair { pair, sense, allowed, push, drag } in &now.edges {
+        for PastPair { pair, sense, allowed, carried } in &now.edges {
             let [[a, b], [c, d]] = pair.map(|edge| self.layout.edges[edge as usize].ends);
             rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
-            rows.extend([*sense, *allowed, *push]);
-            rows.extend(drag);
+            rows.extend([*sense, *allowed]);
+            rows.extend(carried.to_array());
         }
         archive.list("CONTEDGES", PAIR, &mut rows);
         if !archive.loading() {
@@ -188,21 +199,21 @@ impl Contact {
         let edge = |ends: [f64; 2]| self.layout.edge(ends.map(|node| node as u32));
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
-            Some(PastPair { pair, sense: row[4], allowed: row[5], push: row[6], drag: [row[7], row[8], row[9]] })
+            Some(PastPair { pair, sense: row[4], allowed: row[5], carried: Carried::from_slice(&row[6..]) })
         });
         pairs.collect()
     }
 
-    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, f64, [f64; 3])> {
+    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<Watched> {
         // Planes alone are with every rank that has the node.
         let alone = self.layout.interfaces.is_empty();
         let answers = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
         let mut rows = Vec::new();
-        for (number, push, drag) in &now.planes {
+        for (number, carried) in &now.planes {
             let watch = &self.watches[*number as usize];
             if !alone || answers(watch.point) {
-                rows.extend([f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane), *push]);
-                rows.extend(drag);
+                rows.extend([f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)]);
+                rows.extend(carried.to_array());
             }
         }
         archive.list("CONTPLANE", PLANE, &mut rows);
@@ -213,7 +224,7 @@ impl Contact {
         let force = |watch: &super::PlanePoint| {
             let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
             let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
-            Some((watch.number, row[2], [row[3], row[4], row[5]]))
+            Some((watch.number, Carried::from_slice(&row[2..])))
         };
         self.watches.iter().filter_map(force).collect()
     }
