@@ -8,6 +8,7 @@ pub mod meshes;
 pub mod momentum;
 pub mod penetration;
 pub mod run;
+pub mod scenes;
 pub mod stiffness;
 
 /// Asserts that `value` is within `tolerance` (relative) of `expected`, and prints the line that docs/verification.md

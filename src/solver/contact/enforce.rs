@@ -136,7 +136,17 @@ pub struct Outcome {
     pub passes: u32,
     /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
     pub left: f64,
+    /// Deepest overlap that motion had made before the step, as a part of the face's size.
+    pub deepest: f64,
+    /// The deepest one as a length.
+    pub depth: f64,
+    /// Farthest that a constraint would move along its normal in the step without contact, a length.
+    pub motion: f64,
 }
+
+/// Numbers of which all ranks learn the largest in a pass: how much it moved, whether anybody wants it, and of the overlaps
+/// that motion has made so far the deepest in face sizes, the deepest, and the farthest motion of the step.
+pub const VOTES: usize = 5;
 
 /// What ranks tell each other in the course of the passes; nothing on one rank.
 pub trait Others {
@@ -146,7 +156,7 @@ pub trait Others {
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
     fn share(&mut self, moved: &mut [Moved]);
     /// The largest of all ranks' values, of each kind.
-    fn largest(&mut self, values: [f64; 2]) -> [f64; 2];
+    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES];
     /// Replaces sums by those over all ranks.
     fn sum(&mut self, sums: &mut Sums);
     /// Whether there are any.
@@ -161,7 +171,7 @@ impl Others for Alone {
 
     fn share(&mut self, _: &mut [Moved]) {}
 
-    fn largest(&mut self, values: [f64; 2]) -> [f64; 2] {
+    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES] {
         values
     }
 
@@ -343,6 +353,7 @@ impl Enforcer {
         others: &mut dyn Others,
     ) -> Option<Outcome> {
         let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
+        let [deepest, depth, motion] = self.extent(constraints, times.drift);
         loop {
             self.scatter(constraints, points, times, others);
             let ahead = momentum.next();
@@ -350,15 +361,26 @@ impl Enforcer {
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
                 worst = worst.max(correct(c, state, &self.moved, times, ahead));
             }
-            let [left, any_wanted] = others.largest([worst, f64::from(u8::from(wanted))]);
+            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion]);
+            let [left, any_wanted, ..] = votes;
             if any_wanted == 0.0 {
                 return None;
             }
-            (outcome.left, outcome.passes) = (left, outcome.passes + 1);
+            let [_, _, deepest, depth, motion] = votes;
+            outcome = Outcome { left, passes: outcome.passes + 1, deepest, depth, motion };
             if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
                 return Some(outcome);
             }
         }
+    }
+
+    /// Deepest overlap that motion has made, in face sizes and as a length, and the farthest that a constraint would move.
+    fn extent(&self, constraints: &[Constraint], drift: f64) -> [f64; 3] {
+        let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
+        own.fold([0.0; 3], |[deepest, depth, motion], (c, state)| {
+            let sunk = c.carried.sunk;
+            [(sunk / c.size).max(deepest), sunk.max(depth), (drift * state.free).abs().max(motion)]
+        })
     }
 
     /// Change of velocity that the forces make at a point.

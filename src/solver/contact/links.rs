@@ -4,7 +4,7 @@ use super::arena::Cast;
 use super::carried::Carried;
 use super::certificate::Sums;
 use super::contract::Contract;
-use super::enforce::{Constraint, MEMBERS, Moved, Origin, Others, State};
+use super::enforce::{Constraint, MEMBERS, Moved, Origin, Others, State, VOTES};
 use super::traffic::{Letters, Pattern};
 use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
@@ -85,7 +85,7 @@ impl Others for Linked<'_> {
         );
     }
 
-    fn largest(&mut self, values: [f64; 2]) -> [f64; 2] {
+    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES] {
         let mut least = values.map(|value| -value);
         self.comm.all_min(&mut least);
         least.map(|value| -value)

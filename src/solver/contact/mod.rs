@@ -128,6 +128,12 @@ pub struct Tally {
     pub capped: u64,
     /// Largest overlap that was left, as a part of the face's size.
     pub left: f64,
+    /// Deepest penetration that motion has made, as a part of the face's size.
+    pub deepest: f64,
+    /// The same in motions of a step, the farthest of those so far.
+    pub motions: f64,
+    /// Farthest motion of a contact along its normal in a step so far, a length.
+    pub farthest: f64,
 }
 
 impl Contact {
@@ -325,11 +331,27 @@ impl Contact {
         }
     }
 
-    fn count(&mut self, Outcome { passes, left }: Outcome) {
+    fn count(&mut self, Outcome { passes, left, deepest, depth, motion }: Outcome) {
+        self.tally.deepest = self.tally.deepest.max(deepest);
+        self.tally.farthest = self.tally.farthest.max(motion);
+        if depth > 0.0 {
+            self.tally.motions = self.tally.motions.max(depth / self.tally.farthest);
+        }
         self.tally.steps += u64::from(passes > 0);
         self.tally.passes += u64::from(passes);
         self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
+    }
+
+    /// DEBUG
+    pub fn certified(&self) -> f64 {
+        self.bank.work
+    }
+
+    /// Energy that contact has given beyond what it had taken before to make the overlaps that it lifted; at least 0, and
+    /// round-off unless something is wrong. The same on all ranks.
+    pub fn gain(&self) -> f64 {
+        self.bank.gain
     }
 
     /// Books half the step's work with the present velocities.

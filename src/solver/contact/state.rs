@@ -38,7 +38,7 @@ impl Contact {
             sites: _,
             watches: _,
             lost_work: _,
-            tally: Tally { steps, passes, capped, left },
+            tally: Tally { steps, passes, capped, left, deepest, motions, farthest },
             bank: Bank { balance, asked, work, gain },
             searches,
             age,
@@ -65,6 +65,9 @@ impl Contact {
             archive.count("CONTPASSES", passes);
             archive.count("CONTCAPPED", capped);
             archive.number("CONTLEFT", left);
+            archive.number("CONTDEEPEST", deepest);
+            archive.number("CONTMOTIONS", motions);
+            archive.number("CONTFARTHEST", farthest);
             archive.number("CONTBANK", balance);
             archive.number("CONTASKED", asked);
             archive.number("CONTSUM", work);

@@ -1,0 +1,132 @@
+//! Contact creates no energy: random confined scenes in which, at no step, the work of contact adds up to more than
+//! round-off.
+//!
+//! `URTO_SCENES=0..5000 cargo test --release --test contact_energy -- --include-ignored --nocapture` runs others.
+
+mod support;
+
+use support::meshes::recipe;
+use support::run::model;
+use support::scenes::{Scene, scene};
+use urto::comm::{Communicator, ExactSum, run_threads};
+use urto::mesh::Mesh;
+use urto::model::Model;
+use urto::partition::Decomposition;
+use urto::solver::{Body, Request, Solver, Stop};
+
+/// Part of the energy that contact may give: round-off of frictionless sums, and of friction that reverses.
+const ROUND_OFF: [f64; 2] = [1e-9, 1e-6];
+
+/// What came out of a scene.
+#[derive(Default)]
+struct Found {
+    steps: u64,
+    /// Largest running sum of contact's work over the largest energy so far.
+    given: f64,
+    /// Energy that contact has given beyond what it had taken, over the same.
+    gain: f64,
+    /// Largest kinetic, internal or supplied energy.
+    scale: f64,
+    /// Work of contact at the end, over the same.
+    work: f64,
+    /// Deepest penetration in face sizes, and in motions of a step.
+    deepest: [f64; 2],
+    capped: u64,
+    stop: Option<Stop>,
+}
+
+fn run(mesh: &Mesh, model: &Model) -> Found {
+    let body = Body::new(mesh, model);
+    let cut = body.cut(1);
+    let contributors = body.contributors(&cut);
+    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), 1);
+    let found = run_threads(1, |comm| {
+        let mut solver = Solver::new(mesh, model, &body, &decomposition.share(0), comm);
+        Ok::<_, ()>(steps(&mut solver, model, comm))
+    });
+    found.ok().and_then(|mut found| found.pop()).expect("one rank")
+}
+
+fn steps(solver: &mut Solver, model: &Model, comm: &mut dyn Communicator) -> Found {
+    let mut found = Found::default();
+    loop {
+        if let Err(stop) = solver.prepare(Request::Continue, comm) {
+            found.stop = Some(stop);
+            return found;
+        }
+        found.steps = solver.step;
+        let totals = solver.totals(comm);
+        for energy in [totals.kinetic, totals.internal, totals.external, totals.eroded, solver.initial_energy] {
+            found.scale = found.scale.max(energy);
+        }
+        if solver.time + 0.5 * solver.time_step >= model.termination_time || solver.step > 20_000 {
+            return found;
+        }
+        solver.advance();
+        // Between two steps: at a state, half of the step's work is booked.
+        if let Some(contact) = &solver.domain.contact {
+            let mut sum = ExactSum::new();
+            contact.works().flatten().for_each(|work| sum.add(work));
+            if found.scale > 0.0 {
+                found.given = found.given.max(sum.value() / found.scale);
+                found.work = sum.value() / found.scale;
+                found.gain = contact.gain() / found.scale;
+            }
+            if let Some(report) = contact.report() {
+                found.deepest = [report.tally.deepest, report.tally.motions];
+                found.capped = report.tally.capped;
+            }
+        }
+    }
+}
+
+/// Runs the scene of a seed; what is wrong with it, if anything.
+fn try_seed(seed: u64, print: bool) -> Result<Found, String> {
+    let Scene { kind, recipe: text, deck, friction } = scene(seed);
+    let mesh = recipe(&text);
+    let found = run(&mesh, &model(&deck, &mesh));
+    let what = format!(
+        "seed {seed}, {kind}, {} steps: given {:.2e}, gain {:.2e}, work {:.2e}, deepest {:.2e} of a face, {:.2} motions, {} capped",
+        found.steps, found.given, found.gain, found.work, found.deepest[0], found.deepest[1], found.capped
+    );
+    if print {
+        println!("{what}");
+    }
+    let most = ROUND_OFF[usize::from(friction)];
+    if found.given.is_nan() || found.given > most || found.gain > most {
+        return Err(format!("{what}: contact gives energy"));
+    }
+    if let Some(stop) = &found.stop {
+        let alone: String =
+            deck.lines().filter(|line| !line.starts_with("CONTACT")).map(|l| format!("{l}\n")).collect();
+        if run(&mesh, &model(&alone, &mesh)).stop.is_none() {
+            return Err(format!("{what}: stopped, but not without contact: {stop}"));
+        }
+    }
+    Ok(found)
+}
+
+fn try_all(seeds: std::ops::Range<u64>) {
+    let seeds = match std::env::var("URTO_SCENES").ok().and_then(|text| {
+        let (from, to) = text.split_once("..")?;
+        Some(from.parse().ok()?..to.parse().ok()?)
+    }) {
+        Some(asked) => asked,
+        None => seeds,
+    };
+    let print = std::env::var_os("URTO_SCENES").is_some();
+    let wrong: Vec<String> = seeds.clone().filter_map(|seed| try_seed(seed, print).err()).collect();
+    println!("{} of {} scenes wrong", wrong.len(), seeds.end - seeds.start);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn contact_gives_no_energy_in_confined_scenes() {
+    try_all(0..300);
+}
+
+#[test]
+#[ignore = "minutes in the release build: make verify"]
+fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
+    try_all(300..5000);
+}

@@ -1,0 +1,330 @@
+//! Random confined scenes: bodies that press, pinch, hold and fold upon each other, where contact has most to do wrong.
+//!
+//! Every scene is a recipe and a deck that follow from a seed, small enough for thousands of runs.
+
+use std::fmt::Write;
+
+/// A scene to run.
+pub struct Scene {
+    /// What kind of scene it is.
+    pub kind: &'static str,
+    /// The mesh's recipe.
+    pub recipe: String,
+    /// The deck.
+    pub deck: String,
+    /// Whether there is friction.
+    pub friction: bool,
+}
+
+/// Numbers that look random and follow from a seed (splitmix64: Steele, Lea and Flood 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    /// Evenly spread in its logarithm.
+    fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
+
+    fn count(&mut self, low: usize, high: usize) -> usize {
+        low + (self.next() * (high - low + 1) as f64) as usize
+    }
+
+    fn chance(&mut self, probability: f64) -> bool {
+        self.next() < probability
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.count(0, choices.len() - 1)]
+    }
+}
+
+/// Steel, in metres, kilogrammes and seconds: what all stiffnesses and densities are told against.
+const YOUNG: f64 = 2e11;
+const DENSITY: f64 = 7800.0;
+
+/// Steps in which a notch closes and is pressed on.
+const NOTCH_STEPS: f64 = 600.0;
+
+struct Builder {
+    dice: Dice,
+    recipe: String,
+    deck: String,
+    /// Largest wave speed and smallest thickness of an element: they set the step.
+    speed: f64,
+    thinnest: f64,
+}
+
+impl Builder {
+    fn boxed(&mut self, block: usize, corner: [f64; 3], size: [f64; 3], cells: [usize; 3]) {
+        let ([x, y, z], [a, b, c], [l, m, n]) = (corner, size, cells);
+        let _ = writeln!(self.recipe, "BOX, {block}, {x:?}, {y:?}, {z:?}, {a:?}, {b:?}, {c:?}, {l}, {m}, {n}");
+        for (length, count) in size.iter().zip(cells) {
+            self.thinnest = self.thinnest.min(length / count as f64);
+        }
+    }
+
+    fn material(&mut self, block: usize, stiffness: f64, density: f64) {
+        let (young, density) = (YOUNG * stiffness, DENSITY * density);
+        self.speed = self.speed.max((1.35 * young / density).sqrt());
+        let _ = if self.dice.chance(0.3) {
+            let strength = young * self.dice.magnitude(1e-3, 1e-2);
+            writeln!(
+                self.deck,
+                "MATERIAL, {block}, ELASTIC PLASTIC, {density:?}\nYOUNGS MODULUS = {young:?}\nPOISSONS RATIO = 0.3\n\
+                 YIELD STRESS = {strength:?}\nHARDENING MODULUS = {:?}\nBETA = 1.\nEND",
+                0.05 * young
+            )
+        } else {
+            let ratio = self.dice.one_of(&[0.0, 0.3, 0.45]);
+            writeln!(
+                self.deck,
+                "MATERIAL, {block}, ELASTIC, {density:?}\nYOUNGS MODULUS = {young:?}\nPOISSONS RATIO = {ratio:?}\nEND"
+            )
+        };
+    }
+
+    fn line(&mut self, text: &str) {
+        let _ = writeln!(self.deck, "{text}");
+    }
+
+    fn mesh_line(&mut self, text: &str) {
+        let _ = writeln!(self.recipe, "{text}");
+    }
+
+    /// Contact of all blocks, with friction in a third of the scenes and now and then few passes.
+    fn contact(&mut self, blocks: usize) -> bool {
+        self.line("CONTACT MATERIAL");
+        let friction = self.dice.chance(0.33);
+        if friction {
+            let coefficient = self.dice.one_of(&[0.1, 0.5, 2.0]);
+            for i in 1..=blocks {
+                for j in i..=blocks {
+                    self.line(&format!("CONTACT DATA, {i}, {j}, {coefficient:?}"));
+                }
+            }
+        }
+        if self.dice.chance(0.2) {
+            let passes = self.dice.one_of(&[1, 3, 50]);
+            self.line(&format!("CONTACT PASSES, {passes}"));
+        }
+        if self.dice.chance(0.15) {
+            self.line("CONTACT EDGES, ALL");
+        }
+        friction
+    }
+
+    /// The finished scene, which lasts so many steps of the thinnest element of the stiffest body.
+    fn finish(self, kind: &'static str, friction: bool, steps: f64) -> Scene {
+        let time = steps * 0.5 * self.thinnest / self.speed;
+        let deck = format!(
+            "TITLE\n {kind}\nTERMINATION TIME, {time:?}\nOUTPUT TIME, {time:?}\nPLOT TIME, {time:?}\n{}EXIT\n",
+            self.deck
+        );
+        Scene { kind, recipe: self.recipe, deck, friction }
+    }
+}
+
+/// The scene of a seed.
+pub fn scene(seed: u64) -> Scene {
+    let builder = Builder {
+        dice: Dice(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d),
+        recipe: "TITLE\n SCENE\n".into(),
+        deck: String::new(),
+        speed: 0.0,
+        thinnest: f64::INFINITY,
+    };
+    match seed % 6 {
+        0 => stack(builder, false),
+        1 => stack(builder, true),
+        2 => lined_box(builder),
+        3 => sheet(builder),
+        4 => notch(builder),
+        _ => perforated(builder),
+    }
+}
+
+/// Layers of very different stiffness and density between two plates that are driven together; held at one end, by one
+/// plane of nodes, in some or all directions, or not at all.
+fn stack(mut b: Builder, held: bool) -> Scene {
+    let layers = b.dice.count(2, 5);
+    let (mut z, wide) = (0.0, b.dice.between(0.6, 1.5));
+    let tilt = if b.dice.chance(0.3) { b.dice.between(-8.0, 8.0) } else { 0.0 };
+    let gap = b.dice.one_of(&[0.0, 0.0, 1e-4, 0.01]);
+    for block in 1..=layers {
+        let thick = b.dice.magnitude(0.02, 0.3);
+        let cells = [b.dice.count(1, 4), b.dice.count(1, 4), b.dice.count(1, 2)];
+        let (dx, dy) = if held { (0.0, 0.0) } else { (b.dice.between(-0.1, 0.1), b.dice.between(-0.1, 0.1)) };
+        b.boxed(block, [dx, dy, z], [wide, wide, thick], cells);
+        z += thick + gap;
+        let (stiffness, density) = (b.dice.magnitude(1e-4, 1e4), b.dice.magnitude(1e-4, 1e4));
+        // A wave speed within bounds, or no scene would last long enough for anything to happen.
+        let density = density.clamp(stiffness * 1e-2, stiffness * 1e2);
+        b.material(block, stiffness, density);
+    }
+    for block in 1..=layers {
+        b.mesh_line(&format!("ROTATE, {block}, Y, {tilt:?}"));
+    }
+    let friction = b.contact(layers);
+    if held {
+        b.mesh_line("NODE SET PLANE, 1, X, 0.");
+        b.mesh_line(&format!("SIDE SET PLANE, 10, Z, {:?}", z - gap));
+        if tilt != 0.0 {
+            // The planes of the sets are cut before the turn.
+            b.recipe =
+                b.recipe.lines().filter(|line| !line.starts_with("ROTATE")).map(|line| format!("{line}\n")).collect();
+        }
+        let directions: &[&str] = b.dice.one_of(&[&["X", "Y", "Z"][..], &["Z"][..], &["X", "Z"][..]]);
+        for direction in directions {
+            b.line(&format!("NO DISPLACEMENT, {direction}, 1"));
+        }
+        b.line("FUNCTION, 1\n0., 1.\n1., 1.\nEND");
+        let pressure = YOUNG * b.dice.magnitude(1e-8, 1e-5);
+        b.line(&format!("PRESSURE, 10, 1, {pressure:?}"));
+    } else {
+        let speed = b.speed * b.dice.magnitude(1e-5, 1e-2);
+        let aside = b.dice.one_of(&[0.0, 0.3]) * speed;
+        b.line(&format!("INITIAL VELOCITY MATERIAL, 1, {aside:?}, 0., {speed:?}"));
+        b.line(&format!("INITIAL VELOCITY MATERIAL, {layers}, 0., 0., {:?}", -speed));
+    }
+    b.finish(if held { "stack held at one end" } else { "walled stack" }, friction, 400.0)
+}
+
+/// A box in a box with a lining, dropped on a plane.
+fn lined_box(mut b: Builder) -> Scene {
+    let (wall, lining) = (b.dice.between(0.02, 0.05), b.dice.between(0.1, 0.2));
+    let core = 1.0 - 2.0 * (wall + lining);
+    let cuts = [0.0, wall, wall + lining, wall + lining + core, 1.0 - wall];
+    let lengths = [wall, lining, core, lining, wall];
+    let cells = [1, b.dice.count(1, 2), b.dice.count(1, 3), 1, 1];
+    for i in 0..5 {
+        for j in 0..5 {
+            for k in 0..5 {
+                let at = [i, j, k];
+                let block = if at.iter().any(|&c| c == 0 || c == 4) {
+                    1
+                } else if at == [2, 2, 2] {
+                    3
+                } else if at.iter().filter(|&&c| c == 2).count() == 2 {
+                    2
+                } else {
+                    continue;
+                };
+                b.boxed(block, at.map(|c| cuts[c]), at.map(|c| lengths[c]), at.map(|c| cells[c]));
+            }
+        }
+    }
+    for block in [1, 2] {
+        b.mesh_line(&format!("MERGE, {block}"));
+    }
+    let (angle, gap) = (b.dice.between(0.0, 45.0), b.dice.between(0.0, 0.01));
+    for block in 1..=3 {
+        b.mesh_line(&format!("ROTATE, {block}, Y, {angle:?}"));
+        b.mesh_line(&format!("TRANSLATE, {block}, 0., 0., {:?}", angle.to_radians().sin() + gap));
+    }
+    b.mesh_line("SIDE SET BLOCK, 1, 1");
+    b.material(1, 1.0, 1.0);
+    let (stiffness, density) = (b.dice.magnitude(1e-4, 1.0), b.dice.magnitude(1e-2, 1.0));
+    b.material(2, stiffness, density);
+    b.material(3, 1.0, 1.0);
+    let friction = b.contact(3);
+    b.line(&format!("RIGID SURFACE, 1, 0., 0., 0., 0., 0., 1., {}", if friction { 0.3 } else { 0.0 }));
+    let speed = b.speed * b.dice.magnitude(1e-4, 5e-3);
+    for block in 1..=3 {
+        b.line(&format!("INITIAL VELOCITY MATERIAL, {block}, 0., 0., {:?}", -speed));
+    }
+    b.finish("lined box", friction, 700.0)
+}
+
+/// A sheet of one or two layers of elements whose rim is pulled, pushed and twisted.
+fn sheet(mut b: Builder) -> Scene {
+    let (cells, layers) = (b.dice.count(4, 8), b.dice.count(1, 2));
+    let thick = b.dice.between(0.02, 0.08);
+    b.boxed(1, [0.0, 0.0, 0.0], [1.0, 1.0, thick], [cells, cells, layers]);
+    b.mesh_line("NODE SET PLANE, 1, X, 0.");
+    b.mesh_line("NODE SET PLANE, 2, X, 1.");
+    b.material(1, 1.0, 1.0);
+    let friction = b.contact(1);
+    b.line("FUNCTION, 1\n0., 1.\n1., 1.\nEND");
+    let speed = b.speed * b.dice.magnitude(1e-2, 6e-2);
+    for set in 1..=2 {
+        for axis in ["X", "Y", "Z"] {
+            let part = b.dice.between(-1.0, 1.0);
+            b.line(&format!("PRESCRIBED VELOCITY, {axis}, {set}, 1, {:?}", part * speed));
+        }
+    }
+    b.finish("sheet", friction, 1200.0)
+}
+
+/// A body with a notch that closes, or a fold of two leaves, pressed together.
+fn notch(mut b: Builder) -> Scene {
+    let (gap, leaf) = (b.dice.magnitude(0.005, 0.1), b.dice.between(0.08, 0.25));
+    let cells = b.dice.count(3, 6);
+    // Two leaves and the bend that joins them.
+    b.boxed(1, [0.0, 0.0, 0.0], [1.0, 0.3, leaf], [cells, 2, 1]);
+    b.boxed(1, [0.0, 0.0, leaf + gap], [1.0, 0.3, leaf], [cells, 2, 1]);
+    let first = 1.0 / cells as f64;
+    b.boxed(1, [0.0, 0.0, leaf], [first, 0.3, gap], [1, 2, 1]);
+    b.mesh_line("MERGE, 1");
+    b.mesh_line(&format!("NODE SET PLANE, 2, Z, {:?}", 2.0 * leaf + gap));
+    b.mesh_line("NODE SET PLANE, 1, Z, 0.");
+    let (stiffness, density) = (b.dice.magnitude(1e-2, 1e2), b.dice.magnitude(1e-1, 1e1));
+    b.material(1, stiffness, density);
+    // Something between the leaves.
+    let filled = b.dice.chance(0.5);
+    if filled {
+        let (thick, cells) = (gap * b.dice.between(0.5, 1.0), [b.dice.count(1, 5), 2, 1]);
+        b.boxed(2, [first + 0.02, 0.0, leaf], [0.9 - first, 0.3, thick], cells);
+        let (stiffness, density) = (b.dice.magnitude(1e-4, 1e2), b.dice.magnitude(1e-3, 1e1));
+        b.material(2, stiffness, density);
+    }
+    let friction = b.contact(1 + usize::from(filled));
+    b.line("NO DISPLACEMENT, Z, 1");
+    b.line("FUNCTION, 1\n0., 1.\n1., 1.\nEND");
+    // It closes within a third of the time.
+    let closing = (gap / (0.3 * NOTCH_STEPS * 0.5 * b.thinnest)).min(0.05) * b.speed;
+    b.line(&format!("PRESCRIBED VELOCITY, Z, 2, 1, {:?}", -closing));
+    b.finish("notch", friction, NOTCH_STEPS)
+}
+
+/// A block that is driven through a plate whose elements fail.
+fn perforated(mut b: Builder) -> Scene {
+    let thick = b.dice.between(0.1, 0.3);
+    let (cells, layers) = (b.dice.count(5, 7), b.dice.count(1, 2));
+    b.boxed(1, [-0.5, -0.5, 0.0], [1.0, 1.0, thick], [cells, cells, layers]);
+    let (wide, long) = (b.dice.between(0.2, 0.4), b.dice.between(0.3, 0.8));
+    b.boxed(2, [-0.5 * wide, -0.5 * wide, thick], [wide, wide, long], [2, 2, 3]);
+    let turn = if b.dice.chance(0.5) { b.dice.between(0.0, 20.0) } else { 0.0 };
+    b.mesh_line(&format!("ROTATE, 2, Y, {turn:?}"));
+    b.mesh_line(&format!("TRANSLATE, 2, 0., 0., {:?}", 0.6 * wide * turn.to_radians().sin() + 1e-3));
+    b.mesh_line("NODE SET PLANE, 1, X, -0.5");
+    b.mesh_line("NODE SET PLANE, 1, X, 0.5");
+    let _ = write!(
+        b.deck,
+        "MATERIAL, 1, ELASTIC PLASTIC, {DENSITY:?}\nYOUNGS MODULUS = {YOUNG:?}\nPOISSONS RATIO = 0.3\n\
+         YIELD STRESS = 4.E8\nHARDENING MODULUS = 1.E9\nBETA = 1.\nEND\n"
+    );
+    b.speed = (1.35 * YOUNG / DENSITY).sqrt();
+    let density = b.dice.magnitude(0.3, 3.0);
+    b.material(2, 1.0, density);
+    let friction = b.contact(2);
+    let strain = b.dice.between(0.1, 0.5);
+    b.line(&format!("DEATH, 1, EQPS, MAX, {strain:?}"));
+    b.line("DEATH, 1, VOLUME, MIN, 0.2");
+    b.line("NO DISPLACEMENT, Z, 1");
+    let speed = b.dice.between(100.0, 400.0);
+    let aside = b.dice.one_of(&[0.0, 0.2]) * speed;
+    b.line(&format!("INITIAL VELOCITY MATERIAL, 2, {aside:?}, 0., {:?}", -speed));
+    b.finish("perforation", friction, 700.0)
+}
