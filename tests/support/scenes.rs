@@ -282,19 +282,21 @@ fn notch(mut b: Builder) -> Scene {
     let (stiffness, density) = (b.dice.magnitude(1e-2, 1e2), b.dice.magnitude(1e-1, 1e1));
     b.material(1, stiffness, density);
     // Something between the leaves.
-    let filled = b.dice.chance(0.5);
+    let (filled, thick) = (b.dice.chance(0.5), gap * b.dice.between(0.5, 1.0));
     if filled {
-        let (thick, cells) = (gap * b.dice.between(0.5, 1.0), [b.dice.count(1, 5), 2, 1]);
+        let cells = [b.dice.count(1, 5), 2, 1];
         b.boxed(2, [first + 0.02, 0.0, leaf], [0.9 - first, 0.3, thick], cells);
         let (stiffness, density) = (b.dice.magnitude(1e-4, 1e2), b.dice.magnitude(1e-3, 1e1));
         b.material(2, stiffness, density);
     }
     let friction = b.contact(1 + usize::from(filled));
     b.line("NO DISPLACEMENT, Z, 1");
-    b.line("FUNCTION, 1\n0., 1.\n1., 1.\nEND");
-    // It closes within a third of the time.
-    let closing = (gap / (0.3 * NOTCH_STEPS * 0.5 * b.thinnest)).min(0.05) * b.speed;
-    b.line(&format!("PRESCRIBED VELOCITY, Z, 2, 1, {:?}", -closing));
+    // It closes within a third of the time, and what is between the leaves is squeezed by up to a fifth of its thickness.
+    let time = NOTCH_STEPS * 0.5 * b.thinnest / b.speed;
+    let squeezed = if filled { gap - thick + b.dice.between(0.0, 0.2) * thick } else { 1.02 * gap };
+    let speed = (squeezed / (0.3 * time)).min(0.05 * b.speed);
+    b.line(&format!("FUNCTION, 1\n0., 1.\n{0:?}, 1.\n{1:?}, 0.\n{2:?}, 0.\nEND", 0.3 * time, 0.31 * time, 2.0 * time));
+    b.line(&format!("PRESCRIBED VELOCITY, Z, 2, 1, {:?}", -speed));
     b.finish("notch", friction, NOTCH_STEPS)
 }
 

@@ -343,11 +343,6 @@ impl Contact {
         self.tally.left = self.tally.left.max(left);
     }
 
-    /// DEBUG
-    pub fn certified(&self) -> f64 {
-        self.bank.work
-    }
-
     /// Energy that contact has given beyond what it had taken before to make the overlaps that it lifted; at least 0, and
     /// round-off unless something is wrong. The same on all ranks.
     pub fn gain(&self) -> f64 {
