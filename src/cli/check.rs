@@ -24,7 +24,7 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
         say(format_args!("assumed: {}", note.message));
     }
     say(model.title.trim());
-    let body = Body::new(&given.mesh, model);
+    let body = given.body()?;
     if let Some(warning) = body.overlap.left.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }

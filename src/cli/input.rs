@@ -8,7 +8,8 @@ use crate::exodus::{MeshError, read_mesh};
 use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
-use crate::model::{Problem, examine};
+use crate::model::{ContactOverlap, Problem, examine};
+use crate::solver::Body;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -48,6 +49,16 @@ impl Given {
         Given::read_with(input, None, &mut |path| {
             read_or_make(path, None, &mut |path| read_mesh_together(path, together))
         })
+    }
+
+    /// The body in its initial state, or why it cannot begin: bodies that overlap and cannot be moved apart.
+    pub fn body(&self) -> Result<Body, Failure> {
+        let model = &self.problem.model;
+        let body = Body::new(&self.mesh, model);
+        match body.overlap.refusal(&self.mesh) {
+            Some(refusal) if model.contact.control.overlap == ContactOverlap::Refuse => Err(Failure::input(refusal)),
+            _ => Ok(body),
+        }
     }
 
     fn read_with(

@@ -44,7 +44,7 @@ impl Prepared {
         let begun = Instant::now();
         let given = read(&options.input)?;
         let clock = [begun, Instant::now()];
-        let body = Body::new(&given.mesh, &given.problem.model);
+        let body = given.body()?;
         let base = base(options.output.as_deref(), &given.deck);
         let found = restart::find(options, &given, &body, &base)?;
         let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));

@@ -40,7 +40,7 @@ fn read(options: &options::Scale, ranks: Option<u32>) -> Result<Given, Failure> 
 fn fixed(options: &options::Scale) -> Result<Vec<Case>, Failure> {
     let given = read(options, None)?;
     introduce(&given);
-    let body = Body::new(&given.mesh, &given.problem.model);
+    let body = given.body()?;
     options.ranks.iter().map(|&ranks| count(options, &given, &body, ranks)).collect()
 }
 
@@ -63,7 +63,7 @@ fn scaled(options: &options::Scale) -> Result<Vec<Case>, Failure> {
             Some(_) => {}
         }
         before = Some((ranks, elements));
-        cases.push(count(options, &given, &Body::new(&given.mesh, &given.problem.model), ranks)?);
+        cases.push(count(options, &given, &given.body()?, ranks)?);
     }
     Ok(cases)
 }

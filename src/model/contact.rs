@@ -1,8 +1,8 @@
 //! Contact and rigid planes.
 
 use super::{
-    ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactSearch, ContactSurface, Death,
-    DeathVariable, ElementField, Friction, RigidSurface,
+    ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap, ContactSearch, ContactSurface,
+    Death, DeathVariable, ElementField, Friction, RigidSurface,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, spelling};
@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),
+    ("CONTACT OVERLAP", contact_overlap),
     ("CONTACT DECOMPOSITION", contact_decomposition),
     ("DEATH", death),
 ];
@@ -166,6 +167,13 @@ fn contact_edges(card: &Card, draft: &mut Draft) {
         "OFF" => ContactEdges::None,
         "ALL" => ContactEdges::All,
         _ => ContactEdges::Sharp,
+    };
+}
+
+fn contact_overlap(card: &Card, draft: &mut Draft) {
+    draft.model.contact.control.overlap = match card.text("treatment") {
+        "KEEP" => ContactOverlap::Keep,
+        _ => ContactOverlap::Remove,
     };
 }
 

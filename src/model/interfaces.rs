@@ -89,6 +89,8 @@ pub struct ContactControl {
     pub margin: f64,
     /// Which edges may touch edges.
     pub edges: ContactEdges,
+    /// What becomes of overlaps that the mesh begins with.
+    pub overlap: ContactOverlap,
     /// How points are shared out among many ranks.
     pub decomposition: ContactDecomposition,
 }
@@ -102,9 +104,21 @@ impl Default for ContactControl {
             reach: 150.0,
             margin: 0.1,
             edges: ContactEdges::Sharp,
+            overlap: ContactOverlap::Refuse,
             decomposition: ContactDecomposition::Bisection,
         }
     }
+}
+
+/// CONTACT OVERLAP: what becomes of overlaps that the mesh begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactOverlap {
+    /// Nodes are moved out; what cannot be moved out is refused.
+    Refuse,
+    /// Nodes are moved out, and what cannot be moved out stays.
+    Remove,
+    /// All stay: contact holds them where they are.
+    Keep,
 }
 
 /// Ways to share out the points of contact among ranks; all give the same results.

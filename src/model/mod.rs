@@ -21,8 +21,8 @@ pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
 pub use deletion::Deletion;
 pub use interfaces::{
-    Contact, ContactControl, ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactSearch,
-    ContactSurface, Friction,
+    Contact, ContactControl, ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap,
+    ContactSearch, ContactSurface, Friction,
 };
 pub use problem::{Problem, examine, from_deck};
 pub use restart::{ReadRestart, Restarts, WriteRestart};

@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::detect::{Check, UNTOUCHED};
-use super::enforce::{Alone, Enforcer, Ledger, Limits};
+use super::enforce::{Alone, Constraint, Enforcer, Ledger, Limits};
 use super::face;
 use super::locate::{Locator, Near};
 use super::neighbourhood::{self, Boxes};
@@ -10,7 +10,7 @@ use super::search::{Box3, Candidates, SearchKind};
 use super::setup::{ABSENT, Layout, Pairings, Skin};
 use super::sites::Sites;
 use crate::mesh::{HEX_SIDES, Mesh};
-use crate::model::Model;
+use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
@@ -18,6 +18,10 @@ use std::sync::Arc;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;
+
+/// An overlap that is left after all rounds and is less than this part of a face's size does not matter: contact keeps it as
+/// it is.
+const STUCK: f64 = 1e-4;
 
 /// A point nearer to an outer face than this part of half the element touches it.
 const CLEARLY: f64 = 0.01;
@@ -35,8 +39,40 @@ pub struct Overlap {
     pub nodes: usize,
     /// Farthest move, a length.
     pub farthest: f64,
-    /// What is left.
+    /// What is left deep inside.
     pub left: Left,
+    /// What could not be moved out, though it is not deep.
+    pub stuck: Stuck,
+}
+
+/// Overlaps that moving nodes cannot remove, because the deck holds them or others are in the way.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stuck {
+    /// Number of overlaps of nodes with faces.
+    pub overlaps: usize,
+    /// The deepest, a length.
+    pub deepest: f64,
+    /// Its node, from 0 in the mesh file.
+    pub node: u32,
+}
+
+impl Overlap {
+    /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
+    pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
+        let ((count, deepest, node), why) = match (self.left, self.stuck) {
+            (left, _) if left.nodes > 0 => ((left.nodes, left.deepest, left.node), "deeper than half an element"),
+            (_, stuck) => ((stuck.overlaps, stuck.deepest, stuck.node), "held by the deck or between others"),
+        };
+        let [x, y, z] = mesh.coordinates.get(node as usize)?;
+        (count > 0).then(|| {
+            format!(
+                "error: bodies overlap in the mesh, and {count} nodes cannot be moved out, being {why}: the deepest is node {} at \
+                 {x:.4e} {y:.4e} {z:.4e}, {deepest:.4e} below the surface\n\
+                 help: mend the mesh, or say CONTACT OVERLAP, REMOVE or KEEP in the deck to run with what is left",
+                mesh.node_ids[node as usize]
+            )
+        })
+    }
 }
 
 /// Nodes that remain inside elements that are not theirs: too deep to say which way is out. Contact does not see them.
@@ -73,30 +109,63 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         return Overlap::default();
     }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
+    if model.contact.control.overlap == ContactOverlap::Keep {
+        return Overlap { left: left(body, &layout), ..Default::default() };
+    }
     let pairings = Pairings::new(mesh, model, body);
     let mut points = Points::new(layout.nodes.len(), layout.origin);
     weigh(mesh, model, body, &layout, &mut points);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(points.len());
-    for _ in 0..ROUNDS {
+    // The deepest overlap that each point takes part in: no farther is it moved.
+    let mut farthest = vec![0.0; points.len()];
+    let mut stuck = Stuck::default();
+    for round in 0..=ROUNDS {
         points.begin(0.0);
         for (point, &node) in layout.nodes.iter().enumerate() {
             points.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
         }
         let mut constraints = overlaps(&layout, &pairings, &points);
-        if constraints.is_empty() {
+        stuck = Stuck::of(&constraints, &layout);
+        if constraints.is_empty() || round == ROUNDS {
             break;
+        }
+        for c in &constraints {
+            c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
         let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
         enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Nobody);
         enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Nobody, &mut Alone));
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
-            positions[layout.nodes[point] as usize] =
-                add(points.start(point as u32), enforcer.change(point, &points, still.kick));
+            let node = layout.nodes[point] as usize;
+            let there = add(points.start(point as u32), enforcer.change(point, &points, still.kick));
+            positions[node] = within(there, mesh.coordinates[node], farthest[point]);
         }
     }
-    Overlap { left: left(body, &layout), ..moved(mesh, body, &layout) }
+    Overlap { left: left(body, &layout), stuck, ..moved(mesh, body, &layout) }
+}
+
+impl Stuck {
+    /// Overlaps that are more than round-off of what was removed.
+    fn of(constraints: &[Constraint], layout: &Layout) -> Stuck {
+        let deep = constraints.iter().filter(|c| -c.gap > STUCK * c.size);
+        deep.fold(Stuck::default(), |sum, c| {
+            let worst = if -c.gap > sum.deepest {
+                (-c.gap, layout.nodes[c.members[0] as usize])
+            } else {
+                (sum.deepest, sum.node)
+            };
+            Stuck { overlaps: sum.overlaps + 1, deepest: worst.0, node: worst.1 }
+        })
+    }
+}
+
+/// The place nearest to `there` that is no farther than `most` from `from`.
+fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
+    let way = subtract(there, from);
+    let length = dot(way, way).sqrt();
+    if length > most { add(from, scaled(way, most / length)) } else { there }
 }
 
 /// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
@@ -218,7 +287,7 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut 
 }
 
 /// Every point behind a face that faces it.
-fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<super::enforce::Constraint> {
+fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<Constraint> {
     let sites = Sites::still(points);
     let all = neighbourhood::point_boxes(&sites);
     let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &sites);
