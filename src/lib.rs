@@ -16,6 +16,7 @@ pub mod mesher;
 pub mod model;
 pub mod output;
 pub mod partition;
+pub mod plot;
 pub mod restart;
 pub mod run;
 pub mod scale;

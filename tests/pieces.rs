@@ -66,6 +66,21 @@ fn joined_pieces_are_the_unsplit_file() {
     }
 }
 
+/// Curves of a run in pieces are those of the whole, of the body, at nodes at borders and in elements.
+#[test]
+fn pieces_are_plotted_as_one() {
+    let desk = desk(&two_blocks());
+    split(&desk, 3, "parts");
+    let numbers = |results: &str| {
+        let wanted = ["-v", "KE,VELZ,SIGZZ", "--node", "1,20,30,60", "--element", "1,24"];
+        desk.urto(&[&["plot", results, "--csv", "-o", "x.csv"], &wanted[..]].concat()).with(0);
+        desk.text("x.csv")
+    };
+    let whole = numbers("whole.e");
+    assert_eq!(whole.lines().count(), 12);
+    assert!(numbers("parts.e") == whole && numbers("parts.e.3.1") == whole);
+}
+
 /// Numbers out of order and too large for 32 bits, sets out of order that name a node twice, names, a node that belongs
 /// to no element, and fewer elements than ranks.
 #[test]

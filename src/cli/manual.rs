@@ -187,6 +187,12 @@ The same on four MPI processes, with the same bits.
 .B urto view out/case1.e \-\-variable EQPS \-\-mirror xy
 Draws the last state, coloured by equivalent plastic strain, with the mirror images of a quarter model.
 .TP
+.B urto plot out/case1.e
+The energies of the body over time, as case1_curves.png; with a table of what they reach.
+.TP
+.B urto plot a.h b.h \-v SIGZZ_1 \-\-filter CFC1000 \-o stress.svg
+The stress at the first watched point in two runs, filtered, in one picture.
+.TP
 .B urto explain INITIAL VELOCITY MATERIAL
 A command of the deck: form, fields, units, defaults, an example.
 .TP

@@ -6,6 +6,7 @@ mod display;
 mod input;
 mod manual;
 mod options;
+mod plot;
 mod restart;
 mod run;
 mod scale;
@@ -119,6 +120,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Explain(options) => verbs::explain(&options),
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::View(options) => verbs::view(&options),
+        Verb::Plot(options) => plot::plot(&options),
         Verb::Diff(options) => verbs::diff(&options),
         Verb::Scale(options) => scale::scale(&options),
         Verb::Join(options) => verbs::join(&options),
