@@ -483,6 +483,64 @@ fn mutate(text: &mut Vec<char>, (kind, at, length, piece): (u8, usize, usize, us
     }
 }
 
+/// What an expression or a block can hold another of, before it and after it.
+const SHELLS: &[(&str, &str)] = &[
+    ("(", ")"),
+    ("-", ""),
+    ("!", ""),
+    ("1+", ""),
+    ("", "-1"),
+    ("1*1+", ""),
+    ("2^", ""),
+    ("", "^1"),
+    ("1<", ""),
+    ("1&&", ""),
+    ("", "||0"),
+    ("'a'//", ""),
+    ("", "//''"),
+    ("x=", ""),
+    ("x+=", ""),
+    ("++", ""),
+    ("1?", ":1"),
+    ("0?1:", ""),
+    ("sqrt(", ")"),
+    ("max(1,", ",2)"),
+    ("1,", ""),
+    ("}{", ""),
+    ("\\{", "\\}"),
+    ("\n{if(1)}\n", "\n{endif}\n"),
+    ("\n{else}\n", ""),
+    ("\n{loop(1)}\n", "\n{endloop}\n"),
+];
+
+/// Expressions as long and as deep as nobody writes them, on a stack of two megabytes, as every test has: in decks and in
+/// recipes they have a value or are refused.
+#[test]
+fn long_and_deep_expressions_are_answered() {
+    let shells = prop::collection::vec((0..SHELLS.len(), prop_oneof![1usize..5, 90usize..110, 1usize..15_000]), 1..4);
+    let cores = prop::sample::select(vec!["1", "'a'", "x", "", "1 2", "(", "f(1)"]);
+    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(500));
+    let outcome = cases.run(&(shells, cores, any::<bool>()), |(shells, core, closed)| {
+        let mut expression = core.to_string();
+        for (shell, count) in shells {
+            let (before, after) = SHELLS[shell];
+            expression = [&before.repeat(count), expression.as_str(), &after.repeat(count)].concat();
+        }
+        let brace = if closed { "}" } else { "" };
+        let deck = format!("{LEAST}$ {{{{x = 1}}}}{{{expression}{brace}\n");
+        if let Err(messages) = examine(Source::new("t.i", deck), None) {
+            prop_assert!(!messages.render(false).is_empty());
+        }
+        // A box that lacks most of its fields, so that no number makes it a large mesh.
+        let recipe = format!("BOX, {{{expression}{brace}\n");
+        prop_assert!(urto::mesher::make(&recipe, "t.mesh", 1).is_err());
+        Ok(())
+    });
+    outcome.unwrap_or_else(|why| panic!("{why}"));
+    let sum = format!("{{1{}}}", "+1".repeat(11_999));
+    assert_eq!(problem(&LEAST.replace("TIME 1", &format!("TIME {sum}"))).model.termination_time, 12_000.0);
+}
+
 #[test]
 fn a_hundred_thousand_mutilated_decks_are_answered() {
     let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours"), EXPRESSIONS];

@@ -62,6 +62,7 @@ fn no_output_is_written_over_an_input() {
     symlink("bar.g", desk.path("soft.e")).expect("a link");
     symlink("r.mesh", desk.path("soft.g")).expect("a link");
     std::fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.put("data.csv", "0, 1\n1, 2\n");
     let before = contents(&desk);
     for (arguments, words) in [
         (&["mesh", "r.mesh", "-o", "r.mesh"][..], "r.mesh is the recipe, and would be written over"),
@@ -80,6 +81,7 @@ fn no_output_is_written_over_an_input() {
         (&["r.i", "-m", "r.mesh", "-o", "r.mesh", "-q", "--ranks", "1", "--split", "--restart", "r.mesh"], "r.mesh"),
         (&["view", "picture.png"], "picture.png is the file to draw"),
         (&["view", "bar.g", "-o", "picture.png", "--animate"], "no states"),
+        (&["plot", "me.e", "-v", "KE", "--reference", "data.csv", "--csv", "-o", "data.csv"], "data.csv is the reference"),
         (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.i"], "bar.i is the deck"),
         (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.g"], "bar.g is the mesh"),
         (&["scale", "r.i", "--ranks", "1", "--csv", "r.inc"], "r.inc is the recipe of the mesh"),

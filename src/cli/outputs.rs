@@ -4,6 +4,9 @@ use super::Failure;
 use crate::files::{Identity, identity};
 use std::path::{Path, PathBuf};
 
+/// Advice of verbs that write one file.
+pub const ANOTHER_NAME: &str = "name another file with --output";
+
 /// The files that a verb reads, each with what it is to the user.
 #[derive(Debug, Default)]
 pub struct Inputs(Vec<(&'static str, PathBuf, Identity)>);

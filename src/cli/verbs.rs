@@ -1,16 +1,13 @@
 //! The smaller verbs: explain, mesh, view, diff, join, generate.
 
 use super::options::{self, Generated};
-use super::outputs::Inputs;
+use super::outputs::{ANOTHER_NAME, Inputs};
 use super::terminal::{complain, print, say};
 use super::{DONE, FAILED, Failure};
 use crate::output::GLOBAL_VARIABLES;
 use crate::view::{Direction, StateChoice, ViewError, ViewOptions};
 use crate::{deck, exodus, mesher, view};
 use std::path::PathBuf;
-
-/// Advice where an output would be written over an input.
-const ANOTHER_NAME: &str = "name another file with --output";
 
 /// `urto explain`
 pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
