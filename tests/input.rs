@@ -81,7 +81,10 @@ fn no_output_is_written_over_an_input() {
         (&["r.i", "-m", "r.mesh", "-o", "r.mesh", "-q", "--ranks", "1", "--split", "--restart", "r.mesh"], "r.mesh"),
         (&["view", "picture.png"], "picture.png is the file to draw"),
         (&["view", "bar.g", "-o", "picture.png", "--animate"], "no states"),
-        (&["plot", "me.e", "-v", "KE", "--reference", "data.csv", "--csv", "-o", "data.csv"], "data.csv is the reference"),
+        (
+            &["plot", "me.e", "-v", "KE", "--reference", "data.csv", "--csv", "-o", "data.csv"],
+            "data.csv is the reference",
+        ),
         (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.i"], "bar.i is the deck"),
         (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.g"], "bar.g is the mesh"),
         (&["scale", "r.i", "--ranks", "1", "--csv", "r.inc"], "r.inc is the recipe of the mesh"),
