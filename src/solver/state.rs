@@ -24,7 +24,7 @@ impl Solver {
             time_step,
             initial_energy,
             first_stable_step,
-            supplied_peak,
+            watch,
             last_totals,
             // Of the step: found anew by `prepare`.
             stable_step: _,
@@ -33,8 +33,6 @@ impl Solver {
             pass: _,
             // Of the problem.
             clock: _,
-            energy_floor: _,
-            stored_energy: _,
             control: _,
             functions: _,
         } = self;
@@ -43,7 +41,6 @@ impl Solver {
         archive.number("LASTTIME", previous_time);
         archive.number("TMSTEP", time_step);
         archive.number("INITIALE", initial_energy);
-        archive.number("SUPPLIED", supplied_peak);
         let mut first = first_stable_step.unwrap_or(f64::INFINITY);
         archive.number("FIRSTSTEP", &mut first);
         *first_stable_step = first.is_finite().then_some(first);
@@ -51,6 +48,7 @@ impl Solver {
             *last_totals = None;
         }
         domain.visit_state(archive);
+        watch.visit_state(archive);
     }
 
     /// Goes on from a state, of this problem but of any number of ranks. All ranks call it.
