@@ -1,4 +1,4 @@
-//! Nodes that have sunk deeper than half an element into the outermost elements of others, where contact does not hold them.
+//! Nodes that are in the outermost elements of others, and how deep: beyond half an element contact does not hold them.
 
 use super::Contact;
 use super::face;
@@ -8,7 +8,8 @@ use super::setup::ABSENT;
 use crate::comm::Communicator;
 use crate::mesh::HEX_SIDES;
 use crate::mesh::check::hexahedron_volume;
-use crate::solver::nodes::{Nodes, dot};
+use crate::solver::body::centroid;
+use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A node inside an element that is not its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,12 +18,15 @@ pub struct Sunk {
     pub node: u32,
     /// Canonical number of the element.
     pub element: u32,
-    /// Depth below the nearest outer face of the element, in thicknesses of the element there; 1/2 or more.
+    /// Depth below the nearest outer face of the element, in thicknesses of the element there.
     pub depth: f64,
 }
 
 /// An element by its canonical number and its local nodes.
 pub type Outer = (u32, [u32; 8]);
+
+/// Elements are seen larger by this part, so that a point between two of them is in both.
+const LARGER: f64 = 1e-3;
 
 /// Bytes of a point on its way to other ranks: its number and its position.
 const PARCEL: usize = 4 + 3 * 8;
@@ -38,7 +42,8 @@ impl Contact {
         elements
     }
 
-    /// The nodes of all ranks that have sunk into some of these elements, those of this rank. All ranks call it.
+    /// The nodes of all ranks that are in some of these elements, those of this rank; a node is told once for each element
+    /// that it is in. All ranks call it.
     pub fn sunk(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<Sunk> {
         let points = self.points_of_all(nodes, comm);
         let corners = |outer: &Outer| outer.1.map(|node| nodes.position(node));
@@ -55,18 +60,21 @@ impl Contact {
                 .iter()
                 .map(|&element| &elements[element as usize])
                 .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node));
-            let sunk = of_others.filter_map(|outer| {
+            found.extend(of_others.filter_map(|outer| {
                 let depth = self.depth(outer.0, &corners(outer), *at)?;
                 Some(Sunk { node, element: outer.0, depth })
-            });
-            found.extend(sunk.max_by(|a, b| a.depth.total_cmp(&b.depth)));
+            }));
         }
         found
     }
 
-    /// How deep a point is in an element, in thicknesses below the nearest of its outer faces; `None` where that is less
-    /// than half of it, or where the point is not in the element.
+    /// How deep a point is in an element, in thicknesses below the nearest of its outer faces; `None` where it is not in it.
     fn depth(&self, element: u32, corners: &[[f64; 3]; 8], point: [f64; 3]) -> Option<f64> {
+        let middle = centroid(corners);
+        let larger = corners.map(|corner| add(middle, scaled(subtract(corner, middle), 1.0 + LARGER)));
+        if !is_inside(&larger, point) {
+            return None;
+        }
         let volume = hexahedron_volume(corners);
         let mut least = f64::INFINITY;
         for (side, of_side) in (0..).zip(HEX_SIDES) {
@@ -74,14 +82,12 @@ impl Contact {
                 continue;
             }
             let face = of_side.map(|corner| corners[corner]);
-            let stand = face::stand(&face, point)?;
             let area = face::area_normal(&face);
+            // A face without area says nothing.
+            let Some(stand) = face::stand(&face, point) else { continue };
             least = least.min(-stand.gap * dot(area, area).sqrt() / volume);
-            if least.is_nan() || least < 0.5 {
-                return None;
-            }
         }
-        (least.is_finite() && is_inside(corners, point)).then_some(least)
+        least.is_finite().then_some(least)
     }
 
     /// Points that CONTACT MATERIAL lets touch, of all ranks, and where they are; on each rank.

@@ -24,7 +24,7 @@ fn with_cube(more: &str, test: impl FnOnce(&mut Solver)) {
     );
     let problem = examine(Source::new("test deck", &deck), Some(&mesh));
     let model: Model = problem.unwrap_or_else(|found| panic!("{}", found.render(false))).model;
-    let body = Body::new(&mesh, &model);
+    let body = Body::new(&mesh, &model).expect("every block has a material");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
     let share = Decomposition::new(&contributors, mesh.coordinates.len(), 1).share(0);

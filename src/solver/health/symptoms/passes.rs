@@ -7,7 +7,7 @@ use crate::solver::health::place::worst_nodes;
 use crate::solver::health::watch::Exam;
 
 /// Fewer steps than these say nothing.
-const ENOUGH: u64 = 20;
+const ENOUGH: u64 = 100;
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 9,

@@ -27,21 +27,44 @@ pub const SYMPTOM: Symptom = Symptom {
              squashed, DEATH",
 };
 
-/// What has sunk into elements of this rank.
+/// Deeper than this part of an element contact does not hold a node.
+const DEEP: f64 = 0.5;
+
+/// What has sunk into elements of this rank. A node between elements is as deep as the element says in which it is least
+/// so: at a hollow edge the others have no outer face near it.
 fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Sunk> {
     let domain = &exam.solver.domain;
     let Some(contact) = &domain.contact else { return Vec::new() };
     let outer = contact.outer_elements();
     let mut is_outer = vec![false; domain.element_canonical.len()];
-    let mut of_all = outer.iter().peekable();
+    let mut numbers = outer.iter().peekable();
     for (is_outer, canonical) in is_outer.iter_mut().zip(&domain.element_canonical) {
-        while of_all.next_if(|first| *first < canonical).is_some() {}
-        *is_outer = of_all.peek() == Some(&canonical);
+        while numbers.next_if(|first| *first < canonical).is_some() {}
+        *is_outer = numbers.peek() == Some(&canonical);
     }
     let here = elements(domain).filter(|(_, group, i)| is_outer[group.places[*i] as usize]);
     let here: Vec<(u32, [u32; 8])> =
         here.map(|(_, group, i)| (domain.element_canonical[group.places[i] as usize], group.nodes(i))).collect();
-    contact.sunk(&here, &domain.nodes, comm)
+    let found = contact.sunk(&here, &domain.nodes, comm);
+    let mut count = [found.iter().filter(|sunk| sunk.depth >= DEEP).count() as u64];
+    comm.all_sum(&mut count);
+    if count[0] == 0 {
+        return Vec::new();
+    }
+    let (deep, shallow): (Vec<Sunk>, Vec<Sunk>) = found.into_iter().partition(|sunk| sunk.depth >= DEEP);
+    let shallow = of_all(shallow.iter().map(|sunk| sunk.node).collect(), comm);
+    deep.into_iter().filter(|sunk| shallow.binary_search(&sunk.node).is_err()).collect()
+}
+
+/// The numbers of all ranks, each once, ascending.
+fn of_all(mut numbers: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
+    if comm.size() > 1 {
+        let others = numbers_of_others(&numbers, comm);
+        numbers.extend(others.into_iter().flat_map(|(_, theirs)| theirs));
+    }
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
 }
 
 fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
@@ -49,13 +72,7 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
         return Vec::new();
     }
     // Of several elements that a node is in, of one rank or of many, it counts once.
-    let mut nodes: Vec<u32> = sunk(exam, comm).iter().map(|sunk| sunk.node).collect();
-    if comm.size() > 1 {
-        let others = numbers_of_others(&nodes, comm);
-        nodes.extend(others.into_iter().flat_map(|(_, nodes)| nodes));
-    }
-    nodes.sort_unstable();
-    nodes.dedup();
+    let nodes = of_all(sunk(exam, comm).iter().map(|sunk| sunk.node).collect(), comm);
     let count = nodes.len() as u64;
     // Those that begin there are told at the start.
     let new = count.saturating_sub(exam.facts.overlap.left.nodes as u64);
