@@ -130,6 +130,8 @@ impl Default for Model {
             deletions: Vec::new(),
             plot_requests: PlotRequests::default(),
             material_points: Vec::new(),
+            histories: Vec::new(),
+            history_interval: None,
             restarts: Restarts::default(),
         }
     }
