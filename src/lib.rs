@@ -9,6 +9,7 @@ pub mod cli;
 pub mod comm;
 pub mod deck;
 pub mod exodus;
+pub mod files;
 pub mod lanes;
 pub mod material;
 pub mod mesh;

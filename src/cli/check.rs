@@ -6,6 +6,7 @@ use super::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::output::print::{self, scientific};
 use crate::partition::Decomposition;
+use crate::run::Endless;
 use crate::solver::elements::hex8::rows;
 use crate::solver::{Body, Request, Solver, state_names};
 use std::time::Instant;
@@ -24,7 +25,7 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
         say(format_args!("assumed: {}", note.message));
     }
     say(model.title.trim());
-    let body = Body::new(&given.mesh, model);
+    let body = given.body()?;
     if let Some(warning) = body.overlap.left.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }
@@ -73,6 +74,10 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     solver.prepare(Request::Continue, comm).map_err(stopped)?;
     let place = solver.controlling_element(comm);
     let first = solver.time_step;
+    if let Some(endless) = Endless::at(solver.time, first, model.termination_time) {
+        let place = format!("set by element {} of block {}", place.element, place.block);
+        return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
+    }
     let begun = Instant::now();
     for _ in 0..TRIAL_STEPS {
         solver.advance();

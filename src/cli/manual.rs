@@ -99,6 +99,7 @@ fn written() -> String {
 const CLOSING: &str = r#".SH FILES
 All files of a run have one base name: the deck's, or that of
 .BR \-\-output .
+No verb writes over a file that it reads, by whatever name or link; old results are replaced.
 .TP
 .B BASE.i
 The deck, see
@@ -106,6 +107,9 @@ The deck, see
 .TP
 .B BASE.g
 The mesh: GENESIS with hexahedra (HEX8), wedges (WEDGE6) and pyramids (PYRAMID5), EXODUS II in any netCDF format, or EXODUS I.
+It is the whole mesh, not a piece of one that was cut for several ranks. Numbers of blocks, sets, nodes and elements may
+begin with 0. Files of netCDF-4 are first read by a process of their own, of which nothing is seen: the HDF5 library does not
+survive every damaged file. It reads files up to 64 MB whole, of larger ones all but the values.
 .TP
 .B BASE.mesh
 A recipe, from which
@@ -148,12 +152,13 @@ the files are the same.
 .TP
 .B 1
 The run failed: an inverted element, a motion that is no longer a number, a collapsing time step, energy running away,
-a file that cannot be written. The last state is written and the cause named. For
+a file that cannot be written, or a full standard output. The last state is written and the cause named. For
 .BR diff ,
-the files differ.
+the files differ; a picture, a mesh or a table could not be written. A reader who closes the pipe early is no failure.
 .TP
 .B 2
-The deck, the mesh or the command line is wrong. For
+The deck, the mesh, the results to draw or to join, or the command line is wrong; a file that is read would be written
+over; or the run would take more than 1E12 steps. For
 .BR diff ,
 the files cannot be compared.
 .TP

@@ -49,6 +49,8 @@ pub enum Verb {
     Join(Join),
     #[command(hide = true)]
     Generate(Generate),
+    #[command(hide = true)]
+    Probe(Probe),
 }
 
 /// Where deck and mesh are.
@@ -366,6 +368,13 @@ pub struct Join {
 pub struct Generate {
     /// What to print
     pub what: Generated,
+}
+
+/// Reads all of an EXODUS file and says nothing: other processes learn by it whether the file can be read
+#[derive(Debug, Args)]
+pub struct Probe {
+    /// The file
+    pub file: PathBuf,
 }
 
 /// What `generate` prints.

@@ -1,6 +1,7 @@
 //! `urto plot`: curves from results and histories.
 
 use super::options;
+use super::outputs::{ANOTHER_NAME, Inputs};
 use super::terminal::{complain, say};
 use super::{DONE, Failure};
 use crate::output::print::scientific;
@@ -15,6 +16,8 @@ pub fn plot(options: &options::Plot) -> Result<u8, Failure> {
     }
     let output = output(options)?;
     let wanted = wanted(options)?;
+    let inputs = Inputs::default().with("a file to draw", &options.files).with("the reference", &options.reference);
+    inputs.spare([&output], ANOTHER_NAME)?;
     let drawn = match options.csv {
         true => plot::tabulate(&output, &wanted),
         false => plot::draw(&output, &wanted),

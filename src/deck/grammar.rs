@@ -131,7 +131,7 @@ pub enum Kind {
     Number,
     /// A whole number.
     Integer,
-    /// The number of something: "block", "node set", "side set", "function"; at least 1.
+    /// The number of something: "block", "node set", "side set", "function"; at least 0, of functions 1.
     Id(&'static str),
     /// One of some words.
     Choice(Vec<Choice>),

@@ -45,8 +45,13 @@ impl Deck {
         };
         if reader.is_text() {
             reader.read_all();
-            reader.report_unbuilt();
-            reader.report_missing();
+            if reader.diagnostics.is_full() {
+                // What is there would only lead to messages about what is not.
+                reader.cards.clear();
+            } else {
+                reader.report_unbuilt();
+                reader.report_missing();
+            }
         }
         let Reader { cards, diagnostics, .. } = reader;
         (Deck { source, cards }, diagnostics)
@@ -84,6 +89,9 @@ impl<'a> Reader<'a> {
 
     fn read_all(&mut self) {
         while let Some(record) = self.next_record() {
+            if self.diagnostics.is_full() {
+                return self.diagnostics.leave_unread(record.span());
+            }
             let Some(found) = self.identify(&record) else { continue };
             if found.sure && found.entry.name == EXIT {
                 self.after_exit(&record);
@@ -189,6 +197,10 @@ impl<'a> Reader<'a> {
         let owner = card.maybe_integer(entry.fields.first().map_or("", |f| &f.name));
         let owner = owner.map_or(entry.name.clone(), |id| format!("{} {id}", entry.name));
         while let Some(record) = self.next_record() {
+            if self.diagnostics.is_full() {
+                self.pending = Some(record);
+                return;
+            }
             if record.fields[0].is_word() && record.fields[0].text == END {
                 return self.end_of_group(&record);
             }

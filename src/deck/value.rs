@@ -62,8 +62,14 @@ fn integer(rule: &FieldRule, field: &Field) -> Result<i64, Wrong> {
 }
 
 fn id(what: &str, field: &Field) -> Result<i64, Wrong> {
+    // Some programs number what a mesh has from 0 on.
+    let least = i64::from(what == "function");
     let value = whole(field)?;
-    if value > 0 { Ok(value) } else { Err(Wrong::must(format!("1 or more, as the number of every {what} is"))) }
+    if value >= least {
+        Ok(value)
+    } else {
+        Err(Wrong::must(format!("{least} or more, as the number of every {what} is")))
+    }
 }
 
 fn whole(field: &Field) -> Result<i64, Wrong> {

@@ -14,6 +14,9 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     let mut found = Diagnostics::new(problem.deck.source.clone());
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         references(card, mesh, &mut found);
+        if found.is_full() {
+            return found;
+        }
     }
     blocks_without_material(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
@@ -144,7 +147,10 @@ fn blocks_without_material(problem: &Problem, mesh: &Mesh, found: &mut Diagnosti
     if named.is_empty() {
         return; // A deck without any MATERIAL has been reported as such.
     }
-    for block in mesh.blocks.iter().filter(|b| !named.contains(&b.id)) {
+    // A material that is named but was not understood has been reported; else it must be there, not only named.
+    let understood = !problem.diagnostics.has_errors();
+    let made = |id: i64| problem.model.materials.iter().any(|material| material.block == id);
+    for block in mesh.blocks.iter().filter(|b| !named.contains(&b.id) || (understood && !made(b.id))) {
         let name = if block.name.is_empty() { String::new() } else { format!(" ({})", block.name) };
         let message = format!("element block {}{name} of the mesh has no MATERIAL", block.id);
         found.push(

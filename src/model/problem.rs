@@ -75,6 +75,9 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     for family in FAMILIES {
         defaults(family, &mut draft);
         for card in deck.cards.iter().filter(|card| card.complete) {
+            if draft.found.is_full() {
+                break;
+            }
             if let Some((_, set)) = family.iter().find(|(name, _)| *name == card.name) {
                 set(card, &mut draft);
             }
@@ -82,6 +85,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     }
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
+    material::refuse_lawless(&mut draft);
     output::finish(&mut draft);
     restart::finish(&mut draft);
     function::report_unused(&mut draft);

@@ -1,5 +1,6 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
+mod endless;
 mod files;
 mod identity;
 mod memory;
@@ -8,6 +9,7 @@ mod report;
 mod restart;
 mod table;
 
+pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, told};
 pub use report::{Display, Quiet};
@@ -95,6 +97,9 @@ pub enum RunError {
         /// Why the last state could not be written, if it could not.
         unwritten: Option<Box<RunError>>,
     },
+    /// The first step is so short that the run would take for ever.
+    #[error(transparent)]
+    Endless(#[from] Endless),
     /// The plot file.
     #[error(transparent)]
     Results(#[from] ResultsError),
@@ -156,6 +161,11 @@ fn steps(
             Ok(agreed) => agreed,
             Err(stop) => return give_up(stop, solver, writer, comm),
         };
+        if solver.step == writer.first_step
+            && let Some(endless) = Endless::at(solver.time, solver.time_step, model.termination_time)
+        {
+            return Err(endless.into());
+        }
         // The last state is the one nearest to the termination time.
         let last = agreed != Request::Continue || solver.time + 0.5 * solver.time_step >= model.termination_time;
         let plot_due = plots.due(solver.time, solver.time_step);

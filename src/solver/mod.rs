@@ -21,7 +21,7 @@ mod state;
 mod stop;
 mod totals;
 
-pub use body::{Body, Cut, centroid};
+pub use body::{Body, Cut, NoMaterial, centroid};
 pub use clock::{Clock, Section};
 pub use domain::{Domain, state_names};
 pub use remembered::Remembered;

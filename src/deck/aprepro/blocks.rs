@@ -53,6 +53,8 @@ pub(super) enum Part {
     Echo(bool),
 }
 
+/// Mistakes of one file at most; then the rest of it is left alone.
+const MOST_MISTAKES: usize = 100;
 /// Blocks within each other at most.
 const DEEPEST: usize = 50;
 
@@ -68,6 +70,9 @@ pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>) {
         let message = format!("{} has no {opener} before it", parser.source.slice(stray.place));
         parser.wrong.push(Diagnostic::error(message).at(stray.place, "no block is open here"));
         parser.line += 1;
+        if parser.wrong.len() >= MOST_MISTAKES {
+            break;
+        }
     }
     (nodes, parser.wrong)
 }
@@ -100,6 +105,10 @@ impl Parser<'_> {
         let mut nodes = Vec::new();
         while self.line < self.source.line_count() {
             let parts = self.parts();
+            if self.wrong.len() >= MOST_MISTAKES {
+                self.give_up::<()>();
+                break;
+            }
             let Some(word) = self.governing(&parts) else {
                 if self.given_up {
                     break;
