@@ -108,7 +108,7 @@ fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -
 fn references(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let Some(entry) = language().entry(&card.name) else { return };
     for field in &entry.fields {
-        if let Kind::Id(what @ ("block" | "node set" | "side set")) = field.kind {
+        if let Kind::Id(what @ ("block" | "node set" | "side set")) | Kind::IdOrAll(what) = field.kind {
             for item in card.items(&field.name) {
                 reference(card, what, item, mesh, found);
             }
