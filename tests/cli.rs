@@ -156,6 +156,11 @@ fn check_foretells_and_runs_nothing() {
         "deck and mesh are sound",
     ]);
     assert_eq!(std::fs::read_dir(desk.path(".")).expect("the folder").count(), 2);
+    put_bar(&desk, 1e-3, "PLO TIM, 1.E-4\nPLO NOD, DIS, VEL, REAC\nPLO ELE, STRE, STRA, PRESS, VON\n");
+    let left = desk.urto(&["check", "bar.i"]).with(0);
+    assert!(left.out.starts_with("A bar\nmesh bar.g"), "what is modelled comes first:\n{}", left.out);
+    left.says(&["assumed: PLOT TIME for `PLO TIM`, ", " and 6 more, which the log of a run lists\n"]);
+    put_bar(&desk, 1e-3, "NO DISPLACEMENT, X, 1\n");
     desk.put("wrong.i", "TITLE\n x\n");
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["TERMINATION TIME", "MATERIAL"]);
 }

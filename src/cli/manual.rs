@@ -136,8 +136,9 @@ Nemesis.
 makes BASE.e of them.
 .TP
 .B BASE.h
-Histories of the points of MATERIAL POINT, if the deck has any: an EXODUS file of the watched elements, with one state per
-OUTPUT TIME and global variables such as SIGZZ_1.
+Histories of what MATERIAL POINT and HISTORY watch, if the deck has any: an EXODUS file of the watched elements, with one state
+per HISTORY TIME (else OUTPUT TIME) and global variables such as SIGZZ_1 and ACCLZ_BLOCK3, for
+.BR "urto plot" .
 .TP
 .B BASE.shutdown
 When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one

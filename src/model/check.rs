@@ -28,7 +28,25 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for (&point, card) in problem.model.material_points.iter().zip(problem.deck.cards_of("MATERIAL POINT")) {
         outside_the_mesh(point, card, mesh, &mut found);
     }
+    for card in problem.deck.cards_of("HISTORY NODE").filter(|card| card.complete) {
+        nodes_there(card, mesh, &mut found);
+    }
     found
+}
+
+/// Reports nodes to watch that the mesh does not have.
+fn nodes_there(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    for item in card.items("node") {
+        let (Some(id), Some(span)) = (item.value.integer(), item.span) else { continue };
+        if !mesh.node_ids.contains(&id) {
+            let ends = [mesh.node_ids.iter().min(), mesh.node_ids.iter().max()].map(|id| id.copied().unwrap_or(0));
+            found.push(
+                Diagnostic::error(format!("{}: the mesh has no node {id}", card.name))
+                    .at(span, "no node of the mesh has this number")
+                    .help(format!("its nodes are numbered from {} to {}", ends[0], ends[1])),
+            );
+        }
+    }
 }
 
 /// Warns of a point to watch where there is no material.
@@ -90,7 +108,7 @@ fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -
 fn references(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let Some(entry) = language().entry(&card.name) else { return };
     for field in &entry.fields {
-        if let Kind::Id(what @ ("block" | "node set" | "side set")) = field.kind {
+        if let Kind::Id(what @ ("block" | "node set" | "side set")) | Kind::IdOrAll(what) = field.kind {
             for item in card.items(&field.name) {
                 reference(card, what, item, mesh, found);
             }

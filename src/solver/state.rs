@@ -26,6 +26,7 @@ impl Solver {
             first_stable_step,
             watch,
             last_totals,
+            remembered,
             // Of the step: found anew by `prepare`.
             stable_step: _,
             kick: _,
@@ -47,6 +48,7 @@ impl Solver {
         if archive.loading() {
             *last_totals = None;
         }
+        remembered.visit_state(archive);
         domain.visit_state(archive);
         watch.visit_state(archive);
     }
