@@ -36,7 +36,7 @@ struct Found {
 }
 
 fn run(mesh: &Mesh, model: &Model) -> Found {
-    let body = Body::new(mesh, model);
+    let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), 1);

@@ -1,5 +1,6 @@
 //! Finds and reads deck and mesh.
 
+use super::outputs::Inputs;
 use super::terminal::complain;
 use super::{Failure, options};
 use crate::deck::{Diagnostics, Source};
@@ -23,7 +24,12 @@ pub struct Given {
     pub problem: Problem,
     /// The mesh.
     pub mesh: Mesh,
+    /// The files of the mesh: itself, or the recipe and what it includes.
+    pub mesh_files: Vec<PathBuf>,
 }
+
+/// A mesh, and the files that it was read or made from.
+pub type MeshOf = (Mesh, Vec<PathBuf>);
 
 impl Given {
     /// Reads both, or returns every mistake of both.
@@ -51,10 +57,10 @@ impl Given {
         })
     }
 
-    /// The body in its initial state, or why it cannot begin: bodies that overlap and cannot be moved apart.
+    /// The body before it is cut, or why it cannot begin: bodies that overlap and cannot be moved apart.
     pub fn body(&self) -> Result<Body, Failure> {
         let model = &self.problem.model;
-        let body = Body::new(&self.mesh, model);
+        let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
         match body.overlap.refusal(&self.mesh) {
             Some(refusal) if model.contact.control.overlap == ContactOverlap::Refuse => Err(Failure::input(refusal)),
             _ => Ok(body),
@@ -64,21 +70,29 @@ impl Given {
     fn read_with(
         input: &options::Input,
         ranks: Option<u32>,
-        read: &mut dyn FnMut(&Path) -> Result<Mesh, Failure>,
+        read: &mut dyn FnMut(&Path) -> Result<MeshOf, Failure>,
     ) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
         let source = open(&deck, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
-        match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
-            (Ok(problem), Ok((mesh, mesh_path))) => Ok(Given { deck, mesh_path, problem, mesh }),
+        match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
+            (Ok(problem), Ok(((mesh, mesh_files), mesh_path))) => {
+                Ok(Given { deck, mesh_path, problem, mesh, mesh_files })
+            }
             (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
             (Ok(_), Err(failure)) => Err(failure),
             (Err(mistakes), Err(failure)) => {
                 Err(Failure::input(format_args!("{}\n{}", render(&mistakes), failure.message)))
             }
         }
+    }
+
+    /// The files that all of this was read from.
+    pub fn inputs(&self) -> Inputs {
+        let mesh = if is_recipe(&self.mesh_path) { "the recipe of the mesh" } else { "the mesh" };
+        Inputs::default().with("the deck", self.problem.deck.source.files()).with(mesh, &self.mesh_files)
     }
 
     /// Warnings that the user should see.
@@ -90,7 +104,7 @@ impl Given {
     }
 
     /// A warning about nodes that belong to no element: they have no mass and take no part.
-    fn idle_nodes(&self) -> Option<String> {
+    pub fn idle_nodes(&self) -> Option<String> {
         let idle = unreferenced_nodes(&self.mesh);
         let first: Vec<String> =
             idle.iter().take(5).map(|&node| self.mesh.node_ids[node as usize].to_string()).collect();
@@ -140,8 +154,11 @@ fn read_or_make(
     path: &Path,
     ranks: Option<u32>,
     read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
-) -> Result<Mesh, Failure> {
-    if is_recipe(path) { make_mesh(path, 1, ranks) } else { read(path).map_err(Failure::input) }
+) -> Result<MeshOf, Failure> {
+    if is_recipe(path) {
+        return make_mesh(path, 1, ranks);
+    }
+    read(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input)
 }
 
 fn is_recipe(path: &Path) -> bool {
@@ -149,7 +166,7 @@ fn is_recipe(path: &Path) -> bool {
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
-pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh, Failure> {
+pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<MeshOf, Failure> {
     let source = open(recipe, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
     let (mesh, found) =
@@ -157,7 +174,7 @@ pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh,
     if !found.is_empty() {
         complain(render(&found));
     }
-    Ok(mesh)
+    Ok((mesh, found.source().files().into_iter().map(PathBuf::from).collect()))
 }
 
 /// The mesh as named, or `x.g` beside the deck, or in `meshes/` beside the deck's folder, or its recipe there.

@@ -26,6 +26,7 @@ pub fn scale(options: &options::Scale) -> Result<u8, Failure> {
 /// The problem, with what the options replace.
 fn read(options: &options::Scale, ranks: Option<u32>) -> Result<Given, Failure> {
     let mut given = Given::read_for(&options.input, ranks)?;
+    given.inputs().spare(&options.csv, "name another file with --csv")?;
     let chosen = &mut given.problem.model.contact.control.decomposition;
     *chosen = match options.decomposition {
         None => *chosen,
@@ -79,9 +80,10 @@ fn count(options: &options::Scale, given: &Given, body: &Body, ranks: u32) -> Re
     let model = &given.problem.model;
     scale::count(&given.mesh, model, body, ranks as usize, machine(options).ranks_of_node, u64::from(options.steps))
         .map_err(|failure| match *failure {
-            RankFailure::Failed { error, .. } => {
-                Failure::run(format_args!("error: the run would stop: {error}\nhelp: {}", error.advice()))
-            }
+            RankFailure::Failed { error, .. } => Failure::run(format_args!(
+                "error: the run would stop: {error}\nhelp: {}",
+                error.advice().join("\nhelp: ")
+            )),
             other => Failure::run(format_args!("error: {other}")),
         })
 }

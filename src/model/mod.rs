@@ -78,8 +78,25 @@ pub struct Model {
     pub plot_requests: PlotRequests,
     /// Points of the undeformed mesh whose elements have their histories written.
     pub material_points: Vec<[f64; 3]>,
+    /// What else has its history written, in the order of the deck.
+    pub histories: Vec<Watched>,
+    /// Interval of histories; without one they are written with the lines of the print log.
+    pub history_interval: Option<f64>,
     /// Restarts to write and to go on from.
     pub restarts: Restarts,
+}
+
+/// HISTORY: what is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Watched {
+    /// Every block, as a body.
+    Blocks,
+    /// The block with this number, as a body.
+    Block(i64),
+    /// The node set with this number.
+    NodeSet(i64),
+    /// The node with this number.
+    Node(i64),
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.
@@ -265,6 +282,17 @@ pub enum InitialVelocity {
         /// Velocity vector.
         velocity: [f64; 3],
     },
+    /// Every node of an element block, away from a point or from an axis.
+    Radial {
+        /// Element block number.
+        block: i64,
+        /// Speed, negative towards the point or the axis.
+        speed: f64,
+        /// The point, or a point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis, unit length; `None` for the point alone.
+        axis: Option<[f64; 3]>,
+    },
     /// Rotation of an element block about an axis, added to the velocity the nodes already have.
     Angular {
         /// Element block number.
@@ -328,6 +356,8 @@ pub struct PlotRequests {
     pub element: Vec<ElementField>,
     /// Names of material state variables.
     pub state: Vec<String>,
+    /// Energies of each block, as global variables.
+    pub block_energies: bool,
 }
 
 /// Groups of columns that STEP LOG can ask for.
@@ -424,6 +454,8 @@ fields! {
         Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R";
         /// q
         BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
+        /// corner Jacobian
+        Corners = "CORNERS", ["CORNER"], "least Jacobian of the corners over the mean one: 1 in a parallelepiped, 0 or less where a corner is inside out";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank

@@ -1,5 +1,6 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
+mod endless;
 mod files;
 mod identity;
 mod memory;
@@ -8,8 +9,9 @@ mod report;
 mod restart;
 mod table;
 
+pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
-pub use identity::{differences, told};
+pub use identity::{differences, other_form, told};
 pub use report::{Display, Quiet};
 pub use restart::{Continuation, states_beside};
 
@@ -18,7 +20,7 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::{Model, StepColumns};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
-use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
+use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, block_energy_names};
 use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
@@ -74,6 +76,8 @@ pub struct Ended {
     pub restart: bool,
     /// Relative error of the energy balance at the end.
     pub energy_error: f64,
+    /// What the run warned of, in a few words each.
+    pub warnings: Vec<String>,
     /// Wall-clock seconds per element and cycle.
     pub grind: f64,
     /// Wall-clock seconds of the step loop.
@@ -95,6 +99,9 @@ pub enum RunError {
         /// Why the last state could not be written, if it could not.
         unwritten: Option<Box<RunError>>,
     },
+    /// The first step is so short that the run would take for ever.
+    #[error(transparent)]
+    Endless(#[from] Endless),
     /// The plot file.
     #[error(transparent)]
     Results(#[from] ResultsError),
@@ -144,26 +151,39 @@ fn steps(
     let model = job.model;
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut lines = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
+    let every = model.history_interval.unwrap_or(model.output_interval);
+    let mut histories = Schedule::new(0.0, Some(every), f64::INFINITY);
     if job.continuation.is_some() {
         plots.pass(solver.previous_time, solver.time_step);
         lines.pass(solver.previous_time, solver.time_step);
+        histories.pass(solver.previous_time, solver.time_step);
     }
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
-            Err(stop) => return give_up(stop, solver, writer, comm),
+            Err(stop) => return give_up(stop, solver, writer, comm, display),
         };
+        if solver.step == writer.first_step
+            && let Some(endless) = Endless::at(solver.time, solver.time_step, model.termination_time)
+        {
+            return Err(endless.into());
+        }
         // The last state is the one nearest to the termination time.
         let last = agreed != Request::Continue || solver.time + 0.5 * solver.time_step >= model.termination_time;
         let plot_due = plots.due(solver.time, solver.time_step);
         let line_due = lines.due(solver.time, solver.time_step) || last || solver.step == 0;
         if (line_due || plot_due)
-            && let Err(stop) = solver.check_energy(comm)
+            && let Err(stop) = solver.look(comm)
         {
-            return give_up(stop, solver, writer, comm);
+            return give_up(stop, solver, writer, comm, display);
         }
+        writer.warnings(solver, comm, display)?;
+        let history_due = histories.due(solver.time, solver.time_step);
         if line_due {
             writer.line(solver, comm, display)?;
+        }
+        if history_due || last || solver.step == 0 {
+            writer.history(solver, comm, history_due)?;
         }
         if plot_due || last || solver.step == 0 {
             writer.state(solver, comm)?;
@@ -185,8 +205,10 @@ fn give_up(
     solver: &mut Solver,
     writer: &mut Writer,
     comm: &mut dyn Communicator,
+    display: &mut dyn Display,
 ) -> Result<Request, RunError> {
-    let written = writer.state(solver, comm).and_then(|()| writer.last_history(solver, comm));
+    let written = writer.warnings(solver, comm, display).and_then(|()| writer.state(solver, comm));
+    let written = written.and_then(|()| writer.history(solver, comm, false));
     let unwritten = written.err().map(Box::new);
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
@@ -208,16 +230,18 @@ struct Writer<'a> {
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
+    /// Number of warnings from reading deck and mesh.
+    told_before: usize,
 }
 
 impl<'a> Writer<'a> {
     fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model);
-        let names = [
-            fields.nodal_names(),
-            fields.element_names(),
-            GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
-        ];
+        let mut globals: Vec<String> = GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect();
+        if job.model.plot_requests.block_energies {
+            globals.extend(block_energy_names(job.mesh));
+        }
+        let names = [fields.nodal_names(), fields.element_names(), globals];
         Writer {
             plots: Plots::new(job, solver, share, [names[0].len(), names[1].len()], comm),
             fields,
@@ -234,6 +258,7 @@ impl<'a> Writer<'a> {
             termination_time: job.model.termination_time,
             last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
+            told_before: job.warnings.len(),
         }
     }
 
@@ -294,22 +319,20 @@ impl<'a> Writer<'a> {
         Ok(Some(ResultsWriter::create(&self.files.history, &header)?))
     }
 
-    /// Appends a state to the histories of material points.
-    fn history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+    /// Appends a state to the histories; all ranks learn whether that worked. What was due is compared with the next one.
+    fn history(&mut self, solver: &mut Solver, comm: &mut dyn Communicator, due: bool) -> Result<(), RunError> {
         if self.watched.is_empty() {
             return Ok(());
         }
-        let values = self.watched.values(solver, comm);
-        match (&mut self.histories, values) {
-            (Some(file), Some(values)) => Ok(file.write_state(solver.time, &values, &[], &[])?),
+        solver.clock.start();
+        let values = self.watched.values(solver, comm, due);
+        let outcome = match (&mut self.histories, values) {
+            (Some(file), Some(values)) => file.write_state(solver.time, &values, &[], &[]).map_err(RunError::from),
             _ => Ok(()),
-        }
-    }
-
-    /// Appends the state in which a run cannot go on; all ranks learn whether that worked.
-    fn last_history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        let outcome = self.history(solver, comm);
-        together(outcome, comm)
+        };
+        let outcome = together(outcome, comm);
+        solver.clock.stop(Section::Output);
+        outcome
     }
 
     fn print_error(&self, source: std::io::Error) -> RunError {
@@ -334,6 +357,24 @@ impl<'a> Writer<'a> {
         let outcome = together(outcome, comm);
         solver.clock.stop(Section::Output);
         outcome
+    }
+
+    /// Tells what the run has found out about itself.
+    fn warnings(
+        &mut self,
+        solver: &mut Solver,
+        comm: &mut dyn Communicator,
+        display: &mut dyn Display,
+    ) -> Result<(), RunError> {
+        let news = solver.new_findings();
+        // All ranks have found the same.
+        if news.is_empty() {
+            return Ok(());
+        }
+        news.iter().for_each(|finding| display.warning(finding));
+        let text: String = news.iter().map(print::warning).collect();
+        let printed = self.print(&text);
+        together(printed, comm)
     }
 
     /// Writes a line of the log.
@@ -363,8 +404,7 @@ impl<'a> Writer<'a> {
         };
         let printed = self.print(&print::step_line(self.step_log, &line));
         display.line(&line);
-        let outcome = self.history(solver, comm).and(printed);
-        let outcome = together(outcome, comm);
+        let outcome = together(printed, comm);
         solver.clock.stop(Section::Output);
         outcome
     }
@@ -407,8 +447,10 @@ impl<'a> Writer<'a> {
         let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
         let states = self.plots.states();
         let initial_energy = solver.initial_energy;
+        let warnings = print::labels(self.told_before, solver.findings());
         let ending = Ending {
-            outcome: &in_words(&outcome, step, time, time_step),
+            outcome: &(in_words(&outcome, step, time, time_step) + &print::with_warnings(&warnings).to_uppercase()),
+            findings: solver.findings(),
             steps: step,
             states,
             totals: &totals,
@@ -426,6 +468,7 @@ impl<'a> Writer<'a> {
             states,
             restart: self.restarts.is_some(),
             energy_error: totals.relative_error(initial_energy),
+            warnings,
             grind: table.grind(),
             wall,
         })
@@ -441,7 +484,7 @@ fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step
         }
         Err(RunError::Stopped { stop, .. }) => format!(
             "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
-            stop.advice()
+            stop.advice().join("\n  advice: ")
         ),
         Err(error) => format!("***** ERROR: {error}"),
     }

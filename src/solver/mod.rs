@@ -15,14 +15,17 @@ mod function;
 mod health;
 mod loads;
 pub mod nodes;
+mod remembered;
 mod silent;
 mod state;
 mod stop;
 mod totals;
 
-pub use body::{Body, Cut, centroid};
+pub use body::{Body, Cut, NoMaterial, centroid};
 pub use clock::{Clock, Section};
 pub use domain::{Domain, state_names};
+pub use health::{Evidence, Finding, Spot};
+pub use remembered::Remembered;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
 
@@ -33,6 +36,7 @@ use crate::model::{Function, Model, TimeStepControl};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
+use health::Watch;
 
 /// One rank's solver.
 pub struct Solver {
@@ -52,13 +56,14 @@ pub struct Solver {
     pub stable_step: f64,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
+    /// What histories compare the present state with.
+    pub remembered: Remembered,
     /// Energies and momenta when they were last summed, and the step at which that was.
     last_totals: Option<(u64, Totals)>,
     kick: f64,
     first_stable_step: Option<f64>,
-    supplied_peak: f64,
-    energy_floor: f64,
-    stored_energy: f64,
+    /// What the run has found out about itself.
+    watch: Watch,
     local: PassOutcome,
     control: TimeStepControl,
     pass: PassSettings,
@@ -95,8 +100,7 @@ impl Solver {
         let domain = Domain::new(mesh, model, body, share, comm);
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
-            energy_floor: health::energy_floor(body, model),
-            stored_energy: health::stored_energy(body, model),
+            watch: Watch::new(mesh, model, body, share, initial_energy),
             domain,
             clock: Clock::default(),
             step: 0,
@@ -105,10 +109,10 @@ impl Solver {
             time_step: 0.0,
             stable_step: 0.0,
             initial_energy,
+            remembered: Remembered::default(),
             last_totals: None,
             kick: 0.0,
             first_stable_step: None,
-            supplied_peak: initial_energy,
             local: PassOutcome::NOTHING,
             control: model.time_step,
             pass: PassSettings {
@@ -144,7 +148,8 @@ impl Solver {
                 // The forces of a failed element are no numbers; the state is shown as it was reached, without them.
                 self.domain.nodes.forces.fill(Force::default());
                 self.domain.forget_reactions();
-                return Err(stop);
+                comm.enter(Traffic::Output);
+                return Err(self.post_mortem(stop, comm));
             }
         };
         self.external_forces(comm);
@@ -152,12 +157,10 @@ impl Solver {
         comm.enter(Traffic::Output);
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
-            self.last_totals = Some((0, totals::totals(&self.domain, 0.0, comm)));
+            self.last_totals = Some((0, totals::totals(&mut self.domain, 0.0, comm)));
         }
         self.book_work();
-        if health::check_due(self.step) {
-            self.check_energy(comm)?;
-        }
+        self.glance(comm)?;
         Ok(agreed)
     }
 
@@ -177,7 +180,7 @@ impl Solver {
         match self.last_totals {
             Some((step, totals)) if step == self.step => totals,
             _ => {
-                let totals = totals::totals(&self.domain, self.kick, comm);
+                let totals = totals::totals(&mut self.domain, self.kick, comm);
                 self.last_totals = Some((self.step, totals));
                 totals
             }
@@ -189,6 +192,13 @@ impl Solver {
         let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
         let behind = if self.step == 0 { 0.0 } else { 0.5 * self.kick };
         nodes::add(v, nodes::scaled(a, behind))
+    }
+
+    /// Velocities of a local node half a step before and after the present state; both are the initial one at the start.
+    pub fn velocities_around(&self, node: u32) -> [[f64; 3]; 2] {
+        let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
+        let between = if self.step == 0 { 0.0 } else { self.kick };
+        [v, nodes::add(v, nodes::scaled(a, between))]
     }
 
     /// Brings what contact has found beside its forces to the nodes, where it is computed elsewhere; before

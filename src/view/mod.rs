@@ -11,14 +11,14 @@ mod error;
 mod field;
 mod film;
 mod lines;
-mod numbers;
+pub(crate) mod numbers;
 mod options;
 mod palette;
 mod raster;
 mod scene;
 mod skin;
 mod subject;
-mod text;
+pub(crate) mod text;
 
 use std::path::{Path, PathBuf};
 

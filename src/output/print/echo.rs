@@ -98,6 +98,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("ANALYSIS TYPE", "3D SOLID");
     out += &leader("TERMINATION TIME", &number(model.termination_time));
     out += &leader("PRINT OUTPUT AT INTERVALS OF", &number(model.output_interval));
+    if model.history_interval.is_some() {
+        out += &leader("WRITE HISTORIES AT INTERVALS OF", &interval(model.history_interval));
+    }
     out += &leader("WRITE PLOT FILE AT INTERVALS OF", &interval(model.plot.interval));
     out += &leader("START WRITING PLOT FILE AT TIME", &number(model.plot.start));
     out += &leader("STOP WRITING PLOT FILE AT TIME", &number(model.plot.stop));
@@ -199,6 +202,13 @@ fn conditions(model: &Model) -> String {
     let velocities = model.initial_velocities.iter().map(|v| match *v {
         InitialVelocity::Material { block, velocity } => format!("MATERIAL {block:>8}{}", vector(velocity)),
         InitialVelocity::NodeSet { node_set, velocity } => format!("NODE SET {node_set:>8}{}", vector(velocity)),
+        InitialVelocity::Radial { block, speed, point, axis } => {
+            let from = match axis {
+                Some(axis) => format!("{}   AXIS THROUGH{}", vector(axis), vector(point)),
+                None => format!("{}   POINT", vector(point)),
+            };
+            format!("RADIAL   {block:>8}{from}   SPEED {}", number(speed))
+        }
         InitialVelocity::Angular { block, omega, point, axis } => {
             format!("ANGULAR  {block:>8}{}   AXIS THROUGH{}   RATE {}", vector(axis), vector(point), number(omega))
         }

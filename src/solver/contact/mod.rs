@@ -16,6 +16,7 @@ pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
+mod gain;
 mod links;
 mod locate;
 mod neighbourhood;
@@ -30,6 +31,7 @@ pub mod search;
 mod setup;
 mod sites;
 mod state;
+mod sunk;
 pub mod surface;
 mod traffic;
 mod work;
@@ -48,6 +50,7 @@ use detect::{NONE, Past, Touch};
 use edges::PastPair;
 use enforce::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
 use faces::Faces;
+use gain::Gain;
 use locate::Reach;
 use planes::PlanePoint;
 use remote::Remote;
@@ -57,6 +60,7 @@ use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
 
 pub use overlap::{Left, Overlap, remove as remove_overlap};
+pub use sunk::Sunk;
 pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
@@ -88,6 +92,8 @@ pub struct Contact {
     lost_work: Vec<[f64; 2]>,
     /// What contact may give back of what it has taken.
     bank: Bank,
+    /// Energy that contact has made.
+    gain: Gain,
     /// What the log tells.
     pub tally: Tally,
     /// Number of searches so far.
@@ -169,6 +175,7 @@ impl Contact {
             limits: limits(model, &watched),
             lost_work: Vec::new(),
             bank: Bank::default(),
+            gain: Gain::default(),
             tally: Tally::default(),
             searches: 0,
             age: 0,
@@ -341,12 +348,6 @@ impl Contact {
         self.tally.passes += u64::from(passes);
         self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
-    }
-
-    /// Energy that contact has given beyond what it had taken before to make the overlaps that it lifted; at least 0, and
-    /// round-off unless something is wrong. The same on all ranks.
-    pub fn gain(&self) -> f64 {
-        self.bank.gain
     }
 
     /// Books half the step's work with the present velocities.

@@ -39,7 +39,8 @@ impl Contact {
             watches: _,
             lost_work: _,
             tally: Tally { steps, passes, capped, left, deepest, motions, farthest },
-            bank: Bank { balance, asked, work, gain },
+            bank: Bank { balance, asked, work, gain: excess },
+            gain,
             searches,
             age,
             skin,
@@ -59,6 +60,7 @@ impl Contact {
             limits: _,
             decomposition: _,
         } = self;
+        gain.visit_state(archive);
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
             archive.count("CONTSTEPS", steps);
@@ -71,7 +73,7 @@ impl Contact {
             archive.number("CONTBANK", balance);
             archive.number("CONTASKED", asked);
             archive.number("CONTSUM", work);
-            archive.number("CONTGAIN", gain);
+            archive.number("CONTEXCESS", excess);
             archive.count("CONTSEARCHES", searches);
             archive.count("CONTAGE", age);
         }
