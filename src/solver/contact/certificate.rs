@@ -4,7 +4,7 @@
 //! W = ½ P·(u⁻ + u⁺), which is what central differences gain. With the velocity u* without contact, the symmetric operator
 //! A that turns impulses into velocities, and a target t for u⁺,
 //!
-//! u⁺ = u* + A P,    s = clamp(P·(t − u*) / P·A P, 0, 1)   gives   s P·(u⁺ − t) ≤ 0,   so   W ≤ ½ s P·(u⁻ + t),
+//! u⁺ = u* + A P,    s = max(0, P·(t − u*) / P·A P)   gives   s P·(u⁺ − t) ≤ 0,   so   W ≤ ½ s P·(u⁻ + t),
 //!
 //! for any P at all, whether or not it solves anything. Targets that ask for no more than −u⁻ therefore can give nothing.
 //! An overlap that motion has made may be lifted out faster, and that is paid from a [`Bank`] which the losses of making it
@@ -15,6 +15,10 @@ use super::enforce::{Constraint, State};
 use crate::comm::ExactSum;
 use crate::solver::nodes::{dot, subtract};
 
+/// Farthest way along the ray. Passes that begin with less than the last forces end below what is needed, and everything that is
+/// pressed would creep into each other; the ray makes up for it on the whole.
+const FARTHEST: f64 = 2.0;
+
 /// A ray shortened by less than this is not shortened: round-off of its sums.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
@@ -23,30 +27,34 @@ const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 pub struct Bank {
     /// Energy that may be given back, at least 0.
     pub balance: f64,
-    /// Energy that the last step's forces would have given back, had all lifts been granted.
-    pub asked: f64,
+    /// Energy that the last step's forces would have given back, had all been granted: by bringing to rest what rises, and by
+    /// lifting.
+    pub asked: [f64; 2],
     /// Work of all contact forces so far.
     pub work: f64,
     /// Energy that contact has given beyond what the bank had; stays at round-off.
     pub gain: f64,
 }
 
+/// Parts, 0 to 1, that are granted of bringing to rest what rises, and of lifting.
+pub type Granted = [f64; 2];
+
+/// Part of a claim that an amount pays.
+fn paid(claim: f64, amount: f64) -> f64 {
+    if amount <= 0.0 { 0.0 } else { (amount / claim.max(amount)).min(1.0) }
+}
+
 impl Bank {
-    /// Part of the lifts that is granted at the beginning of a step: half of what the balance would pay at the last step's
-    /// forces.
-    pub fn part(&self) -> f64 {
-        if self.balance <= 0.0 {
-            0.0
-        } else if self.asked > 0.5 * self.balance {
-            0.5 * self.balance / self.asked
-        } else {
-            1.0
-        }
+    /// What is granted at the beginning of a step, at the last step's forces. To rise and to be brought to rest again cost the same,
+    /// one after the other: what is lifted is paid twice in advance, or it would sink back and chatter.
+    pub fn granted(&self) -> Granted {
+        let [rest, lift] = self.asked;
+        [paid(rest, self.balance), paid(2.0 * lift, self.balance - rest)]
     }
 }
 
 /// Number of [`Sums`].
-pub const COUNT: usize = 7;
+pub const COUNT: usize = 8;
 
 /// What a step's forces amount to, over all constraints of all ranks. Forces times velocities: with the step's kick Δt̄ they
 /// are energies.
@@ -71,8 +79,8 @@ impl Sums {
     }
 }
 
-/// The terms of one constraint, or the sums of many: force times target without lift − u*, force times lift; force times
-/// change of velocity and force times (u⁻ + u*), each normal and of friction; work of landing.
+/// The terms of one constraint, or the sums of many: force times (least target − u*), force times what brings to rest, force times
+/// lift; work of landing; force times change of velocity and force times (u⁻ + u*), each normal and of friction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Terms(pub [f64; COUNT]);
 
@@ -83,17 +91,18 @@ impl Terms {
         let along = dot(change, c.normal);
         let mut terms = [0.0; COUNT];
         terms[0] = push * (state.target.least - state.free);
-        terms[1] = push * state.target.lift;
-        terms[2] = push * along;
-        terms[4] = push * (state.before + state.free);
+        terms[1] = push * state.target.rest;
+        terms[2] = push * state.target.lift;
         if state.target.lands {
-            terms[6] = 0.5 * push * (state.before + state.target.least).min(0.0);
+            terms[3] = 0.5 * push * (state.before + state.target.least).min(0.0);
         }
+        terms[4] = push * along;
+        terms[6] = push * (state.before + state.free);
         if drag != [0.0; 3] {
             // Friction that goes with the sliding of before may at most turn it round.
             terms[0] -= dot(drag, state.slip_before).max(0.0) + dot(drag, state.slip);
-            terms[3] = dot(drag, change);
-            terms[5] = dot(drag, state.slip_before) + dot(drag, state.slip);
+            terms[5] = dot(drag, change);
+            terms[7] = dot(drag, state.slip_before) + dot(drag, state.slip);
         }
         Terms(terms)
     }
@@ -103,28 +112,37 @@ impl Terms {
         self.0.iter_mut().zip(other.0).for_each(|(sum, term)| *sum += term);
     }
 
-    /// How far to go along the ray of these forces with this part of the lifts, 0 to 1.
-    pub fn ray(&self, part: f64) -> f64 {
-        let (wanted, resisted) = (self.0[0] + part * self.0[1], self.0[2] + self.0[3]);
+    /// How far to go along the ray of these forces with these parts granted: to where they do no work against the targets, which is
+    /// also where they fit best.
+    pub fn ray(&self, [rest, lift]: Granted) -> f64 {
+        let wanted = self.0[0] + rest * self.0[1] + lift * self.0[2];
+        let resisted = self.0[4] + self.0[5];
         if resisted.is_nan() || wanted.is_nan() {
             return 0.0;
         }
-        if wanted >= resisted * (1.0 - ROUND_OFF) { 1.0 } else { (wanted / resisted).max(0.0) }
+        if (wanted - resisted).abs() <= ROUND_OFF * resisted.abs() {
+            return 1.0;
+        }
+        if resisted > 0.0 { (wanted / resisted).clamp(0.0, FARTHEST) } else { 1.0 }
     }
 
-    /// How far to go along the ray of these forces so that the bank can pay, and what that does to the bank. `part` of the
-    /// lifts was granted when the forces were found, `kick` is the step's Δt̄.
-    pub fn settle(&self, part: f64, kick: f64, bank: &mut Bank) -> f64 {
-        let asked = 0.5 * kick * self.0[1];
-        let part = if part * asked > bank.balance { bank.balance / asked } else { part };
-        let ray = self.ray(part);
+    /// How far to go along the ray of these forces so that the bank can pay, and what that does to the bank. These parts were
+    /// `granted` when the forces were found; `kick` is the step's Δt̄.
+    pub fn settle(&self, granted: Granted, kick: f64, bank: &mut Bank) -> f64 {
+        let asked = [0.5 * kick * self.0[1], 0.5 * kick * self.0[2]];
+        let rest = granted[0].min(paid(asked[0], bank.balance));
+        let lift = granted[1].min(paid(asked[1], bank.balance - rest * asked[0]));
+        let claim = rest * asked[0] + lift * asked[1];
+        let ray = self.ray([rest, lift]);
+        // Longer forces claim more.
+        let ray = if ray * claim > bank.balance { ray.min(1.0) } else { ray };
         let work = |free: f64, resisted: f64| 0.5 * kick * ray * (free + ray * resisted);
-        let (normal, friction) = (work(self.0[4], self.0[2]), work(self.0[5], self.0[3]));
-        let landing = kick * ray * self.0[6];
+        let (normal, friction) = (work(self.0[6], self.0[4]), work(self.0[7], self.0[5]));
+        let landing = kick * ray * self.0[3];
         bank.work += normal + friction;
         bank.gain += (normal + friction - bank.balance).max(0.0);
         bank.balance = (bank.balance - (normal + friction.max(0.0) - landing)).max(0.0);
-        bank.asked = ray * asked;
+        bank.asked = asked.map(|asked| ray * asked);
         ray
     }
 }
@@ -132,18 +150,21 @@ impl Terms {
 /// What velocity along its normal a constraint is to have after the step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
-    /// Without any lift.
+    /// What costs nothing.
     pub least: f64,
-    /// What may be added where the bank pays.
+    /// What is added to bring to rest what rises, where the bank pays.
+    pub rest: f64,
+    /// What is added to lift, where the bank pays.
     pub lift: f64,
-    /// Whether there was no overlap at the beginning of the step.
+    /// Whether its members meet anew: what they lose is no overlap's.
     pub lands: bool,
 }
 
 impl Target {
-    /// The target of a constraint with a gap at the end of a step of length `drift` if it goes with velocity `free`, where
-    /// it has had the velocity `before`.
-    pub fn of(gap: f64, sunk: f64, [before, free]: [f64; 2], drift: f64) -> Target {
+    /// The target of a constraint that would go with velocity `free` over a step of length `drift`, and has had the velocity
+    /// `before`.
+    pub fn of(c: &Constraint, [before, free]: [f64; 2], drift: f64) -> Target {
+        let (gap, sunk) = (c.gap, c.carried.sunk);
         let now = gap - drift * free;
         let wanted = if now >= 0.0 || sunk >= -now {
             // What closes the gap exactly.
@@ -151,9 +172,20 @@ impl Target {
         } else {
             sunk / drift
         };
-        let lift = before + wanted;
-        let least = if lift > 0.0 { -before } else { wanted };
-        Target { least, lift: lift.max(0.0), lands: now >= 0.0 }
+        let at_rest = wanted.min(0.0);
+        // Below −u⁻ work is negative for any force.
+        let least = at_rest.min(-before);
+        Target { least, rest: at_rest - least, lift: wanted - at_rest, lands: now >= 0.0 && !c.held }
+    }
+
+    /// The target with these parts granted.
+    pub fn with(&self, [rest, lift]: Granted) -> f64 {
+        // With all granted nothing is rounded twice.
+        if [rest, lift] == [1.0; 2] && self.lift == 0.0 {
+            if self.rest == 0.0 { self.least } else { self.least + self.rest }
+        } else {
+            self.least + rest * self.rest + lift * self.lift
+        }
     }
 }
 

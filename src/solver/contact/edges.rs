@@ -429,6 +429,7 @@ impl EdgeCheck<'_> {
             count: MEMBERS - 1,
             normal: scaled(end.normal, now.sense),
             gap,
+            held: now.carried != Carried::NOTHING,
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,

@@ -16,7 +16,7 @@
 //! and Candès 2015, for each force by itself).
 
 use super::carried::Carried;
-use super::certificate::{Bank, Sums, Target, Terms, sunk, tangential};
+use super::certificate::{Bank, Granted, Sums, Target, Terms, sunk, tangential};
 use super::points::Points;
 use crate::model::Friction;
 use crate::solver::constraints::StepTimes;
@@ -32,6 +32,10 @@ const BEGINNING: f64 = 0.4;
 /// would have next to none: where light nodes answer for themselves, too, the others between them would follow in thousands
 /// of passes.
 const LEAST_SHARE: f64 = 0.25;
+
+/// Passes go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks in while
+/// loads are small can be lifted only at the price of the loads that come.
+const SETTLED: f64 = 0.01;
 
 /// A constraint that its members can follow only by less than this part of how far they can move at all is held: a tilt of
 /// a thousandth between a normal and the directions that are held. Round-off would move it.
@@ -53,6 +57,8 @@ pub struct Constraint {
     pub normal: [f64; 3],
     /// Gap at the end of the step without contact.
     pub gap: f64,
+    /// Whether it was there in the step before; else its members meet anew.
+    pub held: bool,
     /// Length that the gap is small against.
     pub size: f64,
     /// Weight of this constraint where points share their mass among several: the slave share of the partition.
@@ -116,12 +122,12 @@ pub enum Ledger<'a> {
 }
 
 impl Ledger<'_> {
-    /// Part of the lifts that is granted when forces are sought.
-    fn part(&self) -> f64 {
+    /// What is granted when forces are sought.
+    fn granted(&self) -> Granted {
         match self {
-            Ledger::Bank(bank) => bank.part(),
-            Ledger::Points => 0.0,
-            Ledger::Nobody => 1.0,
+            Ledger::Bank(bank) => bank.granted(),
+            Ledger::Points => [0.0; 2],
+            Ledger::Nobody => [1.0; 2],
         }
     }
 }
@@ -150,9 +156,12 @@ pub struct Outcome {
     pub motion: f64,
 }
 
+static SETTLED_ENV: std::sync::LazyLock<f64> =
+    std::sync::LazyLock::new(|| std::env::var("URTO_SETTLED").ok().and_then(|v| v.parse().ok()).unwrap_or(0.01));
+
 /// Numbers of which all ranks learn the largest in a pass: how much it moved, whether anybody wants it, and of the overlaps
 /// that motion has made so far the deepest in face sizes, the deepest, and the farthest motion of the step.
-pub const VOTES: usize = 5;
+pub const VOTES: usize = 6;
 
 /// What ranks tell each other in the course of the passes; nothing on one rank.
 pub trait Others {
@@ -321,7 +330,7 @@ impl Enforcer {
             return;
         }
         self.scatter(constraints, points, times, others);
-        let part = ledger.part();
+        let granted = ledger.granted();
         let mut all = Sums::default();
         self.rays.clear();
         if let Ledger::Points = ledger {
@@ -337,12 +346,12 @@ impl Enforcer {
         let ray = match ledger {
             Ledger::Bank(bank) => {
                 others.sum(&mut all);
-                all.terms().settle(part, times.kick, bank)
+                all.terms().settle(granted, times.kick, bank)
             }
             _ => 1.0,
         };
         for (c, state) in constraints.iter_mut().zip(&self.states) {
-            let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(part));
+            let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(granted));
             c.shorten(state, c.change(&self.moved), ray, times.drift);
         }
     }
@@ -363,18 +372,20 @@ impl Enforcer {
         loop {
             self.scatter(constraints, points, times, others);
             let ahead = momentum.next();
-            let mut worst: f64 = 0.0;
+            let (mut worst, mut farthest) = (0.0, 0.0);
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
-                worst = worst.max(correct(c, state, &self.moved, times, ahead));
+                let way = correct(c, state, &self.moved, times, ahead);
+                (worst, farthest) = (f64::max(worst, way / c.size), f64::max(farthest, way));
             }
-            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion]);
+            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion, farthest]);
             let [left, any_wanted, ..] = votes;
             if any_wanted == 0.0 {
                 return None;
             }
-            let [_, _, deepest, depth, motion] = votes;
+            let [_, _, deepest, depth, motion, farthest] = votes;
             outcome = Outcome { left, passes: outcome.passes + 1, deepest, depth, motion };
-            if outcome.left <= limits.tolerance || outcome.passes == limits.passes {
+            let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * motion;
+            if settled || outcome.passes == limits.passes {
                 return Some(outcome);
             }
         }
@@ -417,7 +428,7 @@ impl Enforcer {
     /// [`Enforcer::solve`].
     pub fn prepare(&mut self, constraints: &mut [Constraint], points: &Points, drift: f64, ledger: &Ledger) {
         self.states.clear();
-        let part = ledger.part();
+        let granted = ledger.granted();
         for c in constraints {
             let Carried { sunk, push, drag } = c.carried;
             (c.carried.push, c.carried.drag) = (BEGINNING * push, scaled(drag, BEGINNING));
@@ -435,12 +446,12 @@ impl Enforcer {
             (state.free, state.before) = (dot(free, c.normal), dot(before, c.normal));
             state.target = match ledger {
                 Ledger::Nobody => Target { least: state.free - c.gap / drift, ..Default::default() },
-                _ => Target::of(c.gap, sunk, [state.before, state.free], drift),
+                _ => Target::of(c, [state.before, state.free], drift),
             };
             // Where all members are held there is nothing to move.
             if inverse > HELD * isotropic {
                 state.strength = c.share.max(LEAST_SHARE) / inverse;
-                state.closing = drift * (state.free - (state.target.least + part * state.target.lift));
+                state.closing = drift * (state.free - state.target.with(granted));
             } else {
                 (c.carried.push, c.carried.drag) = (0.0, [0.0; 3]);
             }
@@ -517,7 +528,7 @@ impl Momentum {
 }
 
 /// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
-/// part `ahead`. How much it moves, as a part of the face's size.
+/// part `ahead`. How far it moves, a length.
 fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times, ahead: f64) -> f64 {
     let change = c.change(moved);
     let gap = state.closing + times.drift * dot(change, c.normal);
@@ -548,7 +559,7 @@ fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times,
         state.last.1 = drag;
     }
     (c.carried.push, state.last.0, state.active) = (push_ahead, push, true);
-    way / c.size
+    way
 }
 
 /// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.

@@ -143,8 +143,9 @@ fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, State) {
         weights: [5, 6, 7, 8, 9].map(|i| v[i]),
         normal: three(10),
         friction: Friction { at_rest: v[19], high_speed: v[20], decay: v[21] },
-        // Only its own rank asks for that.
+        // Only its own rank asks for these.
         gap: 0.0,
+        held: true,
         size: v[23],
         share: v[24],
         carried: Carried { sunk: 0.0, push: v[25], drag: three(13) },

@@ -504,6 +504,7 @@ fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &Touch) -> Opt
         count: MEMBERS,
         normal: touch.stand.normal,
         gap: touch.stand.gap - touch.allowed,
+        held: touch.time < 0.0,
         size: faces.size[face],
         share,
         friction: pairing.friction,

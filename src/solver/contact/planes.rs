@@ -59,6 +59,7 @@ impl PlanePoint {
             count: 1,
             normal: plane.normal,
             gap,
+            held: self.carried != Carried::NOTHING,
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),

@@ -71,7 +71,8 @@ impl Contact {
             archive.number("CONTMOTIONS", motions);
             archive.number("CONTFARTHEST", farthest);
             archive.number("CONTBANK", balance);
-            archive.number("CONTASKED", asked);
+            archive.number("CONTASKED1", &mut asked[0]);
+            archive.number("CONTASKED2", &mut asked[1]);
             archive.number("CONTSUM", work);
             archive.number("CONTEXCESS", excess);
             archive.count("CONTSEARCHES", searches);
