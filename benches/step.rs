@@ -28,7 +28,7 @@ fn cubes(n: usize) -> Mesh {
         }],
         node_ids: (1..=(m * m * m) as i64).collect(),
         element_ids: (1..=connectivity.len() as i64).collect(),
-        blocks: vec![Block { id: 1, connectivity, ..Default::default() }],
+        blocks: vec![Block::hexahedra_of(1, connectivity)],
         ..Default::default()
     }
 }

@@ -20,4 +20,5 @@ pub mod restart;
 pub mod run;
 pub mod scale;
 pub mod solver;
+pub mod vector;
 pub mod view;

@@ -31,7 +31,7 @@ fn boxes([nx, ny, nz]: [u32; 3]) -> Mesh {
         cubes[usize::from(k > 0)].push([a, b, c, d, e, f, g, h]);
     }
     for (connectivity, id) in cubes.into_iter().zip(1..).filter(|(cubes, _)| !cubes.is_empty()) {
-        mesh.blocks.push(Block { id, name: String::new(), connectivity });
+        mesh.blocks.push(Block::hexahedra_of(id, connectivity));
     }
     mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
     mesh.element_ids = (1..=mesh.element_count() as i64).collect();

@@ -55,6 +55,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Elements per chunk. Element data is stored as rows of this many values, one per element.
 pub const CHUNK: usize = 8;
 
+/// Corners of an element at most.
+pub const MOST_CORNERS: usize = 8;
+
 /// One quantity of the eight elements of a chunk, or the eight numbers of a node; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(64))]
@@ -115,7 +118,7 @@ pub trait Lanes:
     /// of every fetched row.
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8];
     /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize);
+    fn spread(force: [Self; 3], out: &mut [[Force; MOST_CORNERS]; CHUNK], corner: usize, part: usize);
 }
 
 /// Bits of the part of a double that is not its exponent.

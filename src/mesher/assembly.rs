@@ -6,7 +6,7 @@ use super::{
     body::{Body, Face, Sides},
     merge,
 };
-use crate::mesh::{Block, Mesh, check};
+use crate::mesh::{Block, Mesh, Shape, check};
 
 /// All parts of a recipe, in its order.
 #[derive(Debug, Clone, Default)]
@@ -58,7 +58,7 @@ impl Assembly {
         let mut shortest = f64::INFINITY;
         for hex in &self.hexes {
             let x = hex.map(|node| self.coordinates[node as usize]);
-            for (a, b) in super::EDGES {
+            for &[a, b] in Shape::Hexahedron.edges() {
                 shortest = shortest.min(super::distance(x[a], x[b]));
             }
         }
@@ -107,11 +107,11 @@ impl Assembly {
         let mut place = vec![0u32; self.hexes.len()];
         let mut placed = 0;
         for id in ids {
-            let mut block = Block { id, name: String::new(), connectivity: Vec::new() };
+            let mut block = Block { id, ..Block::default() };
             for element in (0..self.hexes.len()).filter(|&element| self.blocks[element] == id) {
                 place[element] = placed;
                 placed += 1;
-                block.connectivity.push(self.hexes[element]);
+                block.nodes.extend(self.hexes[element]);
             }
             mesh.blocks.push(block);
         }

@@ -179,10 +179,6 @@ fn perturb(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnos
     }
 }
 
-/// The twelve edges of a hexahedron.
-const EDGES: [(usize, usize); 12] =
-    [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)];
-
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|i| a[i] - b[i]);
     libm::sqrt(x * x + y * y + z * z)

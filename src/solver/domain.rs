@@ -3,7 +3,7 @@
 use super::body::{Body, LoadedFace};
 use super::constraints::{Constraint, Motion};
 use super::contact::Contact;
-use super::elements::{ElementBlock, Group, NewElement};
+use super::elements::{ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
@@ -12,7 +12,7 @@ use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
-use crate::mesh::Mesh;
+use crate::mesh::{Block, Mesh};
 use crate::model::{InitialVelocity, Model};
 use crate::partition::Share;
 
@@ -30,6 +30,8 @@ pub struct Domain {
     pub element_canonical: Vec<u32>,
     /// Names of the state variables that the laws of the whole model store, ascending; the same on all ranks.
     pub law_states: Vec<&'static str>,
+    /// Names of what the elements of the whole model store beside that, in the elements' order; the same on all ranks.
+    pub element_rows: Vec<&'static str>,
     /// Faces under pressure.
     pub pressure_faces: Vec<PressureFace>,
     /// Forces on nodes.
@@ -72,6 +74,17 @@ fn law_states(model: &Model) -> Vec<&'static str> {
     names
 }
 
+/// Names of all that the elements of a body store, each once, in the order in which its blocks come.
+fn element_rows(body: &Body) -> Vec<&'static str> {
+    let mut names: Vec<&str> = Vec::new();
+    for row in body.elements.iter().flat_map(|element| element.entry().rows) {
+        if !names.contains(&row.name) {
+            names.push(row.name);
+        }
+    }
+    names
+}
+
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
@@ -85,6 +98,7 @@ impl Domain {
             element_file,
             element_canonical: elements.clone(),
             law_states: law_states(model),
+            element_rows: element_rows(body),
             pressure_faces: pressure_faces(model, body, share, &local),
             node_forces: Vec::new(),
             gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
@@ -206,9 +220,8 @@ fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator
 /// Local nodes of a block, each once, ascending.
 fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     let Some(index) = mesh.block_index(block) else { return Vec::new() };
-    let connectivity = &mesh.blocks[index].connectivity;
     let mut nodes: Vec<u32> =
-        connectivity.iter().flatten().map(|&n| local[n as usize]).filter(|&n| n != ABSENT).collect();
+        mesh.blocks[index].nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT).collect();
     nodes.sort_unstable();
     nodes.dedup();
     nodes
@@ -240,16 +253,17 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
         let state_names = state_names(&material.law);
         let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
         let group = |places: Vec<u32>| {
-            let new: Vec<NewElement> = places.into_iter().map(|place| new_element(place, body, share, local)).collect();
-            Group::new(&new, &material.law)
+            let mesh_block = &mesh.blocks[index];
+            let new: Vec<NewElement> =
+                places.into_iter().map(|place| new_element(place, mesh_block, body, share, local)).collect();
+            ElementBlock::group(&body.elements[index], &material.law, material.density, &new)
         };
         ElementBlock {
             index,
             id: mesh.blocks[index].id,
             density: material.density,
             law: material.law.clone(),
-            least_share: body.least_share[index],
-            hourglass: model.hourglass,
+            element: body.elements[index].clone(),
             state_names,
             border: group(border),
             interior: group(interior),
@@ -258,14 +272,15 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
     .collect()
 }
 
-fn new_element(place: u32, body: &Body, share: &Share, local: &[u32]) -> NewElement {
+fn new_element(place: u32, block: &Block, body: &Body, share: &Share, local: &[u32]) -> NewElement {
     let element = share.groups[0].members[place as usize] as usize;
-    let nodes = body.element_nodes[element];
+    let nodes = &body.element_nodes[element];
     NewElement {
         place,
-        nodes: nodes.map(|n| local[n as usize]),
-        corners: body.corners(&nodes),
+        nodes: nodes.iter().map(|&n| local[n as usize]).collect(),
+        corners: nodes.iter().map(|&n| body.positions[n as usize]).collect(),
         mass: body.element_mass[element],
+        attributes: block.attributes_of(body.place_in_block(element)).to_vec(),
     }
 }
 

@@ -252,8 +252,8 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &mut exchange.slots[..];
         for block in blocks {
-            let (own, rest) = slots.split_at_mut(8 * block.border.len());
-            found = found.and(elements::run(block, &nodes.rows, Sink::Apart(own), &self.pass));
+            let (own, rest) = slots.split_at_mut(block.border.corner_count());
+            found = found.and(block.run(&nodes.rows, Sink::Apart(own), &self.pass));
             slots = rest;
         }
         found
@@ -264,9 +264,9 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &exchange.slots[..];
         for block in blocks {
-            let (border, rest) = slots.split_at(8 * block.border.len());
+            let (border, rest) = slots.split_at(block.border.corner_count());
             let sink = Sink::Nodes { forces: &mut nodes.forces, border };
-            found = found.and(elements::run(block, &nodes.rows, sink, &self.pass));
+            found = found.and(block.run(&nodes.rows, sink, &self.pass));
             slots = rest;
         }
         found
@@ -274,7 +274,7 @@ impl Solver {
 
     fn loaded_faces(&mut self) {
         let Domain { pressure_faces, nodes, exchange, .. } = &mut self.domain;
-        let slots = exchange.slots[8 * exchange.border_elements..].chunks_exact_mut(4);
+        let slots = exchange.slots[exchange.first_face..].chunks_exact_mut(4);
         for (face, slots) in pressure_faces.iter_mut().zip(slots) {
             face.evaluate(nodes, &self.functions, self.time);
             slots.copy_from_slice(&face.slots());

@@ -13,7 +13,7 @@ use super::body::Body;
 use super::domain::ABSENT;
 use super::loads::face_area_vectors;
 use super::nodes::{Nodes, cross, dot, scaled};
-use crate::mesh::{HEX_SIDES, Mesh};
+use crate::mesh::Mesh;
 use crate::model::Model;
 
 /// What the faces at one node of this rank do to it.
@@ -67,7 +67,7 @@ pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<D
     }
     sides.sort_unstable();
     sides.dedup();
-    let elements: Vec<(usize, &[u32; 8])> = mesh.elements().collect();
+    let elements: Vec<(usize, &[u32])> = mesh.elements().collect();
     let mut sums = vec![[[0.0; 3]; 3]; local.len()];
     for (element, side) in sides {
         let (block, corners) = elements[element as usize];
@@ -75,7 +75,7 @@ pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<D
         let moduli = material.law.moduli();
         let impedance = |modulus: f64| (material.density * modulus).sqrt();
         let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
-        let nodes = HEX_SIDES[side as usize].map(|corner| corners[corner]);
+        let Some(nodes) = mesh.blocks[block].shape.face(corners, side) else { continue };
         let areas = face_area_vectors(nodes.map(|node| body.positions[node as usize]));
         for (node, area) in nodes.into_iter().zip(areas).filter(|(node, _)| local[*node as usize] != ABSENT) {
             add_face(&mut sums[node as usize], area, along, across);

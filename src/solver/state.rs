@@ -72,6 +72,7 @@ impl Domain {
             blocks,
             element_file,
             element_canonical,
+            element_rows,
             law_states,
             pressure_faces,
             node_forces,
@@ -90,7 +91,7 @@ impl Domain {
         if let Some(erosion) = erosion {
             dead = erosion.visit_state(archive, blocks, element_file, element_canonical);
         }
-        elements::visit(archive, blocks, law_states, element_file.len());
+        elements::visit(archive, blocks, [element_rows, law_states], element_file.len());
         archive.heap("CARRIEDW", carried_work);
         let works = Works::new(nodes, [element_file, element_canonical]);
         let left = [

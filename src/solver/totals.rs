@@ -5,7 +5,7 @@
 //! differences balance exactly for constant steps. Work is booked in the same manner.
 
 use super::domain::Domain;
-use super::elements::hex8::rows;
+use super::elements::Energies;
 use crate::comm::{Communicator, ExactSum};
 
 /// Sums over the whole body at one state. The same bits on every rank and any number of ranks.
@@ -96,11 +96,14 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
 }
 
 fn add_elements(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
-    for group in domain.blocks.iter().flat_map(|block| block.groups()) {
-        for i in 0..group.len() {
-            sums[1].add(group.value(i, rows::INTERNAL_ENERGY));
-            sums[2].add(group.value(i, rows::HOURGLASS_ENERGY));
-            sums[3].add(group.value(i, rows::VISCOUS_ENERGY));
+    for block in &domain.blocks {
+        let Energies { internal, hourglass, viscous } = &block.element.entry().energies;
+        for group in block.groups() {
+            for i in 0..group.len() {
+                sums[1].add(group.value(i, *internal));
+                hourglass.iter().for_each(|&row| sums[2].add(group.value(i, row)));
+                viscous.iter().for_each(|&row| sums[3].add(group.value(i, row)));
+            }
         }
     }
 }

@@ -16,7 +16,6 @@ mod options;
 mod palette;
 mod raster;
 mod scene;
-mod skin;
 mod subject;
 mod text;
 

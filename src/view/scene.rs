@@ -1,5 +1,7 @@
 //! What a picture shows, free of files and mechanics: faces in space and what colours them.
 
+use crate::vector::{cross, dot, subtract};
+
 /// Coordinates beyond this are the wreck of a calculation; faces that reach there are not drawn.
 const FARTHEST: f64 = 1e100;
 /// Nodes this near a mirror plane, relative to the size of the body, lie in it.
@@ -131,9 +133,7 @@ impl Scene {
     /// The unit normal of a face, from its diagonals; zero if it has no area.
     pub fn normal(&self, quad: &[u32; 4]) -> [f64; 3] {
         let [a, b, c, d] = quad.map(|node| self.positions[node as usize]);
-        let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-        let (u, v) = (minus(c, a), minus(d, b));
-        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let n = cross(subtract(c, a), subtract(d, b));
         let length = dot(n, n).sqrt();
         if length > 0.0 { n.map(|x| x / length) } else { n }
     }
@@ -170,11 +170,6 @@ fn joint(one: [f64; 3], other: [f64; 3], toward_eye: [f64; 3]) -> Edge {
     } else {
         Edge::Mesh
     }
-}
-
-/// The scalar product.
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -5,10 +5,20 @@ use std::path::{Path, PathBuf};
 use super::ViewError;
 use super::field::{Field, Names, Place};
 use super::options::{StateChoice, ViewOptions};
-use super::scene::{Scene, Values, dot};
-use super::skin::{Face, outer_faces};
+use super::scene::{Scene, Values};
 use crate::exodus::{Results, ResultsError};
-use crate::mesh::{Block, Mesh};
+use crate::mesh::exterior::{SIDES, exterior};
+use crate::mesh::{Block, Mesh, Shape};
+use crate::vector::dot;
+
+/// A face of the outer surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Position of its element in the mesh.
+    pub element: usize,
+    /// Its four nodes, counter-clockwise seen from outside; a triangle has a node twice.
+    pub nodes: [u32; 4],
+}
 
 /// Element variables that tell which elements have gone, with the value that says so; these are not drawn.
 const FATES: [(&str, f64); 2] = [("DEATH", 1.0), ("STATUS", 0.0)];
@@ -148,15 +158,17 @@ impl<'a> Subject<'a> {
         Ok(self.elements.iter().copied().filter(|&element| values[element] != gone).collect())
     }
 
-    /// The surface of some elements, its faces naming elements by their position in the mesh.
+    /// The surface of some elements.
     fn surface_of(&self, elements: &[usize]) -> Vec<Face> {
-        let all: Vec<&[u32; 8]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
-        let nodes: Vec<&[u32; 8]> = elements.iter().map(|&element| all[element]).collect();
-        let mut faces = outer_faces(&nodes, self.mesh.coordinates.len());
-        for face in &mut faces {
-            face.element = elements[face.element];
-        }
-        faces
+        let all: Vec<(Shape, &[u32])> = self.mesh.shaped().collect();
+        let shown = elements.iter().map(|&element| all[element]);
+        let numbers = exterior(shown, self.mesh.coordinates.len(), |_| true);
+        let face = |number: u32| {
+            let element = elements[number as usize / SIDES];
+            let (shape, nodes) = all[element];
+            Some(Face { element, nodes: shape.face(nodes, (number as usize % SIDES) as u8)? })
+        };
+        numbers.into_iter().filter_map(face).collect()
     }
 
     /// Node positions with the displacement, as many times as asked for.

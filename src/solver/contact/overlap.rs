@@ -107,7 +107,10 @@ fn left(body: &Body, layout: &Layout) -> Left {
     blocks.dedup();
     let all = 0..body.element_nodes.len() as u32;
     let elements: Vec<u32> = all.filter(|&e| blocks.binary_search(&body.element_block[e as usize]).is_ok()).collect();
-    let corners = |element: u32| body.element_nodes[element as usize].map(|node| body.positions[node as usize]);
+    let corners = |element: u32| -> [[f64; 3]; 8] {
+        let nodes: [u32; 8] = body.element_nodes[element as usize].try_into().unwrap_or_default();
+        body.corners(&nodes)
+    };
     let boxes: Vec<Box3> = elements.iter().map(|&element| Box3::around(&corners(element))).collect();
     let at = |point: usize| body.positions[layout.nodes[point] as usize];
     let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };

@@ -61,17 +61,17 @@ impl Erosion {
     /// Takes elements away that went before, with energies and nodes that are known.
     fn take_away(&mut self, dead: &[u32], blocks: &mut [ElementBlock], canonical: &[u32]) {
         for block in blocks {
-            let mass = self.stand_in_mass(block);
+            let stand_in = self.stand_in(block);
             for group in [&mut block.border, &mut block.interior] {
                 for i in 0..group.len() {
                     if dead.binary_search(&canonical[group.places[i] as usize]).is_ok() {
-                        group.retire(i, self.stand_in, mass);
+                        stand_in.take_over(group, i);
                     }
                 }
             }
         }
         for &element in dead {
-            for node in self.element_nodes[element as usize] {
+            for &node in &self.element_nodes[element as usize] {
                 let here = self.local[node as usize];
                 if here != ABSENT {
                     self.left[here as usize] -= 1;

@@ -57,7 +57,7 @@ fn instruction_sets_agree_to_the_bit() {
 /// Every law there is, with the properties that a deck gives it.
 #[test]
 fn instruction_sets_agree_for_every_law() {
-    let source = crate::deck::Source::new("materials.i", include_str!("../../../../decks/materials.i"));
+    let source = crate::deck::Source::new("materials.i", include_str!("../../../../../decks/materials.i"));
     let problem = crate::model::examine(source, None).unwrap_or_else(|found| panic!("{}", found.render(false)));
     for law in problem.model.materials.into_iter().map(|material| material.law) {
         for control in [ASSUMED, flanagan_belytschko(0.05)] {
