@@ -265,6 +265,7 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
             law: material.law.clone(),
             element: body.elements[index].clone(),
             state_names,
+            keeps_steps: Erosion::watches_steps(model, mesh.blocks[index].id),
             border: group(border),
             interior: group(interior),
         }

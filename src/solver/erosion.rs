@@ -24,6 +24,8 @@ const STAND_IN: f64 = 1e3;
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
     rules: Vec<Death>,
+    /// Factor of the deck on stable steps.
+    step_scale: f64,
     deletions: Deletions,
     element_order: Arc<Vec<u32>>,
     element_nodes: Arc<Connectivity>,
@@ -66,6 +68,7 @@ impl Erosion {
         let deletions = deletions(mesh, model, body);
         Some(Erosion {
             rules: model.deaths.clone(),
+            step_scale: model.time_step.scale,
             element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),
             local: local.to_vec(),
@@ -77,6 +80,11 @@ impl Erosion {
             energy: Vec::new(),
             gone: 0,
         })
+    }
+
+    /// Whether a rule for a block watches the time steps of its elements.
+    pub fn watches_steps(model: &Model, block: i64) -> bool {
+        model.deaths.iter().any(|rule| rule.block == block && rule.variable == DeathVariable::TimeStep)
     }
 
     /// Takes away what fails and what is deleted now, and returns the canonical numbers of what went on all ranks,
@@ -99,7 +107,7 @@ impl Erosion {
                 let failed = if deleted.contains(&block.id) {
                     (0..group.len()).filter(|&i| group.is_alive(i)).collect()
                 } else {
-                    failing(&rules, block, group, nodes)
+                    self.failing(&rules, block, group, nodes)
                 };
                 let ElementBlock { border: at_border, interior, element, .. } = block;
                 let group = if border { at_border } else { interior };
@@ -197,39 +205,47 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
     own
 }
 
-/// Elements that have passed the value of a rule, ascending. NaN has passed every value.
-fn failing(rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
-    let mut failed = Vec::new();
-    for rule in rules {
-        let value = watched(rule, block, group, nodes);
-        let passed = |value: f64| {
-            if rule.is_maximum { value.is_nan() || value > rule.value } else { value.is_nan() || value <= rule.value }
-        };
-        failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && passed(value(i))));
-    }
-    failed.sort_unstable();
-    failed.dedup();
-    failed
-}
-
-/// The variable of a rule as a function of the element.
-fn watched<'a>(
-    rule: &'a Death,
-    block: &'a ElementBlock,
-    group: &'a Group,
-    nodes: &'a Nodes,
-) -> Box<dyn Fn(usize) -> f64 + 'a> {
-    match &rule.variable {
-        DeathVariable::Volume => {
-            Box::new(|i| block.element.volume(group, i, nodes) * block.density / group.element_mass(i))
+/// Watching.
+impl Erosion {
+    /// Elements that have passed the value of a rule, ascending. NaN has passed every value.
+    fn failing(&self, rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
+        let mut failed = Vec::new();
+        for rule in rules {
+            let value = self.watched(rule, block, group, nodes);
+            let passed = |value: f64| {
+                let beyond = if rule.is_maximum { value > rule.value } else { value <= rule.value };
+                value.is_nan() || beyond
+            };
+            let known_and_passed = |i: usize| value(i).is_some_and(passed);
+            failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && known_and_passed(i)));
         }
-        DeathVariable::TimeStep => Box::new(|i| block.element.elastic_step(group, i, nodes, &block.law)),
-        DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
-            Some(row) => Box::new(move |i| group.value(i, block.first_of_law() + row)),
-            None => Box::new(|i| state(block, group, i, name)),
-        },
-        DeathVariable::Field(field, component) => {
-            Box::new(|i| field_values(*field, block, group, i, nodes, 0)[*component])
+        failed.sort_unstable();
+        failed.dedup();
+        failed
+    }
+
+    /// The variable of a rule as a function of the element, where it is known. The time step is what the element let the run
+    /// take at the last state, as the log prints it; before the first step it is not known.
+    fn watched<'a>(
+        &self,
+        rule: &'a Death,
+        block: &'a ElementBlock,
+        group: &'a Group,
+        nodes: &'a Nodes,
+    ) -> Box<dyn Fn(usize) -> Option<f64> + 'a> {
+        let scale = self.step_scale;
+        match &rule.variable {
+            DeathVariable::Volume => {
+                Box::new(|i| Some(block.element.volume(group, i, nodes) * block.density / group.element_mass(i)))
+            }
+            DeathVariable::TimeStep => Box::new(move |i| group.stable_step(i).map(|step| scale * step)),
+            DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
+                Some(row) => Box::new(move |i| Some(group.value(i, block.first_of_law() + row))),
+                None => Box::new(|i| Some(state(block, group, i, name))),
+            },
+            DeathVariable::Field(field, component) => {
+                Box::new(|i| Some(field_values(*field, block, group, i, nodes, 0)[*component]))
+            }
         }
     }
 }

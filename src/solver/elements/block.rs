@@ -25,6 +25,8 @@ pub struct ElementBlock {
     pub border: Group,
     /// All others.
     pub interior: Group,
+    /// Whether the stable step of each element is kept.
+    pub keeps_steps: bool,
 }
 
 /// Some elements of a block in canonical order, in chunks. The last chunk is filled up with copies of its last
@@ -45,6 +47,9 @@ pub struct Group {
     pub stride: usize,
     /// Which elements have been taken away; empty while none have.
     pub gone: Vec<bool>,
+    /// The largest stable step of each element in the last pass, one row per chunk; empty unless somebody wants to know,
+    /// and before the first pass.
+    pub steps: Vec<Row>,
 }
 
 /// An element as a group takes it in.
@@ -78,6 +83,7 @@ impl Group {
             state: vec![Row::default(); chunks * stride],
             stride,
             gone: Vec::new(),
+            steps: Vec::new(),
         };
         let mut numbers = vec![0.0; stride];
         for slot in 0..chunks * CHUNK {
@@ -165,6 +171,11 @@ impl Group {
         std::array::from_fn(|corner| nodes.velocity(self.node(i, corner)))
     }
 
+    /// The largest stable step of the `i`-th element in the last pass, if it was kept.
+    pub fn stable_step(&self, i: usize) -> Option<f64> {
+        self.steps.get(i / CHUNK).map(|row| row.0[i % CHUNK])
+    }
+
     /// Mass of the `i`-th element.
     pub fn element_mass(&self, i: usize) -> f64 {
         self.mass[i / CHUNK].0[i % CHUNK]
@@ -195,7 +206,11 @@ impl ElementBlock {
 
     /// Advances one group: the border elements when the sink keeps forces apart, else the interior.
     pub fn run(&mut self, nodes: &[Row], sink: Sink, settings: &PassSettings) -> PassOutcome {
-        let ElementBlock { element, law, density, border, interior, .. } = self;
+        let ElementBlock { element, law, density, border, interior, keeps_steps, .. } = self;
+        if *keeps_steps {
+            let group = if matches!(sink, Sink::Apart(_)) { &mut *border } else { &mut *interior };
+            group.steps.resize(group.mass.len(), Row::default());
+        }
         let pass = Pass { border, interior, nodes, sink, instructions: settings.instructions };
         element.run(pass, law, *density, settings)
     }

@@ -80,9 +80,6 @@ pub trait Formulation: Sized {
     /// Advances one group of a block by a step: stresses, energies, corner forces, and the largest stable step.
     fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome;
 
-    /// Largest stable step of the `i`-th element with elastic moduli and without damping.
-    fn elastic_step(&self, group: &Group, i: usize, nodes: &Nodes, law: &Law) -> f64;
-
     /// Fills in the rows of what stands in for an element that is gone, unstressed and at rest between the first corners of a
     /// cube of this edge; returns its mass. `own` is zero.
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64;

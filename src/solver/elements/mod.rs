@@ -58,11 +58,6 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.run(pass, law, density, settings),)+ }
             }
 
-            /// See [`Formulation::elastic_step`].
-            pub fn elastic_step(&self, group: &Group, i: usize, nodes: &Nodes, law: &Law) -> f64 {
-                match self { $(Element::$element(own) => own.elastic_step(group, i, nodes, law),)+ }
-            }
-
             /// See [`Formulation::stand_in`].
             pub fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
                 match self { $(Element::$element(kind) => kind.stand_in(density, edge, own),)+ }

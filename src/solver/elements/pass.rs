@@ -208,6 +208,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     let (mut smallest, mut smallest_chunk) = (Row([f64::INFINITY; CHUNK]), Row([f64::INFINITY; CHUNK]));
     let mut failed_chunk = Row([f64::INFINITY; CHUNK]);
     for (chunk, connectivity) in group.connectivity.as_chunks::<N>().0.iter().enumerate() {
+        let mut steps = group.steps.get_mut(chunk);
         let (state, ahead) = group.state[chunk * stride..].split_at_mut(stride);
         // Measured: the narrow kernels gain a sixth at 64³ elements, the widest loses a little.
         if V::COUNT < CHUNK {
@@ -226,6 +227,9 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             let best = V::load(&smallest, part);
             V::select_less(step, best, here, V::load(&smallest_chunk, part)).store(&mut smallest_chunk, part);
             V::select_less(step, best, step, best).store(&mut smallest, part);
+            if let Some(row) = &mut steps {
+                step.store(row, part);
+            }
             let failed = V::load(&failed_chunk, part);
             V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_chunk, part);
         }

@@ -54,8 +54,9 @@ fn visit_row(
 impl Group {
     /// Sets one stored number of every element, given by the element's place in the rank's order.
     fn set_row(&mut self, row: usize, values: &[f64]) {
-        // Places, nodes and masses are of the problem and its cut; which are gone has been put back before.
-        let Group { places, mass, state, stride, corners: _, connectivity: _, gone: _ } = self;
+        // Places, nodes and masses are of the problem and its cut; which are gone has been put back before,
+        // and steps are put back by who wants them.
+        let Group { places, mass, state, stride, corners: _, connectivity: _, gone: _, steps: _ } = self;
         let Some(&last) = places.last() else { return };
         // Lanes that fill up the last chunk copy its last element.
         for slot in 0..mass.len() * CHUNK {

@@ -138,16 +138,6 @@ impl Formulation for Hexahedron {
         law.accept(OfLaw { control: self.hourglass, pass, settings })
     }
 
-    /// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B).
-    fn elastic_step(&self, group: &Group, i: usize, nodes: &Nodes, law: &Law) -> f64 {
-        let x: [[f64; 3]; 8] = group.positions(i, nodes);
-        let operator = gradient(&[0, 1, 2].map(|axis| modes(&x.map(|corner| corner[axis] - x[0][axis]))));
-        let square = operator.square4608() / 4608.0;
-        let volume = operator.volume192 / 192.0;
-        let light = group.element_mass(i) * self.least_share;
-        (light * volume / (2.0 * law.moduli().dilatational() * square)).max(0.0).sqrt()
-    }
-
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
         unstressed(&[1.0, 0.0, 0.0, 0.0], own);
         density * edge * edge * edge

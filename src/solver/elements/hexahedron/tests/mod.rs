@@ -135,6 +135,7 @@ impl Rig {
                 id: 1,
                 density: DENSITY,
                 state_names,
+                keeps_steps: false,
                 border: group(&[]),
                 interior: group(&elements),
                 element: element.clone(),
