@@ -2,13 +2,15 @@
 
 use super::terminal::complain;
 use super::{Failure, options};
-use crate::deck::{Diagnostics, Source};
+use crate::deck::{Diagnostic, Diagnostics, Source};
 use crate::exodus::{MeshError, read_mesh};
 #[cfg(feature = "mpi")]
 use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
 use crate::model::{Problem, examine};
+use crate::solver::elements::Unfit;
+use crate::solver::unfit_blocks;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -61,7 +63,17 @@ impl Given {
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
-            (Ok(problem), Ok((mesh, mesh_path))) => Ok(Given { deck, mesh_path, problem, mesh }),
+            (Ok(problem), Ok((mesh, mesh_path))) => {
+                let unfit = unfit_blocks(&mesh, &problem.model);
+                if unfit.is_empty() {
+                    return Ok(Given { deck, mesh_path, problem, mesh });
+                }
+                let mut told = problem.diagnostics;
+                for (block, Unfit { reason, help }) in unfit {
+                    told.push(Diagnostic::error(format!("block {block}: {reason}")).help(help));
+                }
+                Err(Failure::input(render(&told)))
+            }
             (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
             (Ok(_), Err(failure)) => Err(failure),
             (Err(mistakes), Err(failure)) => {

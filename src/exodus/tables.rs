@@ -6,7 +6,7 @@ use super::names;
 use crate::mesh::check::{Problem, Problems, counted};
 use crate::mesh::exterior::SIDES;
 use crate::mesh::hexahedron::Form;
-use crate::mesh::{Block, Kind, Mesh, NodeSet, SideSet};
+use crate::mesh::{Block, Kind, Mesh, NodeSet, Shape, SideSet};
 
 /// How many bad references of one array are named one by one before the rest is summed up.
 const NAMED_PER_ARRAY: usize = 3;
@@ -53,6 +53,8 @@ pub struct BlockTable {
     pub nodes_per_element: usize,
     /// Node positions, one-based, element by element.
     pub connectivity: Vec<i64>,
+    /// Attributes, element by element; empty when there are none.
+    pub attributes: Vec<f64>,
 }
 
 /// One node set's arrays.
@@ -179,7 +181,9 @@ impl BlockTable {
 
     /// The same, but for what is not computed with: see [`BlockTable::unsupported`].
     fn accepted(&self) -> Option<Kind> {
-        self.kind().filter(|kind| matches!(kind, Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid)))
+        self.kind().filter(|kind| {
+            matches!(kind, Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid) | Kind::Other(Shape::Bar))
+        })
     }
 
     fn begins_with(&self, stem: &str) -> bool {
@@ -202,6 +206,7 @@ impl BlockTable {
             return block;
         };
         block.shape = kind.shape();
+        block.attributes = self.attributes;
         let mut references = References::new(format!("block {}", self.id), Target::Node, nodes, problems);
         let mut own = vec![0; kind.nodes()];
         for (given, id) in self.connectivity.chunks_exact(kind.nodes()).zip(element_ids) {
@@ -211,6 +216,11 @@ impl BlockTable {
             block.nodes.extend(kind.expand(&own));
         }
         references.sum_up();
+        if block.attributes.len() % block.len() != 0 {
+            let (count, of) = (block.attributes.len(), block.len());
+            let what = format!("block {}: {} for {}", block.id, counted(count, "attribute"), counted(of, "element"));
+            problems.add(|| Problem::new(what, "write the mesh again"));
+        }
         block
     }
 

@@ -181,6 +181,11 @@ impl<'a> Writer<'a> {
             let mut variable =
                 self.file.add_variable::<i32>(&names::connectivity(n), &[&dimensions[0], &dimensions[1]])?;
             variable.put_attribute(names::ELEMENT_TYPE, block.shape.exodus_name())?;
+            if !block.attributes.is_empty() {
+                let count = names::block_attributes(n);
+                self.dimensions(&[(&count, block.attributes_of(0).len())])?;
+                self.variable::<f64>(&names::attributes(n), &[&dimensions[0], &count])?;
+            }
         }
         self.define_family(&names::NODE_SETS, mesh.node_sets.len())?;
         for (n, set) in mesh.node_sets.iter().enumerate().filter(|(_, set)| !set.nodes.is_empty()) {
@@ -320,6 +325,9 @@ impl<'a> Writer<'a> {
         self.put_family(&names::BLOCKS, list)?;
         for (n, block) in mesh.blocks.iter().enumerate().filter(|(_, block)| !block.is_empty()) {
             self.values(&names::connectivity(n), &one_based(&block.nodes))?;
+            if !block.attributes.is_empty() {
+                self.values(&names::attributes(n), &block.attributes)?;
+            }
         }
         Ok(())
     }

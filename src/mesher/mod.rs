@@ -8,6 +8,7 @@ pub mod body;
 pub mod recipe;
 
 mod assembly;
+mod bar;
 mod cylinder;
 mod hex_box;
 mod merge;
@@ -88,6 +89,15 @@ fn check_size(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) {
 /// Shapes, then joints, then blocks, then sets.
 fn build(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) -> Option<Mesh> {
     let mut assembly = assemble(recipe, refine);
+    if let Some(part) = assembly.mixed_part() {
+        let block = recipe.parts[part].block;
+        let message = format!(
+            "{}: block {block} has solids as well; the elements of a block have one shape",
+            recipe.parts[part].place.owner
+        );
+        diagnostics.push(Diagnostic::error(message).at(recipe.parts[part].place.span, "give it a block of its own"));
+        return None;
+    }
     if let Some(part) = assembly.flat_part() {
         diagnostics.push(flat(recipe, part));
         return None;

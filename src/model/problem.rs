@@ -3,6 +3,7 @@
 use super::{
     BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
     TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
+    section,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -80,6 +81,8 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
             }
         }
     }
+    let of_elements = |card: &&Card| language().entry(&card.name).is_some_and(|entry| entry.family == section::FAMILY);
+    deck.cards.iter().filter(|card| card.complete).filter(of_elements).for_each(|card| section::take(card, &mut draft));
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
     output::finish(&mut draft);
@@ -117,6 +120,7 @@ impl Default for Model {
             hourglass: DEFAULT_HOURGLASS,
             functions: Vec::new(),
             materials: Vec::new(),
+            sections: Vec::new(),
             no_displacements: Vec::new(),
             prescribed_motions: Vec::new(),
             prescribed_forces: Vec::new(),

@@ -6,9 +6,8 @@ use super::contact::Contact;
 use super::elements::{ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
-use super::loads::{self, NodeForce, PressureFace};
+use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::nodes::{Nodes, add, cross, scaled, subtract};
-use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
@@ -33,13 +32,9 @@ pub struct Domain {
     /// Names of what the elements of the whole model store beside that, in the elements' order; the same on all ranks.
     pub element_rows: Vec<&'static str>,
     /// Faces under pressure.
-    pub pressure_faces: Vec<PressureFace>,
-    /// Forces on nodes.
-    pub node_forces: Vec<NodeForce>,
-    /// Gravity.
-    pub gravity: loads::BodyForce,
-    /// Dashpots at the nodes of silent boundaries.
-    pub silent: Vec<Dashpot>,
+    pub pressure_faces: PressureFaces,
+    /// All other loads, in the order in which they act.
+    pub loads: Vec<Box<dyn Load>>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
@@ -100,9 +95,7 @@ impl Domain {
             law_states: law_states(model),
             element_rows: element_rows(body),
             pressure_faces: pressure_faces(model, body, share, &local),
-            node_forces: Vec::new(),
-            gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
-            silent: silent::dashpots(mesh, model, body, &local),
+            loads: Vec::new(),
             constraints: Vec::new(),
             carried_work: Vec::new(),
             contact: None,
@@ -110,11 +103,8 @@ impl Domain {
             exchange: Exchange::new(share),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
-        if !model.gravities.is_empty() {
-            domain.gravity.work = vec![0.0; domain.nodes.len()];
-        }
+        domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, &local);
-        domain.set_forces(mesh, model, &local);
         domain.contact =
             Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
@@ -146,25 +136,6 @@ impl Domain {
             }
         }
         taken
-    }
-
-    fn set_forces(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
-        for load in &model.prescribed_forces {
-            // A node that its set names twice gets the force once.
-            let mut nodes: Vec<u32> = nodes_of_set(mesh, load.node_set, local).collect();
-            nodes.sort_unstable();
-            nodes.dedup();
-            for node in nodes {
-                self.node_forces.push(NodeForce {
-                    node,
-                    axis: load.direction.axis(),
-                    function: load.function,
-                    scale: load.scale,
-                    force: 0.0,
-                    work: 0.0,
-                });
-            }
-        }
     }
 
     fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
@@ -212,7 +183,7 @@ pub(super) fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {
     local
 }
 
-fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+pub(super) fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
     let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
     nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT)
 }
@@ -285,7 +256,7 @@ fn new_element(place: u32, block: &Block, body: &Body, share: &Share, local: &[u
     }
 }
 
-fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> Vec<PressureFace> {
+fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> PressureFaces {
     let face = |face: &LoadedFace| {
         let load = &model.pressures[face.pressure as usize];
         PressureFace {
@@ -298,5 +269,5 @@ fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> V
             work: 0.0,
         }
     };
-    share.groups[1].members.iter().map(|&f| face(&body.faces[f as usize])).collect()
+    PressureFaces(share.groups[1].members.iter().map(|&f| face(&body.faces[f as usize])).collect())
 }

@@ -241,7 +241,7 @@ impl Erosion {
             DeathVariable::TimeStep => Box::new(move |i| group.stable_step(i).map(|step| scale * step)),
             DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
                 Some(row) => Box::new(move |i| Some(group.value(i, block.first_of_law() + row))),
-                None => Box::new(|i| Some(state(block, group, i, name))),
+                None => Box::new(|i| Some(state(block, group, i, (nodes, name)))),
             },
             DeathVariable::Field(field, component) => {
                 Box::new(|i| Some(field_values(*field, block, group, i, nodes, 0)[*component]))
@@ -251,9 +251,9 @@ impl Erosion {
 }
 
 /// A state variable of an element's law, by name; zero where the law has none of that name.
-fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {
+fn state(block: &ElementBlock, group: &Group, i: usize, (nodes, name): (&Nodes, &str)) -> f64 {
     let place = block.law.entry().state.iter().position(|variable| variable.name == name);
-    place.map_or(0.0, |place| state_values(block, group, i)[place])
+    place.map_or(0.0, |place| state_values(block, group, i, nodes)[place])
 }
 
 /// All energy that an element has stored.

@@ -6,6 +6,7 @@
 
 use super::domain::Domain;
 use super::elements::Energies;
+use super::loads::{self, Places};
 use crate::comm::{Communicator, ExactSum};
 
 /// Sums over the whole body at one state. The same bits on every rank and any number of ranks.
@@ -68,7 +69,7 @@ impl Totals {
 }
 
 /// Sums at state n, before the kick `kick` = Δt̄ₙ is applied.
-pub fn totals(domain: &Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
+pub fn totals(domain: &mut Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
     let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
     add_nodes(domain, kick, &mut sums);
     add_elements(domain, &mut sums);
@@ -108,24 +109,18 @@ fn add_elements(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
     }
 }
 
-fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
-    let owned = |node: u32| domain.nodes.owned[node as usize];
-    for face in &domain.pressure_faces {
-        sums[5].add(face.work);
+fn add_work(domain: &mut Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+    let Domain { nodes, pressure_faces, loads, constraints, element_file, element_canonical, .. } = domain;
+    let places = Places { nodes, elements: [element_file, element_canonical] };
+    for load in loads::all(pressure_faces, loads) {
+        load.accounts(&places, &mut |account| {
+            if account.own {
+                sums[5].add(*account.work);
+            }
+        });
     }
-    for load in domain.node_forces.iter().filter(|load| owned(load.node)) {
-        sums[5].add(load.work);
-    }
-    for constraint in domain.constraints.iter().filter(|constraint| owned(constraint.node)) {
+    for constraint in constraints.iter().filter(|constraint| nodes.owned[constraint.node as usize]) {
         sums[5].add(constraint.work);
-    }
-    for dashpot in domain.silent.iter().filter(|dashpot| owned(dashpot.node)) {
-        sums[5].add(dashpot.work);
-    }
-    for (work, owned) in domain.gravity.work.iter().zip(&domain.nodes.owned) {
-        if *owned {
-            sums[5].add(*work);
-        }
     }
     domain.carried_work.iter().for_each(|work| sums[5].add(*work));
     for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works()) {

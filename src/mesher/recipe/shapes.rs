@@ -6,6 +6,7 @@ use super::{Draft, Part, Place, Setter};
 use crate::{
     deck::{Card, Diagnostic},
     mesher::{
+        bar::Bar,
         body::{Extent, Shape},
         cylinder::Cylinder,
         hex_box::Hexahedron,
@@ -22,6 +23,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TUBE", tube),
     ("SPHERE", sphere),
     ("SPHERE SHELL", sphere_shell),
+    ("BAR", bar),
 ];
 
 fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
@@ -58,6 +60,15 @@ fn hexahedron(card: &Card, draft: &mut Draft) {
                 .help("four around the bottom, counter-clockwise seen from the top, then the four above them"),
         ),
     }
+}
+
+fn bar(card: &Card, draft: &mut Draft) {
+    let ends = [card.vector(["x", "y", "z"]), card.vector(["x2", "y2", "z2"])];
+    if ends[0] == ends[1] {
+        let message = "BAR: it begins where it ends";
+        return draft.report(Diagnostic::error(message).at(card.record, "the two ends must be apart"));
+    }
+    add(card, draft, Bar { ends, cells: count(card, "n") });
 }
 
 fn cylinder(card: &Card, draft: &mut Draft) {

@@ -20,7 +20,7 @@ pub fn field_values(
     rank: usize,
 ) -> [f64; MOST] {
     let (element, entry) = (&block.element, block.element.entry());
-    let in_space = |own: Sym3<f64>| own.rotate(&element.frame(group, i)).to_array();
+    let in_space = |own: Sym3<f64>| own.rotate(&element.frame(group, i, nodes)).to_array();
     let stress = || element.stress(group, i);
     let per_volume = |energy: Option<usize>| {
         let initial_volume = group.element_mass(i) / block.density;
@@ -28,7 +28,7 @@ pub fn field_values(
     };
     match field {
         ElementField::Stress => filled(&in_space(stress())),
-        ElementField::Strain => filled(&in_space(logarithm(element.stretch(group, i)))),
+        ElementField::Strain => filled(&in_space(logarithm(element.stretch(group, i, nodes)))),
         ElementField::Pressure => filled(&[-stress().trace() / 3.0]),
         ElementField::VonMises => {
             let s = stress().deviator();
@@ -37,8 +37,8 @@ pub fn field_values(
         ElementField::Energy => filled(&[per_volume(Some(entry.energies.internal))]),
         ElementField::HourglassEnergy => filled(&[per_volume(entry.energies.hourglass)]),
         ElementField::Density => filled(&[group.element_mass(i) / element.volume(group, i, nodes)]),
-        ElementField::Stretch => filled(&in_space(element.stretch(group, i))),
-        ElementField::Rotation => filled(element.frame(group, i).as_flattened()),
+        ElementField::Stretch => filled(&in_space(element.stretch(group, i, nodes))),
+        ElementField::Rotation => filled(element.frame(group, i, nodes).as_flattened()),
         ElementField::BulkViscosity => filled(&[entry.viscous_stress.map_or(0.0, |row| -group.value(i, row))]),
         ElementField::Status => filled(&[1.0]),
         ElementField::Rank => filled(&[rank as f64]),
@@ -46,10 +46,10 @@ pub fn field_values(
 }
 
 /// The state variables of an element's law, in the order in which the law lists them.
-pub fn state_values(block: &ElementBlock, group: &Group, i: usize) -> Vec<f64> {
+pub fn state_values(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> Vec<f64> {
     let first = block.first_of_law();
     let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, first + k)).collect();
-    block.law.state(&stored, &block.element.frame(group, i))
+    block.law.state(&stored, &block.element.frame(group, i, nodes))
 }
 
 /// ln U of a stretch, by its eigenvectors: logarithmic strain.

@@ -88,13 +88,13 @@ pub trait Formulation: Sized {
     fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64;
 
     /// The rotation from the frame of the `i`-th element into space; columns are its axes.
-    fn frame(&self, group: &Group, i: usize) -> Matrix3<f64>;
+    fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64>;
 
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
 
     /// Right stretch in the frame of the `i`-th element.
-    fn stretch(&self, group: &Group, i: usize) -> Sym3<f64>;
+    fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64>;
 
     /// Work that the last forces of the `i`-th element have done since the last state. They acted for half of the step that
     /// led here, and no new forces come to be averaged with them when the element goes.

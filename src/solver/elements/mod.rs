@@ -7,6 +7,7 @@ pub mod fields;
 mod formulation;
 pub mod hexahedron;
 mod pass;
+pub mod truss;
 
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
@@ -69,8 +70,8 @@ macro_rules! elements {
             }
 
             /// See [`Formulation::frame`].
-            pub fn frame(&self, group: &Group, i: usize) -> Matrix3<f64> {
-                match self { $(Element::$element(own) => own.frame(group, i),)+ }
+            pub fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+                match self { $(Element::$element(own) => own.frame(group, i, nodes),)+ }
             }
 
             /// See [`Formulation::stress`].
@@ -79,8 +80,8 @@ macro_rules! elements {
             }
 
             /// See [`Formulation::stretch`].
-            pub fn stretch(&self, group: &Group, i: usize) -> Sym3<f64> {
-                match self { $(Element::$element(own) => own.stretch(group, i),)+ }
+            pub fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
+                match self { $(Element::$element(own) => own.stretch(group, i, nodes),)+ }
             }
 
             /// See [`Formulation::last_half_step`].
@@ -93,4 +94,5 @@ macro_rules! elements {
 
 elements! {
     hexahedron::Hexahedron,
+    truss::Truss,
 }

@@ -1,7 +1,7 @@
 //! One pass over the elements of a block, compiled for every kind of element, law and instruction set.
 
 use super::block::Group;
-use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, MOST_CORNERS, Pair, Row, prefetch};
+use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, MOST_CORNERS, Pair, Row, Vectors, prefetch};
 use crate::model::{BulkViscosity, StepModuli};
 
 /// Where corner forces go.
@@ -109,13 +109,13 @@ impl Pass<'_> {
                 (self.interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
             }
         };
-        match self.instructions {
-            // SAFETY: `InstructionSet::detect` returns these only on processors that have them.
+        match self.instructions.vectors() {
+            // SAFETY: an instruction set is one that this processor has.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, step) },
+            Vectors::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, step) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, step) },
+            Vectors::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, step) },
             _ => chunks::<Pair, N, S>(group, self.nodes, sink, step),
         }
     }

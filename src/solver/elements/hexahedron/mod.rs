@@ -147,7 +147,7 @@ impl Formulation for Hexahedron {
         hexahedron_volume(&group.positions(i, nodes))
     }
 
-    fn frame(&self, group: &Group, i: usize) -> Matrix3<f64> {
+    fn frame(&self, group: &Group, i: usize, _: &Nodes) -> Matrix3<f64> {
         rotation_matrix(&group.values::<4>(i, rows::FRAME))
     }
 
@@ -155,14 +155,14 @@ impl Formulation for Hexahedron {
         tensor(group, i, rows::STRESS)
     }
 
-    fn stretch(&self, group: &Group, i: usize) -> Sym3<f64> {
+    fn stretch(&self, group: &Group, i: usize, _: &Nodes) -> Sym3<f64> {
         tensor(group, i, rows::STRETCH)
     }
 
     /// Of stress and bulk viscosity; hourglass forces are left out.
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
         let viscous = group.value(i, rows::VISCOUS_STRESS);
-        let total = self.stress(group, i).add_diagonal(viscous).rotate(&self.frame(group, i)).matrix();
+        let total = self.stress(group, i).add_diagonal(viscous).rotate(&self.frame(group, i, nodes)).matrix();
         let v: [[f64; 3]; 8] = group.velocities(i, nodes);
         let before: [[f64; 3]; 8] = group.positions(i, nodes);
         let operator = gradient(&[0, 1, 2].map(|axis| {

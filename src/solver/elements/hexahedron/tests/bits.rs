@@ -4,12 +4,8 @@ use super::*;
 use crate::material::ElasticPlastic;
 
 /// Sets this processor has, widest first.
-fn instruction_sets() -> &'static [InstructionSet] {
-    match InstructionSet::widest() {
-        InstructionSet::Avx512 => &[InstructionSet::Avx512, InstructionSet::Avx2, InstructionSet::Portable],
-        InstructionSet::Avx2 => &[InstructionSet::Avx2, InstructionSet::Portable],
-        InstructionSet::Portable => &[InstructionSet::Portable],
-    }
+fn instruction_sets() -> Vec<InstructionSet> {
+    InstructionSet::available().collect()
 }
 
 /// Everything that a pass over 19 random elements leaves behind after each of twenty cycles, as bits; the elements
