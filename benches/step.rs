@@ -72,7 +72,7 @@ fn take_steps(solver: &mut Solver, comm: &mut dyn Communicator, steps: usize) {
 /// Nanoseconds per element and step: the best of several bursts, on `ranks` ranks.
 fn grind(n: usize, law: Law, hourglass: Hourglass, instructions: InstructionSet, ranks: usize) -> f64 {
     let (mesh, model) = (cubes(n), model(law, hourglass));
-    let body = Body::new(&mesh, &model);
+    let body = Body::new(&mesh, &model).expect("materials");
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);

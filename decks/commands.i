@@ -24,8 +24,13 @@ PLOT NODAL, DISPLACEMENT, VELOCITY, ACCELERATION, REACTION
 PLOT ELEMENT, STRESS, STRAIN, PRESSURE, VONMISES, *
               ENERGY, DENSITY
 PLOT STATE, EQPS
+PLOT GLOBAL, BLOCK ENERGY
 MATERIAL POINT, 2.E-3, 2.E-3, 1.E-3                 $ near the floor
 MATERIAL POINT, 2.E-3, 2.E-3, 39.E-3                $ near the top
+HISTORY TIME, 0.5E-6
+HISTORY, BLOCK                                      $ both halves as bodies
+HISTORY, NODE SET, 4, 5                             $ what moves the top, and the edge that is driven
+HISTORY, NODE, 1
 
 FUNCTION, 1              $ a ramp, then constant
 0.,      0.

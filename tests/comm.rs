@@ -172,7 +172,7 @@ fn breaks(part: Traffic, after: u32) -> bool {
     let problem = urto::model::examine(Source::new("two_bars.i", &deck), Some(&mesh));
     let model = problem.unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false))).model;
     let ended = run(4, move |inner| {
-        let body = Body::new(&mesh, &model);
+        let body = Body::new(&mesh, &model).expect("materials");
         let cut = body.cut(inner.size());
         let contributors = body.contributors(&cut);
         let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), inner.size());

@@ -6,9 +6,12 @@ use std::{fs, path::Path};
 use proptest::prelude::*;
 use urto::{
     deck::{self, Deck, Source, Status, language},
-    material::{self, ElasticPlastic, Law, MATERIALS, Origin},
+    material::{self, ElasticPlastic, Law, MATERIALS, Origin, Property, Range},
     mesh::{Block, Mesh, NodeSet, SideSet},
-    model::{self, Direction, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli, examine},
+    model::{
+        self, Direction, ElementField, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli,
+        examine,
+    },
 };
 
 /// Two blocks of 1 × 1 × 2 hexahedra along z: node sets 1 (x = 0), 2 (y = 0), 3 (z = 0), 4 (top) and an empty 9;
@@ -128,6 +131,9 @@ const RECALLED: &str = "PLANE STRAIN/READ RESTART/TIME STEP SCALE/HOURGLASS STIF
     PRESCRIBED FORCE/PRESSURE/ADAPTIVE PRESSURE/DISTRIBUTED LOAD/THERMAL STRESS/SILENT BC/INITIAL VELOCITY NODESET/
     INITIAL VELOCITY ANGULAR/CONTACT MATERIAL/CONTACT DATA/CONTACT NODE SET/RIGID SURFACE/DELETE MATERIAL/DEATH/ACTIVE LIMITS/
     MATERIAL POINT/INTEGRATION POINTS/SHELL/THICKNESS SCALE/SPH";
+/// What SANTOS adds, which is refused.
+const SANTOS: &str = "STEP CONTROL/RESIDUAL TOLERANCE/MAXIMUM ITERATIONS/MAXIMUM TOLERANCE/PREDICTOR SCALE FACTOR/
+    MINIMUM DAMPING FACTOR/INTERMEDIATE PRINT/ELASTIC SOLUTION/AUTO STEP/INITIAL STRESS";
 /// Material models with their spellings.
 const MODELS: &str =
     "ELASTIC/ELASTIC PLASTIC/LOW DEN FOAM/LOW DENSITY FOAM/SOIL N FOAMS/SOILS AND FOAMS/SOIL AND CRUSHABLE FOAM/
@@ -140,7 +146,7 @@ const EQUATIONS: &str = "MG US-UP/MG POWER SERIES/JWL/IDEAL GAS";
 #[test]
 fn the_language_of_pronto_is_known() {
     let list = |names: &'static str| names.split('/').map(str::trim);
-    for (names, origin) in [(VERIFIED, Origin::Verified), (RECALLED, Origin::Recalled)] {
+    for (names, origin) in [(VERIFIED, Origin::Verified), (RECALLED, Origin::Recalled), (SANTOS, Origin::Recalled)] {
         for name in list(names) {
             let entry = language().entry(name).unwrap_or_else(|| panic!("{name} is not in the grammar"));
             assert_eq!(entry.from, origin, "{name}");
@@ -159,7 +165,11 @@ fn the_language_of_pronto_is_known() {
     }
     // What is neither in these lists nor ours has come from nowhere.
     for entry in language().commands().filter(|entry| entry.from != Origin::Ours) {
-        assert!([VERIFIED, RECALLED].into_iter().flat_map(list).any(|name| name == entry.name), "{}", entry.name);
+        assert!(
+            [VERIFIED, RECALLED, SANTOS].into_iter().flat_map(list).any(|name| name == entry.name),
+            "{}",
+            entry.name
+        );
     }
 }
 
@@ -281,6 +291,49 @@ fn hourglass_commands_in_either_order() {
 }
 
 #[test]
+fn words_mean_what_analysts_mean() {
+    let fields = |text: &str| problem(&format!("{LEAST}PLOT ELEMENT, {text}\n")).model.plot_requests.element;
+    assert_eq!(fields("STRE"), [ElementField::Stress], "PRONTO has no other word that begins so");
+    assert_eq!(fields("STRET, ROT"), [ElementField::Stretch, ElementField::Rotation]);
+    assert_eq!(fields("STRA"), [ElementField::Strain]);
+    for apostrophe in ["'", "\u{2019}"] {
+        let deck = LEAST.replace("YOU MOD", &format!("Young{apostrophe}s modulus"));
+        assert_eq!(problem(&deck).model.materials, problem(LEAST).model.materials);
+    }
+    let velocity = |fields: &str| problem(&format!("{LEAST}INITIAL VELOCITY MATERIAL, 1{fields}\n")).model;
+    for (fields, expected) in
+        [(",,,-5.", [0.0, 0.0, -5.0]), (",2.", [2.0, 0.0, 0.0]), (",,3.", [0.0, 3.0, 0.0]), (",0.", [0.0; 3])]
+    {
+        let given = InitialVelocity::Material { block: 1, velocity: expected };
+        assert_eq!(velocity(fields).initial_velocities, [given], "{fields}");
+    }
+}
+
+#[test]
+fn all_stands_for_every_block_of_contact() {
+    let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
+    let contact = |text: &str| problem(&format!("{LEAST}{blocks}{text}")).model.contact;
+    assert_eq!(contact("CONTACT MATERIAL, ALL\n").materials, contact("CONTACT MATERIAL\n").materials);
+    assert_ne!(contact("CONTACT MATERIAL, 1\n").materials, contact("CONTACT MATERIAL, ALL\n").materials);
+    let coefficient = |text: &str, a: i64, b: i64| -> Option<f64> {
+        let data = contact(&format!("CONTACT MATERIAL, ALL\n{text}")).data;
+        let found: Vec<_> = data.iter().filter(|d| d.materials == [a, b] || d.materials == [b, a]).collect();
+        assert!(found.len() < 2, "{a} and {b} are paired once");
+        found.first().map(|data| data.friction.at_rest)
+    };
+    let all = "CONTACT DATA, ALL, ALL, 0.2\n";
+    for (a, b) in [(1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)] {
+        assert_eq!(coefficient(all, a, b), Some(0.2));
+    }
+    for text in [format!("{all}CONTACT DATA, 3, 1, 0.5\n"), format!("CONTACT DATA, 3, 1, 0.5\n{all}")] {
+        assert_eq!(coefficient(&text, 1, 3), Some(0.5), "what is said of a pair holds over what is said of all");
+        assert_eq!(coefficient(&text, 1, 2), Some(0.2));
+    }
+    let one = "CONTACT DATA, 2, ALL, 0.3, 0.25\n";
+    assert_eq!((coefficient(one, 2, 3), coefficient(one, 3, 1)), (Some(0.3), None));
+}
+
+#[test]
 fn loads_refer_to_functions_wherever_they_stand() {
     let text = format!(
         "{LEAST}PRESSURE 7 20 3.0\nGRAVITY 0 0 -9.81\nPRES VELO z 4 10\nRIGID SURFACE 7 0 0 0 0 0 -2\n\
@@ -308,6 +361,112 @@ fn commands_that_are_not_built_stop_or_warn() {
             _ => assert_eq!(result.map_err(|d| d.errors().count()).err(), Some(1), "{}", entry.name),
         }
     }
+}
+
+/// A value that a property takes.
+fn some_value(range: Range) -> f64 {
+    let likely = [1.0, 0.3, 0.5 * (low(range) + high(range))];
+    likely.into_iter().find(|&value| range.contains(value)).expect("a value in the range")
+}
+
+fn low(range: Range) -> f64 {
+    if let Range::Between { low, .. } = range { low.0 } else { 0.0 }
+}
+
+fn high(range: Range) -> f64 {
+    if let Range::Between { high, .. } = range { high.0 } else { 2.0 }
+}
+
+/// A group of a block with lines for all these properties but one, which may stand there misspelt.
+fn group(head: &str, properties: &[Property], left_out: Option<&str>, instead: &str) -> String {
+    let line = |p: &Property| match left_out {
+        Some(keyword) if keyword == p.keyword => instead.to_string(),
+        _ => format!("{} = {}\n", p.keyword, some_value(p.range)),
+    };
+    format!("{head}\n{}END\n", properties.iter().map(line).collect::<String>())
+}
+
+/// A deck with a sound material for block 2, so that block 1 could take it.
+fn with_a_neighbour(groups: &str) -> String {
+    format!(
+        "TERMINATION TIME 1\nFUNCTION 1\n0 0\n1 1\nEND\n{groups}\
+         MATERIAL 2 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n"
+    )
+}
+
+/// The groups of block 1 for every law and every equation of state: what goes before, its head, its properties, what
+/// goes after.
+fn groups_of_all_laws() -> Vec<(String, String, &'static [Property])> {
+    let gas = "EQUATION OF STATE 1 IDEAL GAS\nGAMMA 1.4\nINITIAL ENERGY 1\nEND\n";
+    let laws = MATERIALS.iter().map(|law| {
+        let before = if law.name.contains("HYDRO") { gas } else { "" };
+        (before.to_string(), format!("MATERIAL 1, {}, 1.", law.name), law.properties)
+    });
+    let fluid = MATERIALS.iter().find(|law| law.name == "HYDRODYNAMIC").expect("the law of fluids").properties;
+    let equations = material::EQUATIONS_OF_STATE.iter().map(move |equation| {
+        let before = group("MATERIAL 1 HYDRODYNAMIC 1.", fluid, None, "");
+        (before, format!("EQUATION OF STATE 1, {}", equation.name), equation.properties)
+    });
+    laws.chain(equations).collect()
+}
+
+/// Errors of a deck that must have some; what it would compute, if it has none.
+fn errors_of(text: &str) -> Vec<String> {
+    match examine(Source::new("t.i", text), Some(&two_blocks())) {
+        Ok(problem) => panic!("taken:\n{text}\n{:?}", problem.model.materials),
+        Err(messages) => messages.errors().map(|d| d.message.clone()).collect(),
+    }
+}
+
+#[test]
+fn every_forgotten_property_is_named_and_no_block_gets_another_law() {
+    let mut tried = 0;
+    for (before, head, properties) in groups_of_all_laws() {
+        for property in properties.iter().filter(|p| p.default.is_none()) {
+            let deck = with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(property.keyword), "")));
+            let errors = errors_of(&deck);
+            let said = errors.iter().any(|e| e.ends_with(&format!("{} is missing", property.keyword)));
+            assert!(said, "{}: {errors:?}\n{deck}", property.keyword);
+            tried += 1;
+        }
+        // All of them forgotten.
+        let required: Vec<&str> = properties.iter().filter(|p| p.default.is_none()).map(|p| p.keyword).collect();
+        if !required.is_empty() {
+            let deck = with_a_neighbour(&format!("{before}{head}\nEND\n"));
+            let errors = errors_of(&deck);
+            assert!(errors.iter().any(|e| required.iter().all(|keyword| e.contains(keyword))), "{errors:?}\n{deck}");
+        }
+    }
+    assert!(tried > 60, "{tried} lines of all laws");
+}
+
+#[test]
+fn every_misspelt_property_is_an_error() {
+    for (before, head, properties) in groups_of_all_laws() {
+        for property in properties {
+            let keyword = property.keyword;
+            let value = some_value(property.range);
+            // A letter too much, no value, a word for a value, another line's keyword.
+            let mut lines = vec![format!("{keyword}QQQ {value}\n"), format!("{keyword} ROUGHLY\n")];
+            if property.default.is_none() {
+                lines.push(format!("{keyword}\n"));
+            }
+            lines
+                .extend(properties.iter().filter(|p| p.keyword != keyword).map(|p| format!("{} {value}\n", p.keyword)));
+            for line in lines {
+                errors_of(&with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(keyword), &line))));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_without_a_law_for_every_block_is_refused() {
+    let (mesh, mut model) = (two_blocks(), problem(&with_a_neighbour("")).model);
+    let missing = urto::solver::Body::new(&mesh, &model).err().map(|e| e.to_string());
+    assert_eq!(missing.as_deref(), Some("element block 1 has no MATERIAL"));
+    model.materials.clear();
+    assert!(urto::solver::Body::new(&mesh, &model).is_err());
 }
 
 /// Pieces that a mutation puts into a deck.
@@ -377,6 +536,64 @@ fn mutate(text: &mut Vec<char>, (kind, at, length, piece): (u8, usize, usize, us
     }
 }
 
+/// What an expression or a block can hold another of, before it and after it.
+const SHELLS: &[(&str, &str)] = &[
+    ("(", ")"),
+    ("-", ""),
+    ("!", ""),
+    ("1+", ""),
+    ("", "-1"),
+    ("1*1+", ""),
+    ("2^", ""),
+    ("", "^1"),
+    ("1<", ""),
+    ("1&&", ""),
+    ("", "||0"),
+    ("'a'//", ""),
+    ("", "//''"),
+    ("x=", ""),
+    ("x+=", ""),
+    ("++", ""),
+    ("1?", ":1"),
+    ("0?1:", ""),
+    ("sqrt(", ")"),
+    ("max(1,", ",2)"),
+    ("1,", ""),
+    ("}{", ""),
+    ("\\{", "\\}"),
+    ("\n{if(1)}\n", "\n{endif}\n"),
+    ("\n{else}\n", ""),
+    ("\n{loop(1)}\n", "\n{endloop}\n"),
+];
+
+/// Expressions as long and as deep as nobody writes them, on a stack of two megabytes, as every test has: in decks and in
+/// recipes they have a value or are refused.
+#[test]
+fn long_and_deep_expressions_are_answered() {
+    let shells = prop::collection::vec((0..SHELLS.len(), prop_oneof![1usize..5, 90usize..110, 1usize..15_000]), 1..4);
+    let cores = prop::sample::select(vec!["1", "'a'", "x", "", "1 2", "(", "f(1)"]);
+    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(500));
+    let outcome = cases.run(&(shells, cores, any::<bool>()), |(shells, core, closed)| {
+        let mut expression = core.to_string();
+        for (shell, count) in shells {
+            let (before, after) = SHELLS[shell];
+            expression = [&before.repeat(count), expression.as_str(), &after.repeat(count)].concat();
+        }
+        let brace = if closed { "}" } else { "" };
+        let deck = format!("{LEAST}$ {{{{x = 1}}}}{{{expression}{brace}\n");
+        if let Err(messages) = examine(Source::new("t.i", deck), None) {
+            prop_assert!(!messages.render(false).is_empty());
+        }
+        // A box that lacks most of its fields, so that no number makes it a large mesh.
+        let recipe = format!("BOX, {{{expression}{brace}\n");
+        prop_assert!(urto::mesher::make(&recipe, "t.mesh", 1).is_err());
+        Ok(())
+    });
+    outcome.unwrap_or_else(|why| panic!("{why}"));
+    let sum = format!("{{1{}}}", "+1".repeat(11_999));
+    assert_eq!(problem(&LEAST.replace("TIME 1", &format!("TIME {sum}"))).model.termination_time, 12_000.0);
+}
+
 #[test]
 fn a_hundred_thousand_mutilated_decks_are_answered() {
     let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours"), EXPRESSIONS];
@@ -388,7 +605,13 @@ fn a_hundred_thousand_mutilated_decks_are_answered() {
         mutations.into_iter().for_each(|mutation| mutate(&mut text, mutation));
         let text: String = text.into_iter().collect();
         let messages = match examine(Source::new("t.i", text), Some(&mesh)) {
-            Ok(problem) => problem.diagnostics,
+            Ok(problem) => {
+                for block in &mesh.blocks {
+                    let materials = &problem.model.materials;
+                    prop_assert!(materials.iter().any(|m| m.block == block.id), "block {} has no law", block.id);
+                }
+                problem.diagnostics
+            }
             Err(messages) => messages,
         };
         for label in messages.errors().flat_map(|diagnostic| &diagnostic.labels) {

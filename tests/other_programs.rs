@@ -150,6 +150,39 @@ fn netcdf4_joins_our_pieces_by_their_numbers() {
     }
 }
 
+/// Histories of blocks, node sets and nodes against sums over full plot states that another program makes from scratch, and
+/// the same bits on any number of ranks, split or not.
+#[test]
+fn histories_are_sums_over_full_states() {
+    let desk = ran();
+    let deck = desk.text("two.i").replace("PLOT TIME, 2.E-6\nPLOT NODAL, VELOCITY\nPLOT ELEMENT, STRESS\n", "");
+    let asked = "PLOT TIME, 1.E-6\nHISTORY TIME, 1.E-6\nPLOT NODAL, VELOCITY, REACTION\nPLOT ELEMENT, ENERGY\n\
+         PLOT GLOBAL, BLOCK ENERGY\nHISTORY, BLOCK\nHISTORY, NODE SET, 3, 1\nHISTORY, NODE, 7, 31\nEXIT\n";
+    desk.put("watch.i", &deck.replace("EXIT\n", asked));
+    desk.put_mesh("watch.g", &box_mesh([2, 3, 4], [0.02, 0.03, 0.05], true));
+    desk.urto(&["watch.i", "-q", "--ranks", "1"]).with(0);
+    let values = |name: &str| {
+        let file = desk.results(name);
+        let states = 0..file.times().len();
+        states.flat_map(|s| file.global(s).expect("a state")).map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let bits = values("watch.h");
+    for more in [&["--ranks", "2"][..], &["--ranks", "5", "--split"]] {
+        desk.urto(&[&["watch.i", "-q", "-o", "more"], more].concat()).with(0);
+        assert_eq!(values("more.h"), bits, "{more:?}");
+    }
+    let (plot, history) = (desk.path("watch.e"), desk.path("watch.h"));
+    let arguments = [plot.as_path(), history.as_path(), Path::new("7800"), Path::new("2700")];
+    match run_script("tests/python/sum_histories.py", &arguments) {
+        // Eleven states of 20 variables of two blocks and 12 of two sets and two nodes.
+        Ok(out) => {
+            let compared: usize = out.split_whitespace().next().and_then(|n| n.parse().ok()).unwrap_or(0);
+            assert!(compared >= 11 * (2 * 18 + 4 * 12), "{out}");
+        }
+        Err(why) => skipped("netCDF4", &why),
+    }
+}
+
 /// By the calls of programs that join pieces: load balance, maps, and what pieces share.
 #[test]
 fn the_exodus_library_finds_what_our_pieces_share() {

@@ -66,6 +66,21 @@ fn joined_pieces_are_the_unsplit_file() {
     }
 }
 
+/// Curves of a run in pieces are those of the whole, of the body, at nodes at borders and in elements.
+#[test]
+fn pieces_are_plotted_as_one() {
+    let desk = desk(&two_blocks());
+    split(&desk, 3, "parts");
+    let numbers = |results: &str| {
+        let wanted = ["-v", "KE,VELZ,SIGZZ", "--node", "1,20,30,60", "--element", "1,24"];
+        desk.urto(&[&["plot", results, "--csv", "-o", "x.csv"], &wanted[..]].concat()).with(0);
+        desk.text("x.csv")
+    };
+    let whole = numbers("whole.e");
+    assert_eq!(whole.lines().count(), 12);
+    assert!(numbers("parts.e") == whole && numbers("parts.e.3.1") == whole);
+}
+
 /// Numbers out of order and too large for 32 bits, sets out of order that name a node twice, names, a node that belongs
 /// to no element, and fewer elements than ranks.
 #[test]
@@ -175,7 +190,9 @@ fn pieces_that_make_no_whole_are_refused() {
     fs::rename(desk.path("away"), desk.path("run.e.3.1")).expect("it is there");
     split(&desk, 2, "run");
     desk.urto(&["join", "run.e"]).with(2).says(&["run.e is there in 2 and in 3 pieces", "such as run.e.2.0"]);
-    desk.urto(&["join", "run.e.3.2", "-o", "run.e.3.1"]).with(2).says(&["is one of the pieces itself"]);
+    desk.urto(&["join", "run.e.3.2", "-o", "run.e.3.1"])
+        .with(2)
+        .says(&["is one of the pieces, and would be written over"]);
     desk.urto(&["join", "run.e.3.2", "-o", "three.e"]).with(0);
     // A piece under another's name.
     fs::copy(desk.path("run.e.3.0"), desk.path("run.e.3.1")).expect("it is there");

@@ -140,7 +140,7 @@ fn overlaps_too_deep_to_be_taken_out_are_told() {
         elastic(1, 7850., 200e9, 0.3),
         elastic(2, 7850., 200e9, 0.3)
     );
-    let overlap = Body::new(&mesh, &model(&deck, &mesh)).overlap;
+    let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
     // The lower nine nodes and the eight around the middle of the column, and the node of the cube's top in the column.
     assert_eq!((overlap.nodes, overlap.left.nodes), (0, 18));
     assert!((overlap.left.deepest - 0.004).abs() < 1e-12, "{:?}", overlap.left);

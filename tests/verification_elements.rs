@@ -61,7 +61,7 @@ fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Mo
 }
 
 fn solver(mesh: &Mesh, model: &Model) -> Solver {
-    let body = Body::new(mesh, model);
+    let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
     let share = Decomposition::new(&contributors, mesh.coordinates.len(), 1).share(0);

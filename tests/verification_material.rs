@@ -288,7 +288,7 @@ fn noh(n: usize) -> Noh {
 
 /// A solver of the whole problem.
 fn alone(mesh: &Mesh, model: &Model) -> Solver {
-    let body = Body::new(mesh, model);
+    let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), 1);

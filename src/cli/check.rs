@@ -6,6 +6,7 @@ use super::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::output::print::{self, scientific};
 use crate::partition::Decomposition;
+use crate::run::Endless;
 use crate::solver::elements::Element;
 use crate::solver::{Body, Request, Solver, state_names};
 use std::time::Instant;
@@ -20,17 +21,36 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
         complain(format_args!("{warnings}\n"));
     }
     let model = &given.problem.model;
-    for note in given.problem.diagnostics.notes() {
-        say(format_args!("assumed: {}", note.message));
-    }
     say(model.title.trim());
-    let body = Body::new(&given.mesh, model);
+    let body = given.body()?;
     if let Some(warning) = body.overlap.left.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }
     say(modelled(&given, &body));
+    if let Some(assumed) = assumed(&given) {
+        say(assumed);
+    }
     say(trial(&given, &body)?);
     Ok(DONE)
+}
+
+/// How abbreviations were understood, in a few lines; the log of a run has all.
+fn assumed(given: &Given) -> Option<String> {
+    /// Assumptions shown.
+    const SHOWN: usize = 4;
+    let mut notes: Vec<&str> = Vec::new();
+    for note in given.problem.diagnostics.notes() {
+        let text = note.message.trim_start_matches("assumed ");
+        if !notes.contains(&text) {
+            notes.push(text);
+        }
+    }
+    let first = notes.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
+    match notes.len() {
+        0 => None,
+        n if n > SHOWN => Some(format!("assumed: {first} and {} more, which the log of a run lists\n", n - SHOWN)),
+        _ => Some(format!("assumed: {first}\n")),
+    }
 }
 
 /// What is modelled, block by block.
@@ -73,6 +93,10 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     solver.prepare(Request::Continue, comm).map_err(stopped)?;
     let place = solver.controlling_element(comm);
     let first = solver.time_step;
+    if let Some(endless) = Endless::at(solver.time, first, model.termination_time) {
+        let place = format!("set by element {} of block {}", place.element, place.block);
+        return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
+    }
     let begun = Instant::now();
     for _ in 0..TRIAL_STEPS {
         solver.advance();

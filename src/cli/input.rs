@@ -1,5 +1,6 @@
 //! Finds and reads deck and mesh.
 
+use super::outputs::Inputs;
 use super::terminal::complain;
 use super::{Failure, options};
 use crate::deck::{Diagnostic, Diagnostics, Source};
@@ -10,7 +11,7 @@ use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
 use crate::model::{Problem, examine};
 use crate::solver::elements::Unfit;
-use crate::solver::unfit_blocks;
+use crate::solver::{Body, unfit_blocks};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +25,12 @@ pub struct Given {
     pub problem: Problem,
     /// The mesh.
     pub mesh: Mesh,
+    /// The files of the mesh: itself, or the recipe and what it includes.
+    pub mesh_files: Vec<PathBuf>,
 }
+
+/// A mesh, and the files that it was read or made from.
+pub type MeshOf = (Mesh, Vec<PathBuf>);
 
 impl Given {
     /// Reads both, or returns every mistake of both.
@@ -55,18 +61,18 @@ impl Given {
     fn read_with(
         input: &options::Input,
         ranks: Option<u32>,
-        read: &mut dyn FnMut(&Path) -> Result<Mesh, Failure>,
+        read: &mut dyn FnMut(&Path) -> Result<MeshOf, Failure>,
     ) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
         let source = open(&deck, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
-        match (examine(source, mesh.as_ref().ok().map(|(mesh, _)| mesh)), mesh) {
-            (Ok(problem), Ok((mesh, mesh_path))) => {
+        match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
+            (Ok(problem), Ok(((mesh, mesh_files), mesh_path))) => {
                 let unfit = unfit_blocks(&mesh, &problem.model);
                 if unfit.is_empty() {
-                    return Ok(Given { deck, mesh_path, problem, mesh });
+                    return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
                 }
                 let mut told = problem.diagnostics;
                 for (block, Unfit { reason, help }) in unfit {
@@ -80,6 +86,17 @@ impl Given {
                 Err(Failure::input(format_args!("{}\n{}", render(&mistakes), failure.message)))
             }
         }
+    }
+
+    /// The body before it is cut.
+    pub fn body(&self) -> Result<Body, Failure> {
+        Body::new(&self.mesh, &self.problem.model).map_err(Failure::input_error)
+    }
+
+    /// The files that all of this was read from.
+    pub fn inputs(&self) -> Inputs {
+        let mesh = if is_recipe(&self.mesh_path) { "the recipe of the mesh" } else { "the mesh" };
+        Inputs::default().with("the deck", self.problem.deck.source.files()).with(mesh, &self.mesh_files)
     }
 
     /// Warnings that the user should see.
@@ -141,8 +158,11 @@ fn read_or_make(
     path: &Path,
     ranks: Option<u32>,
     read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
-) -> Result<Mesh, Failure> {
-    if is_recipe(path) { make_mesh(path, 1, ranks) } else { read(path).map_err(Failure::input) }
+) -> Result<MeshOf, Failure> {
+    if is_recipe(path) {
+        return make_mesh(path, 1, ranks);
+    }
+    read(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input)
 }
 
 fn is_recipe(path: &Path) -> bool {
@@ -150,7 +170,7 @@ fn is_recipe(path: &Path) -> bool {
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
-pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh, Failure> {
+pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<MeshOf, Failure> {
     let source = open(recipe, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
     let (mesh, found) =
@@ -158,7 +178,7 @@ pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<Mesh,
     if !found.is_empty() {
         complain(render(&found));
     }
-    Ok(mesh)
+    Ok((mesh, found.source().files().into_iter().map(PathBuf::from).collect()))
 }
 
 /// The mesh as named, or `x.g` beside the deck, or in `meshes/` beside the deck's folder, or its recipe there.

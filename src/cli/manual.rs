@@ -99,6 +99,7 @@ fn written() -> String {
 const CLOSING: &str = r#".SH FILES
 All files of a run have one base name: the deck's, or that of
 .BR \-\-output .
+No verb writes over a file that it reads, by whatever name or link; old results are replaced.
 .TP
 .B BASE.i
 The deck, see
@@ -106,6 +107,9 @@ The deck, see
 .TP
 .B BASE.g
 The mesh: GENESIS with hexahedra (HEX8), wedges (WEDGE6) and pyramids (PYRAMID5), EXODUS II in any netCDF format, or EXODUS I.
+It is the whole mesh, not a piece of one that was cut for several ranks. Numbers of blocks, sets, nodes and elements may
+begin with 0. Files of netCDF-4 are first read by a process of their own, of which nothing is seen: the HDF5 library does not
+survive every damaged file. It reads files up to 64 MB whole, of larger ones all but the values.
 .TP
 .B BASE.mesh
 A recipe, from which
@@ -132,8 +136,9 @@ Nemesis.
 makes BASE.e of them.
 .TP
 .B BASE.h
-Histories of the points of MATERIAL POINT, if the deck has any: an EXODUS file of the watched elements, with one state per
-OUTPUT TIME and global variables such as SIGZZ_1.
+Histories of what MATERIAL POINT and HISTORY watch, if the deck has any: an EXODUS file of the watched elements, with one state
+per HISTORY TIME (else OUTPUT TIME) and global variables such as SIGZZ_1 and ACCLZ_BLOCK3, for
+.BR "urto plot" .
 .TP
 .B BASE.shutdown
 When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one
@@ -147,12 +152,13 @@ the files are the same.
 .TP
 .B 1
 The run failed: an inverted element, a motion that is no longer a number, a collapsing time step, energy running away,
-a file that cannot be written. The last state is written and the cause named. For
+a file that cannot be written, or a full standard output. The last state is written and the cause named. For
 .BR diff ,
-the files differ.
+the files differ; a picture, a mesh or a table could not be written. A reader who closes the pipe early is no failure.
 .TP
 .B 2
-The deck, the mesh or the command line is wrong. For
+The deck, the mesh, the results to draw or to join, or the command line is wrong; a file that is read would be written
+over; or the run would take more than 1E12 steps. For
 .BR diff ,
 the files cannot be compared.
 .TP
@@ -186,6 +192,12 @@ The same on four MPI processes, with the same bits.
 .TP
 .B urto view out/case1.e \-\-variable EQPS \-\-mirror xy
 Draws the last state, coloured by equivalent plastic strain, with the mirror images of a quarter model.
+.TP
+.B urto plot out/case1.e
+The energies of the body over time, as case1_curves.png; with a table of what they reach.
+.TP
+.B urto plot a.h b.h \-v SIGZZ_1 \-\-filter CFC1000 \-o stress.svg
+The stress at the first watched point in two runs, filtered, in one picture.
 .TP
 .B urto explain INITIAL VELOCITY MATERIAL
 A command of the deck: form, fields, units, defaults, an example.

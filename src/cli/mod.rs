@@ -6,6 +6,8 @@ mod display;
 mod input;
 mod manual;
 mod options;
+mod outputs;
+mod plot;
 mod restart;
 mod run;
 mod scale;
@@ -16,7 +18,7 @@ mod verbs;
 pub use manual::manual;
 pub use options::{Options, command};
 
-use crate::deck;
+use crate::{deck, exodus};
 use clap::FromArgMatches;
 use options::Verb;
 use std::ffi::OsString;
@@ -59,6 +61,7 @@ impl Failure {
 
 /// The whole program: arguments in, exit code out.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    signals::survive_full_files();
     let matches = match command().try_get_matches_from(with_verb(arguments)) {
         Ok(matches) => matches,
         Err(error) => {
@@ -66,9 +69,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 terminal::complain(&failure.message);
                 return ExitCode::from(failure.code);
             }
-            // Nobody reads when printing fails.
-            let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { WRONG_INPUT } else { DONE });
+            terminal::note(error.print());
+            return leave(if error.use_stderr() { WRONG_INPUT } else { DONE });
         }
     };
     let outcome = match Options::from_arg_matches(&matches) {
@@ -76,11 +78,22 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => Err(Failure::input(error)),
     };
     match outcome {
-        Ok(code) => ExitCode::from(code),
+        Ok(code) => leave(code),
         Err(failure) => {
             terminal::complain(&failure.message);
             ExitCode::from(failure.code)
         }
+    }
+}
+
+/// Leaves with an exit code; where what was said did not arrive, nothing was done.
+fn leave(code: u8) -> ExitCode {
+    match terminal::lost() {
+        Some(reason) if code == DONE => {
+            terminal::complain(format_args!("error: cannot write to the standard output: {reason}"));
+            ExitCode::from(FAILED)
+        }
+        _ => ExitCode::from(code),
     }
 }
 
@@ -113,15 +126,23 @@ fn unknown_word(error: &clap::Error) -> Option<Failure> {
 }
 
 fn carry_out(options: Options) -> Result<u8, Failure> {
+    if let (false, Ok(program)) = (matches!(options.verb, Verb::Probe(_)), std::env::current_exe()) {
+        exodus::probe_with(program, [OsString::from("probe")]);
+    }
     match options.verb {
         Verb::Run(options) => run::run(&options),
         Verb::Check(options) => check::check(&options),
         Verb::Explain(options) => verbs::explain(&options),
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::View(options) => verbs::view(&options),
+        Verb::Plot(options) => plot::plot(&options),
         Verb::Diff(options) => verbs::diff(&options),
         Verb::Scale(options) => scale::scale(&options),
         Verb::Join(options) => verbs::join(&options),
         Verb::Generate(options) => verbs::generate(&options),
+        Verb::Probe(options) => {
+            exodus::try_out(&options.file);
+            Ok(DONE)
+        }
     }
 }

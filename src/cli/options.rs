@@ -28,6 +28,7 @@ Examples:
   urto check decks/taylor_bar.i             what would be modelled, and what it would cost
   urto decks/taylor_bar.i                   runs it on all cores
   urto view taylor_bar.e -v EQPS            draws the last state
+  urto plot taylor_bar.e                    its energies over time
   urto explain INITIAL VELOCITY MATERIAL    a command of the deck
   mpiexec -n 4 urto decks/taylor_bar.i      the same bits, over MPI
 
@@ -42,11 +43,14 @@ pub enum Verb {
     Explain(Explain),
     Mesh(Mesh),
     View(View),
+    Plot(Box<Plot>),
     Diff(Diff),
     Scale(Scale),
     Join(Join),
     #[command(hide = true)]
     Generate(Generate),
+    #[command(hide = true)]
+    Probe(Probe),
 }
 
 /// Where deck and mesh are.
@@ -171,6 +175,91 @@ pub struct View {
     pub animate: bool,
 }
 
+/// Plots curves from results and histories
+///
+/// Variables over time, or over each other, of any number of .e and .h files, as a PNG or an SVG, or with --csv as numbers.
+/// Without -v the energies of the body. What continued runs left beside a file (x.e-s0002) and pieces of a split run are read
+/// as one with it. Curves are made in this order: --minus, --derive, --integrate, --filter, --scale. A curve that is filtered
+/// is first brought to even times. Prints each curve's least, greatest and last value.
+#[derive(Debug, Args)]
+pub struct Plot {
+    /// Results, x.e, and histories, x.h
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// The file to write; else the first file's name with _curves.png, here
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Variables, with commas between; * stands for any letters; a vector's stem, such as VEL, for its length
+    #[arg(short, long, value_name = "NAMES", value_delimiter = ',')]
+    pub variables: Vec<String>,
+    /// Variables that have their axis on the right
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub right: Vec<String>,
+    /// Variable to plot over, in place of time: force over displacement
+    #[arg(short = 'x', long, value_name = "NAME")]
+    pub over: Option<String>,
+    /// Numbers of nodes at which nodal variables are taken
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub node: Vec<i64>,
+    /// Numbers of elements in which element variables are taken
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub element: Vec<i64>,
+    /// Subtracts a variable of the same file, or the same variables of another file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub minus: Option<String>,
+    /// Derivative with respect to time
+    #[arg(long)]
+    pub derive: bool,
+    /// Integral over time from the first state
+    #[arg(long)]
+    pub integrate: bool,
+    /// Channel frequency class of SAE J211 (ISO 6487): CFC60, CFC180, CFC600, CFC1000 or another number of hertz
+    #[arg(long, value_name = "CFCnnn")]
+    pub filter: Option<String>,
+    /// How long a second is in the deck's units of time: 1000 where they are milliseconds
+    #[arg(long, value_name = "T", default_value_t = 1.0)]
+    pub second: f64,
+    /// Factor on the values
+    #[arg(long, value_name = "F", default_value_t = 1.0, allow_hyphen_values = true)]
+    pub scale: f64,
+    /// Draws the columns of a CSV file beside the curves, over its first column
+    #[arg(long, value_name = "FILE")]
+    pub reference: Vec<PathBuf>,
+    /// Logarithmic axes: any of x, y, and r for the one on the right
+    #[arg(long, value_name = "AXES", default_value = "", hide_default_value = true)]
+    pub log: String,
+    /// Ends of the axis below
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
+    pub x_range: Option<String>,
+    /// Ends of the axis on the left
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
+    pub y_range: Option<String>,
+    /// Ends of the axis on the right
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
+    pub right_range: Option<String>,
+    /// Title; else that of the first run
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// What stands at the axis below
+    #[arg(long, value_name = "TEXT")]
+    pub x_label: Option<String>,
+    /// What stands at the axis on the left
+    #[arg(long, value_name = "TEXT")]
+    pub y_label: Option<String>,
+    /// What stands at the axis on the right
+    #[arg(long, value_name = "TEXT")]
+    pub right_label: Option<String>,
+    /// Size in pixels: WIDTHxHEIGHT
+    #[arg(long, value_name = "SIZE", default_value = "1200x800")]
+    pub size: String,
+    /// Writes the numbers to the place of -o in place of a picture
+    #[arg(long)]
+    pub csv: bool,
+    /// Lists what there is to plot; draws nothing
+    #[arg(long)]
+    pub list: bool,
+}
+
 /// Compares two EXODUS files: 0 same, 1 differ, 2 cannot compare
 ///
 /// Says where the largest difference of each variable is. Variables and states that only one file has count as
@@ -279,6 +368,13 @@ pub struct Join {
 pub struct Generate {
     /// What to print
     pub what: Generated,
+}
+
+/// Reads all of an EXODUS file and says nothing: other processes learn by it whether the file can be read
+#[derive(Debug, Args)]
+pub struct Probe {
+    /// The file
+    pub file: PathBuf,
 }
 
 /// What `generate` prints.

@@ -1,6 +1,7 @@
 //! `urto run`.
 
 use super::input::Given;
+use super::outputs::{Inputs, writable};
 use super::signals::Wishes;
 use super::terminal::{complain, say};
 use super::{DONE, FAILED, Failure, date, display, options, restart};
@@ -20,6 +21,9 @@ pub fn run(options: &options::Run) -> Result<u8, Failure> {
         None => on_threads(options),
     }
 }
+
+/// Advice where results would be written over an input.
+const ANOTHER_BASE: &str = "results take the deck's name, or that of --output: name another with --output";
 
 /// What a run needs besides its communicator.
 struct Prepared {
@@ -44,11 +48,16 @@ impl Prepared {
         let begun = Instant::now();
         let given = read(&options.input)?;
         let clock = [begun, Instant::now()];
-        let body = Body::new(&given.mesh, &given.problem.model);
+        let body = given.body()?;
         let base = base(options.output.as_deref(), &given.deck);
         let found = restart::find(options, &given, &body, &base)?;
         let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
         let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
+        let written = files.written(if options.split { ranks } else { 0 });
+        let restart = continuation.iter().map(|continuation| &continuation.path);
+        given.inputs().spare(written.iter().chain(&files.restarts_written()), ANOTHER_BASE)?;
+        // A run that goes on renews its own restart states.
+        Inputs::default().with("the restart file", restart).spare(&written, ANOTHER_BASE)?;
         let (day, date, time) = date::now();
         let banner = vec![
             format!("urto {}   {}", env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_DESCRIPTION")),
@@ -66,11 +75,12 @@ impl Prepared {
 
     /// Makes room for the results: their folder, and the old print log out of the way.
     fn make_room(&self) -> Result<(), Failure> {
-        let folder = self.files.print.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder {
+        let folder = self.files.print.parent().unwrap_or(Path::new(""));
+        if !folder.as_os_str().is_empty() {
             std::fs::create_dir_all(folder)
                 .map_err(|e| Failure::run(format_args!("error: cannot make the folder {}: {e}", folder.display())))?;
         }
+        writable(folder)?;
         run::keep_old_print_files(&self.files.print)
             .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))
     }
@@ -313,6 +323,7 @@ fn failure(error: &RunError) -> Failure {
                 unwritten.as_ref().map_or(String::new(), |e| format!("\nerror: its last state is not written: {e}"));
             Failure::run(format_args!("error: {error}{lost}\nhelp: {}", stop.advice()))
         }
+        RunError::Endless(endless) => Failure::input(format_args!("error: {endless}\nhelp: {}", endless.advice())),
         _ => Failure::run(format_args!("error: {error}")),
     }
 }

@@ -26,6 +26,7 @@ pub fn scale(options: &options::Scale) -> Result<u8, Failure> {
 /// The problem, with what the options replace.
 fn read(options: &options::Scale, ranks: Option<u32>) -> Result<Given, Failure> {
     let mut given = Given::read_for(&options.input, ranks)?;
+    given.inputs().spare(&options.csv, "name another file with --csv")?;
     let chosen = &mut given.problem.model.contact.control.decomposition;
     *chosen = match options.decomposition {
         None => *chosen,
@@ -40,7 +41,7 @@ fn read(options: &options::Scale, ranks: Option<u32>) -> Result<Given, Failure> 
 fn fixed(options: &options::Scale) -> Result<Vec<Case>, Failure> {
     let given = read(options, None)?;
     introduce(&given);
-    let body = Body::new(&given.mesh, &given.problem.model);
+    let body = given.body()?;
     options.ranks.iter().map(|&ranks| count(options, &given, &body, ranks)).collect()
 }
 
@@ -63,7 +64,7 @@ fn scaled(options: &options::Scale) -> Result<Vec<Case>, Failure> {
             Some(_) => {}
         }
         before = Some((ranks, elements));
-        cases.push(count(options, &given, &Body::new(&given.mesh, &given.problem.model), ranks)?);
+        cases.push(count(options, &given, &given.body()?, ranks)?);
     }
     Ok(cases)
 }

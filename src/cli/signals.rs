@@ -1,7 +1,7 @@
 //! What the outside world wants of a run: signals and the shutdown file.
 
 use crate::solver::Request;
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -9,6 +9,13 @@ use std::time::{Duration, Instant};
 
 /// Time between looks for the shutdown file.
 const LOOK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// A file that may not grow further, by `ulimit -f` or by its file system, is to fail with a reason, as a full disk does:
+/// the signal that comes with it would end the process without a word.
+pub fn survive_full_files() {
+    // Where there is no such signal, there is nothing to survive.
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
+}
 
 /// Ears for signals and the shutdown file.
 pub struct Wishes {

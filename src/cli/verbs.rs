@@ -1,12 +1,12 @@
 //! The smaller verbs: explain, mesh, view, diff, join, generate.
 
 use super::options::{self, Generated};
-use super::terminal::{complain, say};
+use super::outputs::{ANOTHER_NAME, Inputs};
+use super::terminal::{complain, print, say};
 use super::{DONE, FAILED, Failure};
 use crate::output::GLOBAL_VARIABLES;
-use crate::view::{Direction, StateChoice, ViewOptions};
+use crate::view::{Direction, StateChoice, ViewError, ViewOptions};
 use crate::{deck, exodus, mesher, view};
-use std::io::Write;
 use std::path::PathBuf;
 
 /// `urto explain`
@@ -39,11 +39,12 @@ fn overview() -> String {
 /// `urto mesh`
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
-    let mesh = super::input::make_mesh(recipe, options.refine, options.ranks)?;
+    let (mesh, files) = super::input::make_mesh(recipe, options.refine, options.ranks)?;
     let output = options
         .output
         .clone()
         .unwrap_or_else(|| PathBuf::from(recipe.file_name().unwrap_or_default()).with_extension("g"));
+    Inputs::default().with("the recipe", files).spare(exodus::names_in_writing(&output), ANOTHER_NAME)?;
     exodus::write_mesh(&output, &mesh).map_err(|e| Failure::run(format_args!("error: {e}")))?;
     let (nodes, elements, blocks) = (mesh.coordinates.len(), mesh.element_count(), mesh.blocks.len());
     say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s)", output.display()));
@@ -65,17 +66,26 @@ pub fn view(options: &options::View) -> Result<u8, Failure> {
         return Err(Failure::input(wrong + help));
     }
     let wanted = view_options(options)?;
+    Inputs::default().with("the file to draw", [&options.results]).spare([&output], ANOTHER_NAME)?;
     if options.animate {
-        let frames = view::draw_many(&options.results, &output, std::num::NonZeroUsize::MIN, &wanted)
-            .map_err(Failure::input_error)?;
+        let frames =
+            view::draw_many(&options.results, &output, std::num::NonZeroUsize::MIN, &wanted).map_err(not_drawn)?;
         say(format_args!("{}: {} states", output.display(), frames.len()));
         return Ok(DONE);
     }
-    let summary = view::draw(&options.results, &output, &wanted).map_err(Failure::input_error)?;
+    let summary = view::draw(&options.results, &output, &wanted).map_err(not_drawn)?;
     let variable = summary.variable.unwrap_or("blocks".into());
     let time = summary.time.map_or(String::new(), |t| format!(" at time {t:.6e}"));
     say(format_args!("{}: {variable}{time}", summary.path.display()));
     Ok(DONE)
+}
+
+/// A picture that cannot be written is no fault of the input.
+fn not_drawn(error: ViewError) -> Failure {
+    match error {
+        ViewError::Write { .. } => Failure::run(format_args!("error: {error}")),
+        _ => Failure::input_error(error),
+    }
 }
 
 fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
@@ -121,10 +131,11 @@ pub fn join(options: &options::Join) -> Result<u8, Failure> {
     use exodus::pieces;
     let (whole, found) = pieces::pieces_of(&options.pieces).map_err(Failure::input_error)?;
     let output = options.output.as_ref().unwrap_or(&whole);
-    if found.contains(output) {
-        return Err(Failure::input(format_args!("error: {} is one of the pieces itself", output.display())));
-    }
-    let joined = pieces::join(&found, output).map_err(Failure::input_error)?;
+    Inputs::default().with("one of the pieces", &found).spare(exodus::names_in_writing(output), ANOTHER_NAME)?;
+    let joined = pieces::join(&found, output).map_err(|error| match &error {
+        pieces::JoinError::File(file) if file.is_of_writing() => Failure::run(format_args!("error: {error}")),
+        _ => Failure::input_error(error),
+    })?;
     if joined.most > joined.states {
         complain(format_args!(
             "warning: some pieces have {} states, others {}: the run ended while it wrote; the {} that all have are joined",
@@ -149,9 +160,4 @@ pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     }
     print(&String::from_utf8_lossy(&out));
     Ok(DONE)
-}
-
-/// Prints and forgets when nobody reads: `urto explain | head` is no error.
-fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
 }

@@ -82,7 +82,16 @@ impl Diagnostic {
 pub struct Diagnostics {
     source: Arc<Source>,
     list: Vec<Diagnostic>,
+    /// Errors in the list.
+    errors: usize,
+    /// Where reading was given up.
+    unread: Option<Span>,
 }
+
+/// Errors gathered at most: whatever the rest of a text is, it is no deck, and reading on would only fill the memory.
+const ERRORS_AT_MOST: usize = 100;
+/// Warnings and notes kept at most.
+const OTHERS_AT_MOST: usize = 10_000;
 
 /// Messages printed at most; a deck with more mistakes has one cause for most of them.
 const PRINTED_AT_MOST: usize = 50;
@@ -90,7 +99,7 @@ const PRINTED_AT_MOST: usize = 50;
 impl Diagnostics {
     /// No messages yet.
     pub fn new(source: Arc<Source>) -> Diagnostics {
-        Diagnostics { source, list: Vec::new() }
+        Diagnostics { source, list: Vec::new(), errors: 0, unread: None }
     }
 
     /// The text the messages are about.
@@ -104,13 +113,26 @@ impl Diagnostics {
             [] => self.source.is_doubtful(None),
             labels => labels.iter().any(|label| self.source.is_doubtful(Some(label.span))),
         };
-        if !doubtful {
+        let kept = diagnostic.level == Level::Error || self.list.len() < OTHERS_AT_MOST;
+        if !doubtful && kept {
+            self.errors += usize::from(diagnostic.level == Level::Error);
             self.list.push(diagnostic);
         }
     }
 
+    /// Whether there are so many errors that reading on is of no use.
+    pub fn is_full(&self) -> bool {
+        self.errors >= ERRORS_AT_MOST
+    }
+
+    /// Notes that the text is not read from a place on, because there are so many errors.
+    pub fn leave_unread(&mut self, rest: Span) {
+        self.unread = Some(rest);
+    }
+
     /// Adds all messages of another collection about the same source.
     pub fn append(&mut self, other: Diagnostics) {
+        self.errors += other.errors;
         self.list.extend(other.list);
     }
 
@@ -131,7 +153,7 @@ impl Diagnostics {
 
     /// Whether anything stops the run.
     pub fn has_errors(&self) -> bool {
-        self.errors().next().is_some()
+        self.errors > 0
     }
 
     /// Whether there is nothing to say, assumptions aside.
@@ -158,6 +180,12 @@ impl Diagnostics {
         }
         if shown.len() > PRINTED_AT_MOST {
             text += &format!("... and {} more\n\n", shown.len() - PRINTED_AT_MOST);
+        }
+        if let Some(rest) = self.unread {
+            let line = self.source.line_name(rest.start);
+            text += &format!(
+                "help: line {line} and those after it are not read: one cause may stand behind all of this\n\n"
+            );
         }
         text += &format!("{}: {}\n", self.source.name(), count(&shown));
         text

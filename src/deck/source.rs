@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::origin::Origin;
+use crate::files;
 
 /// A file's name and text. Spans are byte offsets into the text. Where the text was made by evaluating expressions, it
 /// knows the files that it was made from, and [`Source::origin_of`] leads back to them.
@@ -35,7 +36,7 @@ impl Span {
 impl Source {
     /// A source from text in memory; `name` is what messages call it.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
-        let text = text.into();
+        let text = lines_end_in_line_feeds(text.into());
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
         Source { name: name.into(), text, line_starts, origin: None, names: Vec::new() }
     }
@@ -51,7 +52,11 @@ impl Source {
     }
 
     /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is a folder, a pipe or a device.
     pub fn open(path: &std::path::Path) -> std::io::Result<Source> {
+        files::regular(path)?;
         Ok(Source::from_bytes(path.display().to_string(), &std::fs::read(path)?))
     }
 
@@ -59,6 +64,14 @@ impl Source {
     pub fn with_value(mut self, name: &str, value: u32) -> Source {
         self.names.push((name.to_string(), value));
         self
+    }
+
+    /// The names of all files that the text was made from: itself, and what it includes.
+    pub fn files(&self) -> Vec<&str> {
+        match &self.origin {
+            Some(origin) => origin.files.iter().map(|file| file.source.name.as_str()).collect(),
+            None => vec![&self.name],
+        }
     }
 
     /// Names that have a value in its expressions from the start.
@@ -146,6 +159,21 @@ impl Source {
     }
 }
 
+/// A carriage return that no line feed follows ends a line too, as in files of old Macintosh programs: it becomes a
+/// line feed, which keeps all places.
+fn lines_end_in_line_feeds(text: String) -> String {
+    if !text.contains('\r') {
+        return text;
+    }
+    let mut letters = text.chars().peekable();
+    let mut lines = String::with_capacity(text.len());
+    while let Some(letter) = letters.next() {
+        let alone = letter == '\r' && letters.peek() != Some(&'\n');
+        lines.push(if alone { '\n' } else { letter });
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,5 +187,7 @@ mod tests {
         assert_eq!(source.line_count(), 2);
         assert_eq!(source.slice(source.line_span(0)), "ab");
         assert_eq!(source.slice(source.line_span(1)), "µcd");
+        let old = Source::new("x.i", "a\rb\r\nc\r\rd\r");
+        assert_eq!((old.text(), old.line_count()), ("a\nb\r\nc\n\nd\n", 5));
     }
 }

@@ -125,6 +125,26 @@ impl Arrays {
         characters.chunks(width).map(text).collect()
     }
 
+    /// Asks for all attributes, variables and, if asked to, their values, of whatever names.
+    pub fn touch(&self, values: bool) {
+        for attribute in self.file.attributes() {
+            let _ = attribute.value();
+        }
+        for variable in self.file.variables() {
+            for attribute in variable.attributes() {
+                let _ = attribute.value();
+            }
+            let all = (..).into();
+            let _ = match variable.vartype() {
+                _ if !values => Ok(()),
+                NcVariableType::Int(_) => self.get::<i64>(&variable, "", &all).map(drop),
+                NcVariableType::Float(_) => self.get::<f64>(&variable, "", &all).map(drop),
+                NcVariableType::Char => self.get::<Character>(&variable, "", &all).map(drop),
+                _ => Ok(()),
+            };
+        }
+    }
+
     fn get<T: NcTypeDescriptor + Copy>(
         &self,
         variable: &Variable,

@@ -9,6 +9,8 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 
+use crate::files;
+
 /// The kinds of file that a mesh may come in.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Container {
@@ -52,6 +54,7 @@ pub struct RecordVariable {
 
 /// Looks at a file's first bytes, and at its header if it is a netCDF classic file.
 pub fn inspect(path: &Path) -> io::Result<Container> {
+    files::regular(path)?;
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     let mut magic = Vec::new();

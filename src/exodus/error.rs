@@ -124,6 +124,15 @@ pub enum ResultsError {
 }
 
 impl ResultsError {
+    /// Whether a file could not be written; otherwise one could not be read or is wrong.
+    pub fn is_of_writing(&self) -> bool {
+        match self {
+            ResultsError::Io { action, .. } => *action != "read",
+            ResultsError::Netcdf { action, .. } => action.starts_with("write"),
+            _ => false,
+        }
+    }
+
     pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| ResultsError::Io { action, path: path.to_owned(), source }
     }

@@ -11,6 +11,8 @@ use super::container::{Container, inspect};
 use super::error::MeshError;
 use super::genesis;
 use super::names::{self, Family};
+use super::pieces;
+use super::probe;
 use super::slabs::{self, Together};
 use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
 use crate::mesh::Mesh;
@@ -23,7 +25,30 @@ use crate::mesh::check::{self, Problem, Problems, counted};
 /// arrays missing or of the wrong shape), of its numbers (out of range, given twice), of its elements (of a kind
 /// that is not supported, without positive volume).
 pub fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
-    checked(path, read_mesh_unchecked(path)?)
+    if matches!(inspect(path), Ok(Container::FortranRecords)) {
+        let mesh = genesis::read(path)?.assemble();
+        return checked(path, mesh.map_err(|problems| MeshError { path: path.to_owned(), problems })?);
+    }
+    let arrays = open(path)?;
+    whole(path, &arrays)?;
+    checked(path, assemble(path, &arrays)?)
+}
+
+/// Refuses a piece of a mesh that was cut for several ranks: by itself it is another body.
+fn whole(path: &Path, arrays: &Arrays) -> Result<(), MeshError> {
+    let Some(pieces) = arrays.dimension(names::NUM_PROCESSORS).filter(|&pieces| pieces > 1) else { return Ok(()) };
+    let (of, join) = match pieces::parts_of_name(path) {
+        Some((whole, ..)) => (format!(", {}", whole.display()), whole.display().to_string()),
+        None => (String::new(), "x.g".into()),
+    };
+    Err(MeshError::single(
+        path,
+        format!("this is one of the {pieces} pieces of a mesh that was cut for so many ranks{of}, not the whole"),
+        format!(
+            "name the whole; epu -auto makes it of pieces that decomp or nem_spread has cut, and urto join {join} of \
+             urto's own; urto cuts it itself, for any number of ranks"
+        ),
+    ))
 }
 
 /// Reads the same mesh on several processes, of which each reads a slab of every large array. All processes call it.
@@ -37,13 +62,23 @@ pub fn read_mesh_together(path: &Path, together: &mut dyn Together) -> Result<Me
         return read_mesh(path);
     }
     let length = std::fs::metadata(path).ok().map(|file| file.len());
-    let classic = matches!(inspect(path), Ok(Container::Classic(_) | Container::Hdf5));
-    let opened = length.filter(|_| classic).and_then(|length| Some((open(path).ok()?, length)));
+    let container = inspect(path);
+    // One process has the file tried for all, and none opens it before it has been.
+    let tries = together.place().0 == 0 && matches!(container, Ok(Container::Hdf5));
+    let tried = if tries { probe::vouch(path) } else { Ok(()) };
+    if !together.same(tried.is_ok().then_some(0)) {
+        return read_mesh(path);
+    }
+    let netcdf = matches!(container, Ok(Container::Classic(_) | Container::Hdf5));
+    let opened = length.filter(|_| netcdf).and_then(|length| Some((open_with(path, |_| Ok(())).ok()?, length)));
     if !together.same(opened.as_ref().map(|(_, length)| *length)) {
         return read_mesh(path);
     }
     match opened {
-        Some((arrays, _)) => checked(path, assemble_with(path, &arrays, false, Some(together))?),
+        Some((arrays, _)) => {
+            whole(path, &arrays)?;
+            checked(path, assemble_with(path, &arrays, false, Some(together))?)
+        }
         None => read_mesh(path),
     }
 }
@@ -51,14 +86,6 @@ pub fn read_mesh_together(path: &Path, together: &mut dyn Together) -> Result<Me
 fn checked(path: &Path, mesh: Mesh) -> Result<Mesh, MeshError> {
     let problems = check::geometry(&mesh);
     if problems.is_empty() { Ok(mesh) } else { Err(MeshError { path: path.to_owned(), problems }) }
-}
-
-/// Reads a mesh whose geometry nobody needs to compute with, as that of a results file.
-pub(super) fn read_mesh_unchecked(path: &Path) -> Result<Mesh, MeshError> {
-    if matches!(inspect(path), Ok(Container::FortranRecords)) {
-        return genesis::read(path)?.assemble().map_err(|problems| MeshError { path: path.to_owned(), problems });
-    }
-    assemble(path, &open(path)?)
 }
 
 /// The mesh of a file that is open already.
@@ -84,8 +111,13 @@ fn assemble_with(
     assembled.map_err(|problems| MeshError { path: path.to_owned(), problems })
 }
 
-/// Opens a file after a look at its first bytes.
+/// Opens a file after a look at its first bytes, and after another process has tried it where that is needed.
 pub(super) fn open(path: &Path) -> Result<Arrays, MeshError> {
+    open_with(path, probe::vouch)
+}
+
+/// The same with somebody who vouches for HDF5 files.
+fn open_with(path: &Path, vouch: impl FnOnce(&Path) -> Result<(), String>) -> Result<Arrays, MeshError> {
     let refuse = |what: &str, help: &str| MeshError::single(path, what, help);
     let container = inspect(path).map_err(|e| refuse(&format!("cannot be read: {e}"), ""))?;
     match &container {
@@ -107,7 +139,11 @@ pub(super) fn open(path: &Path) -> Result<Arrays, MeshError> {
                 "copy or write it again",
             ));
         }
-        Container::Classic(_) | Container::Hdf5 => {}
+        Container::Hdf5 => {
+            let damaged = "the file is damaged; copy or write it again";
+            vouch(path).map_err(|reason| refuse(&format!("cannot be read: {reason}"), damaged))?;
+        }
+        Container::Classic(_) => {}
     }
     let length = std::fs::metadata(path).map_err(|e| refuse(&format!("cannot be read: {e}"), ""))?.len();
     let arrays = Arrays::open(path, length).map_err(|e| {

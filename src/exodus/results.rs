@@ -146,6 +146,70 @@ impl Results {
         Ok(values)
     }
 
+    /// A global variable in all states. Names compare without case.
+    ///
+    /// # Errors
+    /// When there is no such variable, or the values cannot be read.
+    pub fn global_history(&self, name: &str) -> Result<Vec<f64>, ResultsError> {
+        let variable = self.find("global", &self.global_names, name)?;
+        self.read(names::GLOBAL_VALUES, &[ALL, at(variable)], self.times.len())
+    }
+
+    /// A nodal variable at one node, by its zero-based place in the file, in all states. Names compare without case.
+    ///
+    /// # Errors
+    /// When there is no such variable or node, or the values cannot be read.
+    pub fn nodal_history(&self, name: &str, node: usize) -> Result<Vec<f64>, ResultsError> {
+        let variable = self.find("nodal", &self.nodal_names, name)?;
+        if self.arrays.has(names::PACKED_NODAL_VALUES) {
+            return self.read(names::PACKED_NODAL_VALUES, &[ALL, at(variable), at(node)], self.times.len());
+        }
+        self.read(&names::nodal_values(variable), &[ALL, at(node)], self.times.len())
+    }
+
+    /// An element variable in one element, by its zero-based place in the file, in all states; NaN where the element's
+    /// block does not have the variable. Names compare without case.
+    ///
+    /// # Errors
+    /// When there is no such variable or element, or the values cannot be read.
+    pub fn element_history(&self, name: &str, element: usize) -> Result<Vec<f64>, ResultsError> {
+        let variable = self.find("element", &self.element_names, name)?;
+        let mut place = element;
+        for (block, &size) in self.block_sizes.iter().enumerate() {
+            if place < size {
+                let array = names::element_values(variable, block);
+                if !self.arrays.has(&array) {
+                    return Ok(vec![f64::NAN; self.times.len()]);
+                }
+                return self.read(&array, &[ALL, at(place)], self.times.len());
+            }
+            place -= size;
+        }
+        Err(unusable(&self.path, format!("there is no element at place {}", element + 1)))
+    }
+
+    /// The analyst's numbers of the nodes, in the file's order.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn node_ids(&self) -> Result<Vec<i64>, ResultsError> {
+        self.ids(names::NODE_IDS, self.nodes)
+    }
+
+    /// The analyst's numbers of the elements, in the file's order.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn element_ids(&self) -> Result<Vec<i64>, ResultsError> {
+        self.ids(names::ELEMENT_IDS, self.block_sizes.iter().sum())
+    }
+
+    /// A file without numbers counts from one.
+    fn ids(&self, array: &str, count: usize) -> Result<Vec<i64>, ResultsError> {
+        let ids = self.arrays.integers(array).map_err(|what| unusable(&self.path, what))?;
+        Ok(ids.filter(|ids| ids.len() == count).unwrap_or_else(|| (1..=count as i64).collect()))
+    }
+
     fn read(&self, array: &str, part: &[Extent], length: usize) -> Result<Vec<f64>, ResultsError> {
         let values =
             self.arrays.part_of_reals(array, &Extents::from(part)).map_err(|what| unusable(&self.path, what))?;

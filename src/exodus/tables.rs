@@ -216,7 +216,7 @@ impl BlockTable {
             block.nodes.extend(kind.expand(&own));
         }
         references.sum_up();
-        if block.attributes.len() % block.len() != 0 {
+        if !block.attributes.len().is_multiple_of(block.len()) {
             let (count, of) = (block.attributes.len(), block.len());
             let what = format!("block {}: {} for {}", block.id, counted(count, "attribute"), counted(of, "element"));
             problems.add(|| Problem::new(what, "write the mesh again"));

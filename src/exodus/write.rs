@@ -58,6 +58,11 @@ pub(super) fn write_file(path: &Path, mesh: &Mesh, contents: &Contents) -> Resul
     std::fs::rename(&unfinished, path).map_err(ResultsError::io("write", path))
 }
 
+/// The names that a file has while it is written and after: both are lost to whatever had them before.
+pub fn names_in_writing(path: &Path) -> [PathBuf; 2] {
+    [path.to_owned(), beside(path)]
+}
+
 /// The name of a file that is not complete yet: `run.e` is written as `run.e.part`.
 fn beside(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();

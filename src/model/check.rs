@@ -14,6 +14,9 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     let mut found = Diagnostics::new(problem.deck.source.clone());
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         references(card, mesh, &mut found);
+        if found.is_full() {
+            return found;
+        }
     }
     blocks_without_material(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
@@ -25,7 +28,25 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for (&point, card) in problem.model.material_points.iter().zip(problem.deck.cards_of("MATERIAL POINT")) {
         outside_the_mesh(point, card, mesh, &mut found);
     }
+    for card in problem.deck.cards_of("HISTORY NODE").filter(|card| card.complete) {
+        nodes_there(card, mesh, &mut found);
+    }
     found
+}
+
+/// Reports nodes to watch that the mesh does not have.
+fn nodes_there(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    for item in card.items("node") {
+        let (Some(id), Some(span)) = (item.value.integer(), item.span) else { continue };
+        if !mesh.node_ids.contains(&id) {
+            let ends = [mesh.node_ids.iter().min(), mesh.node_ids.iter().max()].map(|id| id.copied().unwrap_or(0));
+            found.push(
+                Diagnostic::error(format!("{}: the mesh has no node {id}", card.name))
+                    .at(span, "no node of the mesh has this number")
+                    .help(format!("its nodes are numbered from {} to {}", ends[0], ends[1])),
+            );
+        }
+    }
 }
 
 /// Warns of a point to watch where there is no material.
@@ -87,7 +108,7 @@ fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -
 fn references(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let Some(entry) = language().entry(&card.name) else { return };
     for field in &entry.fields {
-        if let Kind::Id(what @ ("block" | "node set" | "side set")) = field.kind {
+        if let Kind::Id(what @ ("block" | "node set" | "side set")) | Kind::IdOrAll(what) = field.kind {
             for item in card.items(&field.name) {
                 reference(card, what, item, mesh, found);
             }
@@ -126,7 +147,10 @@ fn blocks_without_material(problem: &Problem, mesh: &Mesh, found: &mut Diagnosti
     if named.is_empty() {
         return; // A deck without any MATERIAL has been reported as such.
     }
-    for block in mesh.blocks.iter().filter(|b| !named.contains(&b.id)) {
+    // A material that is named but was not understood has been reported; else it must be there, not only named.
+    let understood = !problem.diagnostics.has_errors();
+    let made = |id: i64| problem.model.materials.iter().any(|material| material.block == id);
+    for block in mesh.blocks.iter().filter(|b| !named.contains(&b.id) || (understood && !made(b.id))) {
         let name = if block.name.is_empty() { String::new() } else { format!(" ({})", block.name) };
         let message = format!("element block {}{name} of the mesh has no MATERIAL", block.id);
         found.push(

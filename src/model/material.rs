@@ -137,6 +137,26 @@ pub(super) fn report_unlit(draft: &mut Draft) {
     }
 }
 
+/// Refuses a deck in which a MATERIAL made no law although nothing was found wrong with it: its block must not be computed
+/// with anything else.
+pub(super) fn refuse_lawless(draft: &mut Draft) {
+    if draft.found.has_errors() {
+        return;
+    }
+    let made = |block: i64| draft.model.materials.iter().any(|material| material.block == block);
+    let lawless: Vec<&Card> = draft
+        .deck
+        .cards
+        .iter()
+        .filter(|c| c.name == "MATERIAL" && c.maybe_integer("block").is_none_or(|b| !made(b)))
+        .collect();
+    for card in lawless {
+        draft.report(
+            Diagnostic::error("this MATERIAL makes no law").at(card.record, "its block would be left without one"),
+        );
+    }
+}
+
 /// Reports values that do not make a law together.
 fn refused(card: &Card, refusal: &Refusal, draft: &mut Draft) {
     let message = format!("{} {}: {} {}", card.name, card.integer("block"), refusal.keyword, refusal.reason);

@@ -81,6 +81,10 @@ pub struct Model {
     pub plot_requests: PlotRequests,
     /// Points of the undeformed mesh whose elements have their histories written.
     pub material_points: Vec<[f64; 3]>,
+    /// What else has its history written, in the order of the deck.
+    pub histories: Vec<Watched>,
+    /// Interval of histories; without one they are written with the lines of the print log.
+    pub history_interval: Option<f64>,
     /// Restarts to write and to go on from.
     pub restarts: Restarts,
 }
@@ -110,6 +114,19 @@ impl Model {
     pub fn section(&self, command: &str, block: i64) -> Option<&Section> {
         self.sections.iter().rfind(|section| section.command == command && section.block == block)
     }
+}
+
+/// HISTORY: what is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Watched {
+    /// Every block, as a body.
+    Blocks,
+    /// The block with this number, as a body.
+    Block(i64),
+    /// The node set with this number.
+    NodeSet(i64),
+    /// The node with this number.
+    Node(i64),
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.
@@ -358,6 +375,8 @@ pub struct PlotRequests {
     pub element: Vec<ElementField>,
     /// Names of material state variables.
     pub state: Vec<String>,
+    /// Energies of each block, as global variables.
+    pub block_energies: bool,
 }
 
 /// Groups of columns that STEP LOG can ask for.

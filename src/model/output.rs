@@ -1,7 +1,7 @@
 //! When and what to write.
 
 use super::{
-    ElementField, NodalField, PlotSchedule, StepColumns,
+    ElementField, NodalField, PlotSchedule, StepColumns, Watched,
     problem::{Draft, Setter},
 };
 use crate::{
@@ -16,7 +16,12 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("PLOT NODAL", plot_nodal),
     ("PLOT ELEMENT", plot_element),
     ("PLOT STATE", plot_state),
+    ("PLOT GLOBAL", |_, draft| draft.model.plot_requests.block_energies = true),
     ("MATERIAL POINT", |card, draft| draft.model.material_points.push(card.vector(["x", "y", "z"]))),
+    ("HISTORY TIME", |card, draft| draft.model.history_interval = Some(card.number("dt"))),
+    ("HISTORY BLOCK", history_block),
+    ("HISTORY NODE SET", |card, draft| watch(card, draft, "node_set", Watched::NodeSet)),
+    ("HISTORY NODE", |card, draft| watch(card, draft, "node", Watched::Node)),
 ];
 
 /// Lines of the print log when OUTPUT TIME does not say.
@@ -50,6 +55,18 @@ fn plot_element(card: &Card, draft: &mut Draft) {
     let asked = card.items("name").iter().filter_map(|item| item.value.text());
     let fields = asked.filter_map(|name| ElementField::ALL.iter().copied().find(|f| f.keyword() == name));
     add_new(&mut draft.model.plot_requests.element, fields);
+}
+
+fn history_block(card: &Card, draft: &mut Draft) {
+    match card.items("block") {
+        [] => add_new(&mut draft.model.histories, [Watched::Blocks]),
+        _ => watch(card, draft, "block", Watched::Block),
+    }
+}
+
+fn watch(card: &Card, draft: &mut Draft, field: &str, watched: fn(i64) -> Watched) {
+    let ids = card.items(field).iter().filter_map(|item| item.value.integer());
+    add_new(&mut draft.model.histories, ids.map(watched));
 }
 
 fn plot_state(card: &Card, draft: &mut Draft) {
@@ -122,6 +139,20 @@ pub(super) fn finish(draft: &mut Draft) {
         element.push(ElementField::Status);
     }
     check_schedule(draft);
+    check_histories(draft);
+}
+
+/// Warns of an interval of histories when nothing is watched.
+fn check_histories(draft: &mut Draft) {
+    let model = &draft.model;
+    let Some(card) = draft.deck.cards_of("HISTORY TIME").last() else { return };
+    if model.histories.is_empty() && model.material_points.is_empty() {
+        draft.report(
+            Diagnostic::warning("HISTORY TIME: nothing is watched, so that nothing follows from this")
+                .at(card.record, "interval of histories")
+                .help("HISTORY BLOCK, HISTORY NODE SET, HISTORY NODE and MATERIAL POINT say what to watch"),
+        );
+    }
 }
 
 fn check_schedule(draft: &mut Draft) {

@@ -76,6 +76,9 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     for family in FAMILIES {
         defaults(family, &mut draft);
         for card in deck.cards.iter().filter(|card| card.complete) {
+            if draft.found.is_full() {
+                break;
+            }
             if let Some((_, set)) = family.iter().find(|(name, _)| *name == card.name) {
                 set(card, &mut draft);
             }
@@ -85,6 +88,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     deck.cards.iter().filter(|card| card.complete).filter(of_elements).for_each(|card| section::take(card, &mut draft));
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
+    material::refuse_lawless(&mut draft);
     output::finish(&mut draft);
     restart::finish(&mut draft);
     function::report_unused(&mut draft);
@@ -134,6 +138,8 @@ impl Default for Model {
             deletions: Vec::new(),
             plot_requests: PlotRequests::default(),
             material_points: Vec::new(),
+            histories: Vec::new(),
+            history_interval: None,
             restarts: Restarts::default(),
         }
     }
@@ -159,8 +165,10 @@ impl Draft<'_> {
     }
 
     fn function_exists(&mut self, id: i64, place: Span, owner: &str) -> bool {
-        let exists = self.deck.cards.iter().any(|c| c.name == "FUNCTION" && c.maybe_integer("id") == Some(id));
-        if !exists {
+        let functions = || self.deck.cards.iter().filter(|card| card.name == "FUNCTION");
+        let exists = functions().any(|card| card.maybe_integer("id") == Some(id));
+        // One whose number could not be read, which has been reported, may be it.
+        if !exists && functions().all(|card| card.maybe_integer("id").is_some()) {
             let ids: Vec<i64> = self.model.functions.iter().map(|f| f.id).collect();
             self.report(
                 Diagnostic::error(format!("{owner}: there is no FUNCTION {id}"))

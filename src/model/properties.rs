@@ -29,15 +29,19 @@ impl Properties {
     /// The values of all properties in their own order; `None` if a line is wrong or a property is missing.
     pub fn values(&self, card: &Card, draft: &mut Draft) -> Option<Vec<f64>> {
         let mut given: Vec<Option<(f64, Span)>> = vec![None; self.properties.len()];
-        let mut sound = true;
+        // Lines with a mistake, which has been reported.
+        let mut wrong: Vec<&Row> = Vec::new();
         for row in &card.rows {
+            if draft.found.is_full() {
+                break;
+            }
             match self.value(row, draft) {
                 Some((index, value)) if given[index].is_none() => given[index] = Some((value, row.span())),
                 Some((index, _)) => {
-                    sound = false;
+                    wrong.push(row);
                     self.report_twice(&self.properties[index], row, given[index], draft);
                 }
-                None => sound = false,
+                None => wrong.push(row),
             }
         }
         let missing: Vec<&Property> = self
@@ -46,14 +50,15 @@ impl Properties {
             .zip(&given)
             .filter(|(property, value)| property.default.is_none() && value.is_none())
             .map(|(property, _)| property)
-            .filter(|property| !mentioned(card, property))
             .collect();
-        if !missing.is_empty() {
-            draft.report(self.missing(card, &missing));
-            return None;
+        let meant: Vec<&str> = wrong.iter().filter_map(|row| meant(row, &missing)).collect();
+        let forgotten: Vec<&Property> = missing.into_iter().filter(|p| !meant.contains(&p.keyword)).collect();
+        if !forgotten.is_empty() {
+            draft.report(self.missing(card, &forgotten));
         }
+        // A property that is missing without being forgotten is meant by a wrong line.
         let values = self.properties.iter().zip(&given).map(|(p, v)| v.map(|v| v.0).or(p.default));
-        if sound { values.collect() } else { None }
+        if wrong.is_empty() { values.collect() } else { None }
     }
 
     /// Reads a line `KEYWORD value`: which property it is, and the value.
@@ -153,12 +158,13 @@ impl Properties {
     }
 }
 
-/// Whether a line names this property, rightly or wrongly; then its mistake has been reported.
-fn mentioned(card: &Card, property: &Property) -> bool {
-    card.rows.iter().any(|row| {
-        spelling::agreement(&row.fields, property.keyword).is_some()
-            || resembling(row, std::iter::once(property.keyword)).is_some()
-    })
+/// The one of the missing properties that a line with a mistake means: to call it missing too would be to tell one mistake
+/// twice.
+fn meant(wrong: &Row, missing: &[&Property]) -> Option<&'static str> {
+    let keywords = || missing.iter().map(|property| property.keyword);
+    keywords()
+        .find(|keyword| spelling::agreement(&wrong.fields, keyword).is_some())
+        .or_else(|| resembling(wrong, keywords()))
 }
 
 /// The keyword that a line may mean: a near one, or the one whose first word it starts with.

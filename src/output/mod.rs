@@ -11,7 +11,7 @@ mod split;
 
 pub use collect::Collector;
 pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
-pub use history::HistoryPlan;
+pub use history::{HistoryPlan, block_energies, block_energy_names};
 pub use restart::snapshot;
 pub use schedule::Schedule;
 pub use split::Split;

@@ -1,6 +1,8 @@
 //! Names of a run's files: PRONTO's suffixes on one base name.
 
-use crate::exodus::pieces::any_pieces_of;
+use super::restart::states_beside;
+use crate::exodus::names_in_writing;
+use crate::exodus::pieces::{any_pieces_of, piece_path};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +42,21 @@ impl Files {
 }
 
 impl Files {
+    /// Every name that the run may write, rename or remove, but for restart states, on so many ranks; a single one writes
+    /// whole files.
+    pub fn written(&self, pieces: usize) -> Vec<PathBuf> {
+        let pieces = (0..pieces).map(|rank| piece_path(&self.plot, pieces, rank));
+        let results = pieces.chain([self.plot.clone(), self.history.clone()]);
+        let results = results.flat_map(|path| names_in_writing(&path));
+        results.chain([self.print.clone(), self.shutdown.clone()]).collect()
+    }
+
+    /// The same of restart states: the newest, the one that is being written, and older ones.
+    pub fn restarts_written(&self) -> Vec<PathBuf> {
+        let unfinished = names_in_writing(&with_suffix(&self.restart, ".new"));
+        states_beside(&self.restart).into_iter().chain(unfinished).chain([self.restart.clone()]).collect()
+    }
+
     /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
     /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
     pub fn continuing(base: &Path) -> Files {

@@ -1,5 +1,6 @@
 //! A run from its first state to its last: steps the solver, writes what is due, and ends in good order.
 
+mod endless;
 mod files;
 mod identity;
 mod memory;
@@ -8,6 +9,7 @@ mod report;
 mod restart;
 mod table;
 
+pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, told};
 pub use report::{Display, Quiet};
@@ -18,7 +20,7 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::{Model, StepColumns};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
-use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule};
+use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, block_energy_names};
 use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Section, Solver, Stop};
@@ -95,6 +97,9 @@ pub enum RunError {
         /// Why the last state could not be written, if it could not.
         unwritten: Option<Box<RunError>>,
     },
+    /// The first step is so short that the run would take for ever.
+    #[error(transparent)]
+    Endless(#[from] Endless),
     /// The plot file.
     #[error(transparent)]
     Results(#[from] ResultsError),
@@ -144,15 +149,23 @@ fn steps(
     let model = job.model;
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut lines = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);
+    let every = model.history_interval.unwrap_or(model.output_interval);
+    let mut histories = Schedule::new(0.0, Some(every), f64::INFINITY);
     if job.continuation.is_some() {
         plots.pass(solver.previous_time, solver.time_step);
         lines.pass(solver.previous_time, solver.time_step);
+        histories.pass(solver.previous_time, solver.time_step);
     }
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
             Err(stop) => return give_up(stop, solver, writer, comm),
         };
+        if solver.step == writer.first_step
+            && let Some(endless) = Endless::at(solver.time, solver.time_step, model.termination_time)
+        {
+            return Err(endless.into());
+        }
         // The last state is the one nearest to the termination time.
         let last = agreed != Request::Continue || solver.time + 0.5 * solver.time_step >= model.termination_time;
         let plot_due = plots.due(solver.time, solver.time_step);
@@ -162,8 +175,12 @@ fn steps(
         {
             return give_up(stop, solver, writer, comm);
         }
+        let history_due = histories.due(solver.time, solver.time_step);
         if line_due {
             writer.line(solver, comm, display)?;
+        }
+        if history_due || last || solver.step == 0 {
+            writer.history(solver, comm, history_due)?;
         }
         if plot_due || last || solver.step == 0 {
             writer.state(solver, comm)?;
@@ -186,7 +203,7 @@ fn give_up(
     writer: &mut Writer,
     comm: &mut dyn Communicator,
 ) -> Result<Request, RunError> {
-    let written = writer.state(solver, comm).and_then(|()| writer.last_history(solver, comm));
+    let written = writer.state(solver, comm).and_then(|()| writer.history(solver, comm, false));
     let unwritten = written.err().map(Box::new);
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
@@ -213,11 +230,11 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model);
-        let names = [
-            fields.nodal_names(),
-            fields.element_names(),
-            GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect(),
-        ];
+        let mut globals: Vec<String> = GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect();
+        if job.model.plot_requests.block_energies {
+            globals.extend(block_energy_names(job.mesh));
+        }
+        let names = [fields.nodal_names(), fields.element_names(), globals];
         Writer {
             plots: Plots::new(job, solver, share, [names[0].len(), names[1].len()], comm),
             fields,
@@ -294,22 +311,20 @@ impl<'a> Writer<'a> {
         Ok(Some(ResultsWriter::create(&self.files.history, &header)?))
     }
 
-    /// Appends a state to the histories of material points.
-    fn history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
+    /// Appends a state to the histories; all ranks learn whether that worked. What was due is compared with the next one.
+    fn history(&mut self, solver: &mut Solver, comm: &mut dyn Communicator, due: bool) -> Result<(), RunError> {
         if self.watched.is_empty() {
             return Ok(());
         }
-        let values = self.watched.values(solver, comm);
-        match (&mut self.histories, values) {
-            (Some(file), Some(values)) => Ok(file.write_state(solver.time, &values, &[], &[])?),
+        solver.clock.start();
+        let values = self.watched.values(solver, comm, due);
+        let outcome = match (&mut self.histories, values) {
+            (Some(file), Some(values)) => file.write_state(solver.time, &values, &[], &[]).map_err(RunError::from),
             _ => Ok(()),
-        }
-    }
-
-    /// Appends the state in which a run cannot go on; all ranks learn whether that worked.
-    fn last_history(&mut self, solver: &Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        let outcome = self.history(solver, comm);
-        together(outcome, comm)
+        };
+        let outcome = together(outcome, comm);
+        solver.clock.stop(Section::Output);
+        outcome
     }
 
     fn print_error(&self, source: std::io::Error) -> RunError {
@@ -363,8 +378,7 @@ impl<'a> Writer<'a> {
         };
         let printed = self.print(&print::step_line(self.step_log, &line));
         display.line(&line);
-        let outcome = self.history(solver, comm).and(printed);
-        let outcome = together(outcome, comm);
+        let outcome = together(printed, comm);
         solver.clock.stop(Section::Output);
         outcome
     }

@@ -5,7 +5,7 @@ use super::RunError;
 use crate::comm::Communicator;
 use crate::exodus::pieces::piece_path;
 use crate::exodus::{ResultsHeader, ResultsWriter};
-use crate::output::{self, Collector, FieldList, Split, global_values};
+use crate::output::{self, Collector, FieldList, Split, block_energies, global_values};
 use crate::partition::Share;
 use crate::restart::Snapshot;
 use crate::solver::{Solver, Totals};
@@ -22,6 +22,8 @@ pub struct Plots {
     collector: Option<Collector>,
     /// Puts values into this rank's piece; there is none when plot states are gathered.
     split: Option<Split>,
+    /// Number of blocks whose energies are among the global variables.
+    blocks: usize,
 }
 
 impl Plots {
@@ -33,6 +35,7 @@ impl Plots {
             file: None,
             variables,
             collector: gathers.then(|| Collector::new(solver, nodes, elements, comm)),
+            blocks: if job.model.plot_requests.block_energies { job.mesh.blocks.len() } else { 0 },
             split: job.split.then(|| Split::new(job.mesh, job.body, share, comm)),
         }
     }
@@ -67,6 +70,10 @@ impl Plots {
         comm: &mut dyn Communicator,
     ) -> Result<(), RunError> {
         let [nodal, element] = [fields.nodal_values(solver, comm), fields.element_values(solver, comm.rank())];
+        let mut globals = global_values(solver, totals).to_vec();
+        if self.blocks > 0 {
+            globals.extend(block_energies(self.blocks, solver, comm));
+        }
         let [nodal_count, element_count] = self.variables;
         let values = match (&mut self.split, &self.collector) {
             (Some(split), _) => Some((split.nodal(&nodal, nodal_count, comm), split.element(&element, element_count))),
@@ -77,9 +84,7 @@ impl Plots {
             (None, None) => None,
         };
         match (&mut self.file, values) {
-            (Some(file), Some((nodal, element))) => {
-                Ok(file.write_state(solver.time, &global_values(solver, totals), &nodal, &element)?)
-            }
+            (Some(file), Some((nodal, element))) => Ok(file.write_state(solver.time, &globals, &nodal, &element)?),
             _ => Ok(()),
         }
     }

@@ -11,7 +11,7 @@ fn bar(ranks: usize, steps: u64) -> Case {
     let deck = "TITLE\n BAR\nTERMINATION TIME, 1.\nMATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\n\
                 POISSONS RATIO = 0.\nEND\nINITIAL VELOCITY MATERIAL, 1, 1., 0., 0.\nEXIT\n";
     let problem = examine(Source::new("bar.i", deck), Some(&mesh)).unwrap();
-    let body = Body::new(&mesh, &problem.model);
+    let body = Body::new(&mesh, &problem.model).expect("materials");
     count(&mesh, &problem.model, &body, ranks, 1, steps).unwrap()
 }
 

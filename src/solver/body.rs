@@ -48,6 +48,14 @@ pub struct LoadedFace {
     pub pressure: u32,
 }
 
+/// A block of the mesh that the model gives no material: it cannot be computed, and least of all with another's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("element block {block} has no MATERIAL")]
+pub struct NoMaterial {
+    /// The element block's number.
+    pub block: i64,
+}
+
 /// Mean of an element's corners.
 pub fn centroid(corners: &[[f64; 3]]) -> [f64; 3] {
     let sum = corners.iter().fold([0.0; 3], |sum, corner| add(sum, *corner));
@@ -81,13 +89,13 @@ impl Body {
         ]
     }
 
-    /// Orders and weighs a mesh. The model has been checked against it: every block has a material.
-    pub fn new(mesh: &Mesh, model: &Model) -> Body {
-        let block_material: Vec<usize> = mesh
-            .blocks
-            .iter()
-            .map(|block| model.materials.iter().position(|m| m.block == block.id).unwrap_or(0))
-            .collect();
+    /// Orders and weighs a mesh.
+    ///
+    /// # Errors
+    /// When a block of the mesh has no material; a model that was checked against the mesh has one for each.
+    pub fn new(mesh: &Mesh, model: &Model) -> Result<Body, NoMaterial> {
+        let material = |block: i64| model.materials.iter().position(|m| m.block == block).ok_or(NoMaterial { block });
+        let block_material = mesh.blocks.iter().map(|block| material(block.id)).collect::<Result<Vec<usize>, _>>()?;
         let mut body = Body {
             element_order: Arc::default(),
             element_block: Arc::default(),
@@ -107,7 +115,7 @@ impl Body {
             body.weigh(mesh, model);
         }
         body.take_faces(mesh, model);
-        body
+        Ok(body)
     }
 
     /// Mass of each mesh block.

@@ -15,13 +15,15 @@ mod function;
 mod health;
 pub mod loads;
 pub mod nodes;
+mod remembered;
 mod state;
 mod stop;
 mod totals;
 
-pub use body::{Body, Cut, centroid};
+pub use body::{Body, Cut, NoMaterial, centroid};
 pub use clock::{Clock, Section};
 pub use domain::{Domain, state_names};
+pub use remembered::Remembered;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
 
@@ -51,6 +53,8 @@ pub struct Solver {
     pub stable_step: f64,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
+    /// What histories compare the present state with.
+    pub remembered: Remembered,
     /// Energies and momenta when they were last summed, and the step at which that was.
     last_totals: Option<(u64, Totals)>,
     kick: f64,
@@ -110,6 +114,7 @@ impl Solver {
             time_step: 0.0,
             stable_step: 0.0,
             initial_energy,
+            remembered: Remembered::default(),
             last_totals: None,
             kick: 0.0,
             first_stable_step: None,
@@ -191,6 +196,13 @@ impl Solver {
         let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
         let behind = if self.step == 0 { 0.0 } else { 0.5 * self.kick };
         nodes::add(v, nodes::scaled(a, behind))
+    }
+
+    /// Velocities of a local node half a step before and after the present state; both are the initial one at the start.
+    pub fn velocities_around(&self, node: u32) -> [[f64; 3]; 2] {
+        let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
+        let between = if self.step == 0 { 0.0 } else { self.kick };
+        [v, nodes::add(v, nodes::scaled(a, between))]
     }
 
     /// Brings what contact has found beside its forces to the nodes, where it is computed elsewhere; before

@@ -26,6 +26,7 @@ impl Solver {
             first_stable_step,
             supplied_peak,
             last_totals,
+            remembered,
             // Of the step: found anew by `prepare`.
             stable_step: _,
             kick: _,
@@ -50,6 +51,7 @@ impl Solver {
         if archive.loading() {
             *last_totals = None;
         }
+        remembered.visit_state(archive);
         domain.visit_state(archive);
     }
 

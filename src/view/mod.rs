@@ -11,13 +11,13 @@ mod error;
 mod field;
 mod film;
 mod lines;
-mod numbers;
+pub(crate) mod numbers;
 mod options;
 mod palette;
 mod raster;
 mod scene;
 mod subject;
-mod text;
+pub(crate) mod text;
 
 use std::path::{Path, PathBuf};
 

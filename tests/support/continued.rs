@@ -30,7 +30,7 @@ impl Case {
     #[track_caller]
     pub fn new(deck: &str, mesh: Mesh) -> Case {
         let model = model(deck, &mesh);
-        let body = Body::new(&mesh, &model);
+        let body = Body::new(&mesh, &model).expect("materials");
         Case { mesh, model, body }
     }
 

@@ -125,7 +125,7 @@ pub fn run(deck: &str, mesh: &Mesh) -> Run {
 #[track_caller]
 pub fn run_on(ranks: usize, deck: &str, mesh: &Mesh) -> Run {
     let model = model(deck, mesh);
-    let body = Body::new(mesh, &model);
+    let body = Body::new(mesh, &model).expect("materials");
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);

@@ -16,7 +16,7 @@ const NUDGE: f64 = 1e-14;
 /// it must ask for no bulk viscosity, no loads and no constraints.
 pub fn stiffness(deck: &str, mesh: &Mesh) -> DMatrix<f64> {
     let model = model(deck, mesh);
-    let body = Body::new(mesh, &model);
+    let body = Body::new(mesh, &model).expect("materials");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), 1);

@@ -53,12 +53,15 @@ pub(super) enum Part {
     Echo(bool),
 }
 
+/// Mistakes of one file at most; then the rest of it is left alone.
+const MOST_MISTAKES: usize = 100;
 /// Blocks within each other at most.
 const DEEPEST: usize = 50;
 
 /// Divides a file. What does not fit together is reported; then the nodes are not all there.
-pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>) {
-    let mut parser = Parser { source, line: 0, wrong: Vec::new(), depth: 0, given_up: false };
+/// The last list are warnings.
+pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>, Vec<Diagnostic>) {
+    let mut parser = Parser { source, line: 0, wrong: Vec::new(), unread: Vec::new(), depth: 0, given_up: false };
     let mut nodes = Vec::new();
     loop {
         nodes.extend(parser.body());
@@ -68,14 +71,32 @@ pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>) {
         let message = format!("{} has no {opener} before it", parser.source.slice(stray.place));
         parser.wrong.push(Diagnostic::error(message).at(stray.place, "no block is open here"));
         parser.line += 1;
+        if parser.wrong.len() >= MOST_MISTAKES {
+            break;
+        }
     }
-    (nodes, parser.wrong)
+    (nodes, parser.wrong, unread_texts(source, parser.unread))
+}
+
+/// Warnings of texts behind governing words, each once.
+fn unread_texts(source: &Source, mut places: Vec<(Span, Span)>) -> Vec<Diagnostic> {
+    places.sort_unstable();
+    places.dedup();
+    let warning = |(word, text): (Span, Span)| {
+        let word = source.slice(word);
+        Diagnostic::warning(format!("what stands on one line with {word} is not read"))
+            .at(text, "this is left out, and nothing in it is evaluated")
+            .help(format!("{word} governs the lines below it; put this on a line of its own"))
+    };
+    places.into_iter().map(warning).collect()
 }
 
 struct Parser<'s> {
     source: &'s Source,
     line: usize,
     wrong: Vec<Diagnostic>,
+    /// Governing words in comments, and what stands behind them on their lines.
+    unread: Vec<(Span, Span)>,
     depth: usize,
     /// Whether the rest is left alone: one message is enough, as what is left would only be misunderstood.
     given_up: bool,
@@ -100,6 +121,10 @@ impl Parser<'_> {
         let mut nodes = Vec::new();
         while self.line < self.source.line_count() {
             let parts = self.parts();
+            if self.wrong.len() >= MOST_MISTAKES {
+                self.give_up::<()>();
+                break;
+            }
             let Some(word) = self.governing(&parts) else {
                 if self.given_up {
                     break;
@@ -278,6 +303,11 @@ impl Parser<'_> {
                     .help("a value within a line is chosen by {condition ? value : value}"),
             );
             return self.give_up();
+        }
+        // A remark is meant for nobody, but braces want to be evaluated.
+        if !alone && after.contains('{') {
+            let end = self.whole_line().start + line.trim_end().len();
+            self.unread.push((word.place, Span { start: end - after.len(), end }));
         }
         Some(word)
     }

@@ -70,7 +70,7 @@ impl Names {
                     _ => value,
                 }))
             }
-            Kind::Binary(sign, left, right) => self.binary(sign, left, right, node.span),
+            Kind::Chain(first, links) => self.chain(first, links),
             Kind::Choice(parts) => {
                 let [condition, yes, no] = &**parts;
                 let chosen = if self.holds(condition)? { yes } else { no };
@@ -89,11 +89,7 @@ impl Names {
 
     /// Whether a condition holds: a number that is not zero, or a text that is not empty.
     pub fn holds(&mut self, node: &Node) -> Result<bool, Fault> {
-        match self.value(node)? {
-            Value::Number(value) => Ok(value != 0.0),
-            Value::Text(text) => Ok(!text.is_empty()),
-            Value::Unknown => Err(Fault::Consequence),
-        }
+        is_true(&self.value(node)?)
     }
 
     /// The value of a tree that must be a number.
@@ -109,12 +105,7 @@ impl Names {
     }
 
     fn text(&mut self, node: &Node) -> Result<String, Fault> {
-        match self.value(node)? {
-            Value::Text(text) => Ok(text),
-            Value::Unknown => Err(Fault::Consequence),
-            Value::Number(_) => Err(Fault::at(node.span, "expected text, but this is a number", "")
-                .help("text stands in quotes; tostring(x) makes text of a number")),
-        }
+        as_text(self.value(node)?, node.span)
     }
 
     fn named(&mut self, name: &str, span: Span) -> Result<Value, Fault> {
@@ -148,18 +139,31 @@ impl Names {
         }
     }
 
-    fn binary(&mut self, sign: &str, left: &Node, right: &Node, span: Span) -> Result<Value, Fault> {
+    /// Operators that bind alike, from the left.
+    fn chain(&mut self, first: &Node, links: &[(&'static str, Node)]) -> Result<Value, Fault> {
+        let (mut value, mut place) = (self.value(first)?, first.span);
+        for (sign, right) in links {
+            value = self.binary(sign, value, place, right)?;
+            place = place.join(right.span);
+        }
+        Ok(value)
+    }
+
+    /// The value on the left of an operator, its place, and what stands on the right.
+    fn binary(&mut self, sign: &str, left: Value, place: Span, right: &Node) -> Result<Value, Fault> {
+        let span = place.join(right.span);
         match sign {
-            "&&" => return Ok(Value::Number(truth(self.holds(left)? && self.holds(right)?))),
-            "||" => return Ok(Value::Number(truth(self.holds(left)? || self.holds(right)?))),
+            "&&" => return Ok(Value::Number(truth(is_true(&left)? && self.holds(right)?))),
+            "||" => return Ok(Value::Number(truth(is_true(&left)? || self.holds(right)?))),
             "//" => {
-                let joined = self.text(left)? + &self.text(right)?;
+                let mut joined = as_text(left, place)?;
+                joined += &self.text(right)?;
                 let fits = joined.len() <= LONGEST;
                 return if fits { Ok(Value::Text(joined)) } else { Err(Fault::at(span, "this text is too long", "")) };
             }
             _ => {}
         }
-        match (self.value(left)?, self.value(right)?) {
+        match (left, self.value(right)?) {
             (Value::Number(a), Value::Number(b)) => arithmetic(sign, a, b, right.span, span).map(Value::Number),
             (Value::Unknown, _) | (_, Value::Unknown) => Err(Fault::Consequence),
             (Value::Text(a), Value::Text(b)) => match relation(sign, a.cmp(&b)) {
@@ -178,8 +182,7 @@ impl Names {
             None => self.value(value),
             Some(sign) => {
                 let place = Span { start: span.start, end: span.start + name.len() };
-                let old = Node { kind: Kind::Name(name.to_string()), span: place };
-                self.binary(sign, &old, value, span)
+                self.named(name, place).and_then(|old| self.binary(sign, old, place, value))
             }
         };
         // A name whose value is wrong is known to be so: what uses it is not worth a message.
@@ -248,6 +251,24 @@ impl Names {
         let found = (1..=words.len()).find(|&i| i as f64 == which).map(|i| words[i - 1].to_string());
         let message = || format!("there is no word {which} of {}", words.len());
         found.map(Value::Text).ok_or_else(|| Fault::at(arguments[0].span, message(), ""))
+    }
+}
+
+/// Whether a value holds as a condition.
+fn is_true(value: &Value) -> Result<bool, Fault> {
+    match value {
+        Value::Number(value) => Ok(*value != 0.0),
+        Value::Text(text) => Ok(!text.is_empty()),
+        Value::Unknown => Err(Fault::Consequence),
+    }
+}
+
+fn as_text(value: Value, place: Span) -> Result<String, Fault> {
+    match value {
+        Value::Text(text) => Ok(text),
+        Value::Unknown => Err(Fault::Consequence),
+        Value::Number(_) => Err(Fault::at(place, "expected text, but this is a number", "")
+            .help("text stands in quotes; tostring(x) makes text of a number")),
     }
 }
 
@@ -385,6 +406,25 @@ mod tests {
     }
 
     #[test]
+    fn long_expressions_need_no_depth() {
+        let long = |first: &str, link: &str| format!("{first}{}", link.repeat(50_000));
+        for (first, link, value) in [
+            ("1", "+1", "50001"),
+            ("1", "-1+1", "1"),
+            ("1", "*1+1*1", "50001"),
+            ("'a'", "//''", "a"),
+            ("1", "<2", "1"),
+            ("1", "&&1", "1"),
+            ("0", "||0", "0"),
+            ("(1)", "+(1)", "50001"),
+            ("0", "+(1-1)", "0"),
+        ] {
+            assert_eq!(printed(&[&long(first, link)]), [value], "{first}{link}...");
+        }
+        assert_eq!(printed(&["1 - (2 - 3) - 4", "1 - 2 * 3 - (4 - 5 - 6) < 3"]), ["-2", "1"]);
+    }
+
+    #[test]
     fn names_keep_their_values() {
         assert_eq!(printed(&["x = y = 3", "x += 2", "x++", "++x", "x ^= 2", "y"]), ["3", "5", "5", "7", "49", "3"]);
         assert_eq!(printed(&["E = 30e6", "E/2"]), ["30000000", "15000000"]);
@@ -438,5 +478,6 @@ mod tests {
         assert_eq!(printed(&["1 +"]), ["the expression ends too early"]);
         assert_eq!(printed(&[&"(".repeat(5000)]), ["this expression is nested too deep"]);
         assert_eq!(printed(&["'a' + 1"]), ["+ between text and a number"]);
+        assert_eq!(printed(&[&"1+".repeat(2_000_000)]), ["this expression is too long"]);
     }
 }

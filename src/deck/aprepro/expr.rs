@@ -22,8 +22,9 @@ pub(super) enum Kind {
     Name(String),
     /// `-a`, `+a`, `!a`
     Unary(&'static str, Box<Node>),
-    /// `a + b` and its like
-    Binary(&'static str, Box<Node>, Box<Node>),
+    /// `a + b - c` and its like: operators that bind alike, worked through from the left. A list and no tree, so that a
+    /// sum may be as long as it likes.
+    Chain(Box<Node>, Vec<(&'static str, Node)>),
     /// `a ? b : c`
     Choice(Box<[Node; 3]>),
     /// `name = a`; with `+=` and its like, the operator.
@@ -107,16 +108,26 @@ impl<'t> Parser<'t> {
             return Err(Fault::at(self.peek().span, "this expression is nested too deep", ""));
         }
         let mut left = self.operand()?;
+        // What the chain on the left binds like, as long as it goes on; one in brackets does not.
+        let mut open = None;
         while let What::Sign(sign) = self.peek().what {
             if sign == "?" && least <= OF_CHOICE {
                 left = self.choice(left)?;
+                open = None;
                 continue;
             }
             let Some((_, right)) = power(sign).filter(|&(binds, _)| binds > least) else { break };
             self.at += 1;
             let other = self.expression(right)?;
             let span = left.span.join(other.span);
-            left = Node { kind: Kind::Binary(sign, Box::new(left), Box::new(other)), span };
+            left = match left.kind {
+                Kind::Chain(first, mut links) if open == power(sign) => {
+                    links.push((sign, other));
+                    Node { kind: Kind::Chain(first, links), span }
+                }
+                _ => Node { kind: Kind::Chain(Box::new(left), vec![(sign, other)]), span },
+            };
+            open = power(sign);
         }
         self.depth -= 1;
         Ok(left)

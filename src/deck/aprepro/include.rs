@@ -23,7 +23,8 @@ pub(super) fn open(name: &str, includer: &Source) -> Result<Option<Found>, Strin
     };
     let about = std::fs::metadata(&path).map_err(|e| e.to_string())?;
     if !about.is_file() {
-        return Err("this is not a file of text".into());
+        let what = if about.is_dir() { "a folder" } else { "a pipe, a socket or a device" };
+        return Err(format!("this is {what}, not a file of text"));
     }
     if about.len() > LARGEST {
         return Err(format!("the file has {} MB; at most {} MB are read", about.len() >> 20, LARGEST >> 20));

@@ -28,6 +28,9 @@ const SIGNS: [&str; 35] = [
     "*", "/", "%", "^", "~", "<", ">", "!", "?", ":", "(", ")", ",", "[", "]", ";",
 ];
 
+/// Tokens of an expression at most: what is longer was not written by hand, and would fill the memory.
+const MOST_TOKENS: usize = 1_000_000;
+
 /// The tokens of `text`, which starts at byte `offset` of its file; the last one is [`What::End`].
 pub(super) fn tokens(text: &str, offset: usize) -> Result<Vec<Token>, Fault> {
     let mut tokens = Vec::new();
@@ -51,6 +54,10 @@ pub(super) fn tokens(text: &str, offset: usize) -> Result<Vec<Token>, Fault> {
         };
         question |= what == What::Sign("?");
         tokens.push(Token { what, span: Span { start: offset + at, end: offset + at + length } });
+        if tokens.len() > MOST_TOKENS {
+            let from = Span { start: offset, end: offset + text.chars().next().map_or(0, char::len_utf8) };
+            return Err(Fault::at(from, "this expression is too long", "it starts here"));
+        }
         at += length;
     }
     let end = offset + text.trim_end().len().min(text.len());

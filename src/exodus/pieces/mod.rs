@@ -77,7 +77,7 @@ pub fn piece_path(whole: &Path, ranks: usize, rank: usize) -> PathBuf {
 }
 
 /// The whole, the number of ranks and the rank that a piece's name tells, if it is the name of a piece.
-fn parts_of_name(path: &Path) -> Option<(PathBuf, usize, usize)> {
+pub(super) fn parts_of_name(path: &Path) -> Option<(PathBuf, usize, usize)> {
     let name = path.file_name()?.to_str()?;
     let (rest, rank) = name.rsplit_once('.')?;
     let (base, ranks) = rest.rsplit_once('.')?;

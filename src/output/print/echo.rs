@@ -99,6 +99,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("ANALYSIS TYPE", "3D SOLID");
     out += &leader("TERMINATION TIME", &number(model.termination_time));
     out += &leader("PRINT OUTPUT AT INTERVALS OF", &number(model.output_interval));
+    if model.history_interval.is_some() {
+        out += &leader("WRITE HISTORIES AT INTERVALS OF", &interval(model.history_interval));
+    }
     out += &leader("WRITE PLOT FILE AT INTERVALS OF", &interval(model.plot.interval));
     out += &leader("START WRITING PLOT FILE AT TIME", &number(model.plot.start));
     out += &leader("STOP WRITING PLOT FILE AT TIME", &number(model.plot.stop));

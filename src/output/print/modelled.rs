@@ -33,6 +33,7 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("elements that are taken away", "DEATH", model.deaths.len()),
         ("blocks that are taken away at a time", "DELETE MATERIAL", model.deletions.len()),
         ("histories of material points", "MATERIAL POINT", model.material_points.len()),
+        ("histories of blocks, node sets and nodes", "HISTORY", model.histories.len()),
     ];
     for (what, command, count) in counts.into_iter().filter(|(.., count)| *count > 0) {
         let asked_by = if count == 1 { command.to_string() } else { format!("{command}, {count} of them") };

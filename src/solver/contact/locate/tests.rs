@@ -246,7 +246,7 @@ impl Scene {
             Ok(problem) => problem.model,
             Err(found) => panic!("{}", found.render(false)),
         };
-        let body = Body::new(&mesh, &model);
+        let body = Body::new(&mesh, &model).expect("materials");
         let at = |n: usize| body.positions[n];
         let mut springs: Vec<(usize, usize)> = Vec::new();
         for corners in mesh.hexahedra() {

@@ -243,3 +243,6 @@ impl<K: Kernel> TrussStep<K> {
 fn product<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> V {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,12 +1,12 @@
-//! Histories of material points: what happens in the elements that the analyst watches.
+//! Points of the material: what happens in the elements that they lie in.
 //!
 //! Each rank finds the watched elements that it computes; rank 0 puts the values in the order of the points. In the file
 //! they are global variables, named after the plot variables with the number of the point: SIGZZ_1.
 
-use super::fields::FieldList;
 use crate::comm::Communicator;
 use crate::mesh::{Block, Mesh, locate::locate};
 use crate::model::{ElementField, Model, NodalField};
+use crate::output::fields::FieldList;
 use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::{Solver, nodes};
 
@@ -22,7 +22,7 @@ const ELEMENT_FIELDS: [ElementField; 6] = [
 
 /// What there is to know about the points before the run; the same on all ranks.
 #[derive(Debug, Clone)]
-pub struct HistoryPlan {
+pub struct Points {
     points: Vec<Point>,
 }
 
@@ -37,9 +37,9 @@ struct Point {
     fields: FieldList,
 }
 
-impl HistoryPlan {
+impl Points {
     /// Finds the elements of the model's points.
-    pub fn new(mesh: &Mesh, model: &Model) -> HistoryPlan {
+    pub fn new(mesh: &Mesh, model: &Model) -> Points {
         let point = |&position: &[f64; 3]| {
             let element = locate(mesh, position)?.element;
             let (block, _) = mesh.elements().nth(element as usize)?;
@@ -50,7 +50,7 @@ impl HistoryPlan {
             let fields = FieldList::of_elements(ELEMENT_FIELDS.to_vec(), state);
             Some(Point { position, element, element_id, block, block_id, fields })
         };
-        HistoryPlan { points: model.material_points.iter().filter_map(point).collect() }
+        Points { points: model.material_points.iter().filter_map(point).collect() }
     }
 
     /// Whether no point is watched.
@@ -58,11 +58,18 @@ impl HistoryPlan {
         self.points.is_empty()
     }
 
-    /// Names of the variables, point by point: displacement and velocity of the element's centre, then its own.
+    /// Where the acceleration stands among the values of a point.
+    pub fn acceleration(&self, point: usize) -> usize {
+        self.points.get(point).map_or(0, |point| point.count() - 3)
+    }
+
+    /// Names of the variables, point by point: displacement and velocity of the element's centre, then its own, then the
+    /// centre's acceleration.
     pub fn names(&self) -> Vec<String> {
         let motion = [NodalField::Displacement, NodalField::Velocity].map(|field| field.components()).concat();
         let of_point = |(i, point): (usize, &Point)| {
             let names = motion.iter().map(|name| name.to_string()).chain(point.fields.element_names());
+            let names = names.chain(NodalField::Acceleration.components().iter().map(|name| name.to_string()));
             names.map(|name| format!("{name}_{}", i + 1)).collect::<Vec<_>>()
         };
         self.points.iter().enumerate().flat_map(of_point).collect()
@@ -106,8 +113,9 @@ impl HistoryPlan {
         }
     }
 
-    /// Values of all points in the order of [`HistoryPlan::names`] on rank 0, `None` on the others.
-    pub fn values(&self, solver: &Solver, comm: &mut dyn Communicator) -> Option<Vec<f64>> {
+    /// Values of each point in the order of [`Points::names`], with room for the acceleration, on rank 0; `None` on the
+    /// others.
+    pub fn values(&self, solver: &Solver, comm: &mut dyn Communicator) -> Option<Vec<Vec<f64>>> {
         let mut own = Vec::new();
         for (i, point) in self.points.iter().enumerate() {
             if let Some(values) = point.values(solver, comm.rank()) {
@@ -124,13 +132,13 @@ impl HistoryPlan {
                 values.iter_mut().zip(&mut words).for_each(|(value, word)| *value = f64::from_ne_bytes(word));
             }
         }
-        Some(values.concat())
+        Some(values)
     }
 }
 
 impl Point {
     fn count(&self) -> usize {
-        6 + self.fields.element_names().len()
+        6 + self.fields.element_names().len() + 3
     }
 
     /// The point's values, where this rank computes its element.

@@ -1,0 +1,115 @@
+//! Histories: what happens to what the analyst watches, as global variables of an EXODUS file.
+//!
+//! Points of the material, nodes, node sets and blocks. Each rank contributes what it computes; sums go through
+//! [`ExactSum`], so that the file has the same bits on any number of ranks. Accelerations are the change of velocity since
+//! the state before.
+
+mod blocks;
+mod points;
+mod sets;
+
+use blocks::{Motion, block_motions};
+pub use blocks::{block_energies, block_energy_names};
+
+use crate::comm::{Communicator, ExactSum};
+use crate::mesh::Mesh;
+use crate::model::{Model, Watched};
+use crate::solver::{Remembered, Solver};
+use points::Points;
+use sets::NodeGroup;
+
+/// Kinds of what is watched, as [`Remembered`] tells them apart.
+const POINT: u8 = 1;
+const BLOCK: u8 = 2;
+const SET: u8 = 3;
+const NODE: u8 = 4;
+
+/// What is watched; the same on all ranks.
+#[derive(Debug, Clone)]
+pub struct HistoryPlan {
+    points: Points,
+    /// Positions and numbers of blocks in the mesh.
+    blocks: Vec<(usize, i64)>,
+    groups: Vec<NodeGroup>,
+}
+
+impl HistoryPlan {
+    /// Finds what the model names in the mesh.
+    pub fn new(mesh: &Mesh, model: &Model) -> HistoryPlan {
+        let mut plan = HistoryPlan { points: Points::new(mesh, model), blocks: Vec::new(), groups: Vec::new() };
+        for watched in &model.histories {
+            match *watched {
+                Watched::Blocks => plan.blocks.extend(mesh.blocks.iter().map(|block| block.id).enumerate()),
+                Watched::Block(id) => plan.blocks.extend(mesh.block_index(id).map(|index| (index, id))),
+                Watched::NodeSet(id) => plan.groups.extend(NodeGroup::of_set(mesh, id)),
+                Watched::Node(id) => plan.groups.extend(NodeGroup::of_node(mesh, id)),
+            }
+        }
+        plan.blocks.sort_unstable();
+        plan.blocks.dedup();
+        plan
+    }
+
+    /// Whether nothing is watched.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.blocks.is_empty() && self.groups.is_empty()
+    }
+
+    /// Names of the variables: points, then blocks, then nodes and their sets.
+    pub fn names(&self) -> Vec<String> {
+        let blocks = self.blocks.iter().flat_map(|(_, id)| Motion::NAMES.map(|name| format!("{name}_BLOCK{id}")));
+        let groups = self.groups.iter().flat_map(NodeGroup::names);
+        self.points.names().into_iter().chain(blocks).chain(groups).collect()
+    }
+
+    /// Lines for the records: where points are.
+    pub fn records(&self) -> Vec<String> {
+        self.points.records()
+    }
+
+    /// A mesh of nothing but the watched elements, to show where they are.
+    pub fn mesh(&self, whole: &Mesh) -> Mesh {
+        self.points.mesh(whole)
+    }
+
+    /// Values in the order of [`HistoryPlan::names`] on rank 0, `None` on the others. The motion of a state that is `due` is
+    /// kept, to be compared with the next one. All ranks call it.
+    pub fn values(&self, solver: &mut Solver, comm: &mut dyn Communicator, due: bool) -> Option<Vec<f64>> {
+        let points = self.points.values(solver, comm);
+        let blocks = block_motions(&self.blocks.iter().map(|(index, _)| *index).collect::<Vec<_>>(), solver, comm);
+        let groups = sets::values(&self.groups, solver, comm);
+        let mut points = points?;
+        let time = solver.time;
+        let kept = &mut solver.remembered;
+        let mut values = Vec::new();
+        for (number, point) in points.iter_mut().enumerate() {
+            accelerate(kept, (POINT, number as i64 + 1), time, due, point, self.points.acceleration(number));
+            values.append(point);
+        }
+        for ((_, id), motion) in self.blocks.iter().zip(blocks) {
+            let mut of_block = motion.values().to_vec();
+            accelerate(kept, (BLOCK, *id), time, due, &mut of_block, 6);
+            values.append(&mut of_block);
+        }
+        for (group, mut of_group) in self.groups.iter().zip(groups) {
+            accelerate(kept, group.key(), time, due, &mut of_group, 6);
+            values.append(&mut of_group);
+        }
+        Some(values)
+    }
+}
+
+/// Puts the acceleration to its place among values whose velocity stands from the fourth on.
+fn accelerate(kept: &mut Remembered, key: (u8, i64), time: f64, due: bool, values: &mut [f64], place: usize) {
+    let velocity = [3, 4, 5].map(|i| values.get(i).copied().unwrap_or(0.0));
+    let acceleration = kept.acceleration(key, time, velocity, due);
+    values.iter_mut().skip(place).zip(acceleration).for_each(|(value, part)| *value = part);
+}
+
+/// The sums of all ranks.
+fn summed(mut sums: Vec<ExactSum>, comm: &mut dyn Communicator) -> Vec<f64> {
+    if !sums.is_empty() {
+        ExactSum::merge_ranks(&mut sums, comm);
+    }
+    sums.iter().map(ExactSum::value).collect()
+}

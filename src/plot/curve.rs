@@ -1,0 +1,52 @@
+//! A curve: what is drawn, written as numbers, and told in words.
+
+use super::run::Site;
+
+/// Values over something.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What it is called in the legend.
+    pub label: String,
+    /// What it is over: times, or the values of another variable. As many as `y`.
+    pub x: Vec<f64>,
+    /// The values; NaN where there is none.
+    pub y: Vec<f64>,
+    /// Belongs to the axis on the right.
+    pub right: bool,
+    /// Comes from a file of numbers, not from a run.
+    pub reference: bool,
+    /// Which of the runs it comes from.
+    pub run: usize,
+    /// Where its variable is.
+    pub site: Site,
+}
+
+/// A curve's least, greatest and last value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// Where the least value is, and the value.
+    pub least: [f64; 2],
+    /// Where the greatest value is, and the value.
+    pub greatest: [f64; 2],
+    /// Where the last value is, and the value.
+    pub last: [f64; 2],
+}
+
+impl Curve {
+    /// The extremes among finite values; `None` where there are none.
+    pub fn extremes(&self) -> Option<Extremes> {
+        let points =
+            || self.x.iter().zip(&self.y).map(|(&x, &y)| [x, y]).filter(|[x, y]| x.is_finite() && y.is_finite());
+        let (first, last) = (points().next()?, points().next_back()?);
+        let (mut least, mut greatest) = (first, first);
+        for point in points() {
+            if point[1] < least[1] {
+                least = point;
+            }
+            if point[1] > greatest[1] {
+                greatest = point;
+            }
+        }
+        Some(Extremes { least, greatest, last })
+    }
+}

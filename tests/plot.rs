@@ -1,0 +1,183 @@
+//! Curves: what is plotted is what the files hold, whether whole, continued or in pieces, and stands where its numbers
+//! put it.
+
+mod program;
+
+use program::Desk;
+use tiny_skia::Pixmap;
+use urto::exodus::{ResultsHeader, ResultsWriter};
+use urto::mesh::{Block, Mesh};
+
+/// A unit cube whose nodes are numbered 11 to 18 and whose element is 5.
+fn cube() -> Mesh {
+    let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+    Mesh {
+        title: "A cube".to_owned(),
+        coordinates: corners.map(|corner| corner.map(f64::from)).to_vec(),
+        node_ids: (11..=18).collect(),
+        element_ids: vec![5],
+        blocks: vec![Block::hexahedra_of(1, [[0, 1, 2, 3, 4, 5, 6, 7]])],
+        ..Mesh::default()
+    }
+}
+
+/// Results at some times: KE = t, BAD = NaN or -t, VELX = t at the first node, VELY = 2t, VELZ = 2t; EQPS = t².
+fn results(desk: &Desk, name: &str, times: &[f64]) {
+    let names = |list: &str| list.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let header = ResultsHeader {
+        mesh: &cube(),
+        title: "A cube & <its> \"curves\"".to_owned(),
+        global: names("KE BAD ONE"),
+        nodal: names("VELX VELY VELZ"),
+        element: names("EQPS"),
+        qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+        info: Vec::new(),
+    };
+    let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
+    for (state, &t) in times.iter().enumerate() {
+        let bad = if state % 3 == 1 { f64::NAN } else { -t };
+        let at = |factor: f64| (0..8).map(|node| if node == 0 { factor * t } else { 0.5 }).collect::<Vec<f64>>();
+        writer.write_state(t, &[t, bad, 1.0], &[at(1.0), at(2.0), at(2.0)], &[vec![t * t]]).expect("a state");
+    }
+}
+
+fn csv(desk: &Desk, arguments: &[&str]) -> Vec<Vec<f64>> {
+    let all = [&["plot"], arguments, &["--csv", "-o", "out.csv"]].concat();
+    desk.urto(&all).with(0);
+    let text = desk.text("out.csv");
+    let number = |field: &str| if field.is_empty() { f64::NAN } else { field.parse().expect("a number") };
+    text.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
+}
+
+#[test]
+fn globals_nodes_elements_and_lengths_of_vectors() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 0.5, 2.0]);
+    let found = csv(&desk, &["run.e", "-v", "ke,VEL,eqps", "--node", "11", "--element", "5"]);
+    assert_eq!(found, [[0.0, 0.0, 0.0, 0.0], [0.5, 0.5, 1.5, 0.25], [2.0, 2.0, 6.0, 4.0]]);
+    assert_eq!(desk.text("out.csv").lines().next(), Some("time,KE,|VEL| at node 11,EQPS in element 5"));
+    let over = csv(&desk, &["run.e", "-v", "EQPS", "--element", "5", "-x", "KE"]);
+    assert_eq!(over, [[0.0, 0.0], [0.5, 0.25], [2.0, 4.0]]);
+}
+
+#[test]
+fn continued_runs_are_one_and_replace_what_they_went_back_behind() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 1.0, 2.0, 3.0]);
+    results(&desk, "run.e-s0002", &[2.0, 2.5, 3.5, 4.5]);
+    results(&desk, "run.e-s0003", &[4.0, 5.0]);
+    let times: Vec<f64> = csv(&desk, &["run.e", "-v", "KE"]).iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0]);
+    assert_eq!(csv(&desk, &["run.e-s0002", "-v", "KE"]).len(), 4);
+}
+
+#[test]
+fn differences_derivatives_and_integrals() {
+    let desk = Desk::new();
+    results(&desk, "a.e", &[0.0, 1.0, 2.0, 3.0]);
+    results(&desk, "b.e", &[0.5, 1.5, 2.5]);
+    assert_eq!(csv(&desk, &["a.e", "-v", "KE", "--minus", "ONE"])[3], [3.0, 2.0]);
+    // Both are KE = t: the difference is zero where both are, and nowhere else.
+    assert_eq!(csv(&desk, &["a.e", "-v", "KE", "--minus", "b.e"]), [[1.0, 0.0], [2.0, 0.0]]);
+    let slope = csv(&desk, &["a.e", "-v", "EQPS", "--element", "5", "--derive"]);
+    assert_eq!(slope.iter().map(|row| row[1]).collect::<Vec<_>>(), [1.0, 2.0, 4.0, 5.0]);
+    let area = csv(&desk, &["a.e", "-v", "KE", "--integrate", "--scale", "2"]);
+    assert_eq!(area.iter().map(|row| row[1]).collect::<Vec<_>>(), [0.0, 1.0, 4.0, 9.0]);
+}
+
+#[test]
+fn a_filter_on_too_few_states_is_told() {
+    let desk = Desk::new();
+    let times: Vec<f64> = (0..400).map(|i| f64::from(i) * 1e-3).collect();
+    results(&desk, "run.e", &times);
+    let plot = |class: &str, more: &[&str]| {
+        desk.urto(&[&["plot", "run.e", "-v", "ONE", "--filter", class, "-o", "f.png"], more].concat())
+    };
+    assert!(!plot("CFC60", &[]).with(0).err.contains("warning"));
+    let told = plot("CFC180", &[]).with(0).err;
+    assert!(told.contains("warning: CFC180 on 5.6 states a period") && told.contains("HISTORY TIME"), "{told}");
+    assert!(plot("CFC1000", &[]).with(2).err.contains("too far apart"));
+    // The same file in milliseconds.
+    assert!(!plot("CFC0.06", &["--second", "1"]).with(0).err.contains("warning"));
+    assert!(plot("butter", &[]).with(2).err.contains("CFC60"));
+}
+
+/// KE = t from 0 to 1 alone on the paper is a straight line from the lower left to near the upper right.
+#[test]
+fn curves_stand_where_their_numbers_put_them() {
+    let desk = Desk::new();
+    let times: Vec<f64> = (0..=100_000).map(|i| f64::from(i) / 1e5).collect();
+    results(&desk, "run.e", &times);
+    desk.urto(&["plot", "run.e", "-v", "KE", "-o", "k.png", "--y-range", "0,1"]).with(0);
+    let picture = Pixmap::load_png(desk.path("k.png")).expect("a picture");
+    let blue = |x: u32, y: u32| picture.pixel(x, y).is_some_and(|p| p.red() < 60 && p.green() < 140 && p.blue() > 150);
+    let spots: Vec<(f64, f64)> = (0..picture.height())
+        .flat_map(|y| (0..picture.width()).map(move |x| (x, y)))
+        .filter(|&(x, y)| blue(x, y))
+        .map(|(x, y)| (f64::from(x), f64::from(y)))
+        .collect();
+    let left = spots.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).expect("a curve");
+    let right = spots.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)).expect("a curve");
+    assert!(right.0 - left.0 > 900.0 && left.1 - right.1 > 500.0, "{left:?} {right:?}");
+    for (x, y) in spots {
+        let on = left.1 + (x - left.0) / (right.0 - left.0) * (right.1 - left.1);
+        assert!((y - on).abs() < 3.0, "{x} {y} {on}");
+    }
+}
+
+#[test]
+fn pictures_are_made_of_whatever_there_is() {
+    let desk = Desk::new();
+    results(&desk, "one.e", &[0.0]);
+    results(&desk, "run.e", &[0.0, 1e-300, 1.0, 1e30]);
+    desk.put("ref.csv", "t,\"a < b\"\n0,1\n1,2\n");
+    for arguments in [
+        &["one.e", "-v", "KE"][..],
+        &["run.e", "-v", "BAD"],
+        &["run.e", "-v", "KE,BAD,ONE", "--right", "VEL*", "--node", "11,12,13,14,15,16,17,18"],
+        &["run.e", "-v", "*", "--log", "xy", "--size", "300x200"],
+        &["run.e", "one.e", "-v", "ONE", "--x-range", "-5,-4"],
+        &["run.e", "-v", "EQPS", "--element", "5", "--title", "", "--reference", "ref.csv"],
+        &["run.e"],
+    ] {
+        for picture in ["p.png", "p.svg"] {
+            desk.urto(&[&["plot"], arguments, &["-o", picture]].concat()).with(0);
+        }
+        Pixmap::load_png(desk.path("p.png")).expect("a picture");
+        well_formed(&desk.text("p.svg"));
+    }
+    assert!(desk.urto(&["plot", "run.e", "-v", "BAD", "--log", "y"]).with(2).err.contains("positive"));
+    assert!(!desk.urto(&["plot", "run.e", "--list"]).with(0).out.contains("error"));
+}
+
+/// Every tag is closed in its order, and texts have no bare signs of the language.
+fn well_formed(svg: &str) {
+    let mut open = Vec::new();
+    for tag in svg.split('<').skip(1) {
+        let (tag, text) = tag.split_once('>').expect("a tag ends");
+        assert!(!text.contains('&') || text.contains(';'), "{text}");
+        match tag.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop(), Some(name)),
+            None if tag.ends_with('/') => {}
+            None => open.push(tag.split(' ').next().expect("a name")),
+        }
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+    }
+    assert!(open.is_empty(), "{open:?}");
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 1.0]);
+    let wrong = |arguments: &[&str]| desk.urto(&[&["plot"], arguments].concat()).with(2).err;
+    assert!(wrong(&["none.e"]).contains("none.e: cannot be read"));
+    assert!(wrong(&["run.e", "-v", "KEE"]).contains("did you mean KE?"));
+    assert!(wrong(&["run.e", "-v", "VELX"]).contains("--node"));
+    assert!(wrong(&["run.e", "-v", "VELX", "--node", "1"]).contains("there is no node 1"));
+    assert!(wrong(&["run.e", "-v", "KE", "-o", "x.pdf"]).contains(".png, .svg"));
+    assert!(wrong(&["run.e", "-v", "KE", "--derive"]).contains("2 states"));
+    assert!(wrong(&["run.e", "-v", "KE", "--second", "0"]).contains("positive"));
+    assert!(wrong(&["run.e", "-v", "KE", "--reference", "no.csv"]).contains("no.csv: cannot be read"));
+    assert!(wrong(&[]).contains("FILES"));
+}
