@@ -310,6 +310,22 @@ fn words_mean_what_analysts_mean() {
 }
 
 #[test]
+fn distribution_factors_are_told_to_be_unused_where_they_would_matter() {
+    let mut mesh = two_blocks();
+    mesh.weighted = [vec![3], vec![200]];
+    let head = with_a_neighbour("MATERIAL 1 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n");
+    let warnings = |commands: &str| -> Vec<String> {
+        let problem = examine(Source::new("t.i", format!("{head}{commands}")), Some(&mesh));
+        let problem = problem.unwrap_or_else(|messages| panic!("{messages}"));
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect()
+    };
+    let told = "PRESSURE: the distribution factors of side set 200 are not used";
+    assert_eq!(warnings("PRESSURE, 200, 1\nPRESSURE, 100, 1\nNO DISPLACEMENT, X, 3\n"), [told]);
+    let told = "PRESCRIBED FORCE: the distribution factors of node set 3 are not used";
+    assert_eq!(warnings("PRESCRIBED FORCE, X, 3, 1\nPRESCRIBED VELOCITY, X, 4, 1\n"), [told]);
+}
+
+#[test]
 fn all_stands_for_every_block_of_contact() {
     let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
     let contact = |text: &str| problem(&format!("{LEAST}{blocks}{text}")).model.contact;

@@ -11,6 +11,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("INITIAL VELOCITY MATERIAL", of_block),
     ("INITIAL VELOCITY NODESET", of_node_set),
     ("INITIAL VELOCITY ANGULAR", angular),
+    ("INITIAL VELOCITY RADIAL", radial),
 ];
 
 /// The velocity of a card; components that are left out are zero, but not all of them can be meant to be.
@@ -50,5 +51,14 @@ fn angular(card: &Card, draft: &mut Draft) {
         omega: card.number("omega"),
         point: card.vector(["x", "y", "z"]),
         axis,
+    });
+}
+
+fn radial(card: &Card, draft: &mut Draft) {
+    draft.model.initial_velocities.push(InitialVelocity::Radial {
+        block: card.integer("block"),
+        speed: card.number("speed"),
+        point: card.vector(["x", "y", "z"]),
+        axis: unit(card.vector(["ax", "ay", "az"])),
     });
 }
