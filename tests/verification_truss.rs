@@ -31,7 +31,11 @@ fn b4_truss_pendulum() {
     assert_eq!(returns.len(), 2, "{returns:?}");
     close("B4", "first period [s]", returns[0], 2.1529, 1e-3);
     close("B4", "second period [s]", returns[1] - returns[0], 2.1529, 1e-3);
-    between("B4", "worst energy balance", swing.worst_balance(), 0.0, 1e-6);
+    // Over the largest kinetic energy: at the turning points all accounts are nearly empty. What is left comes from steps that
+    // change as the truss is stretched, by parts in 10⁵.
+    let most = swing.lines.iter().map(|line| line.totals.kinetic).fold(0.0, f64::max);
+    let worst = swing.lines.iter().map(|line| (line.totals.imbalance(0.0) / most).abs()).fold(0.0, f64::max);
+    between("B4", "worst imbalance over the largest kinetic energy", worst, 0.0, 1e-5);
     let x = swing.end().positions(&mesh);
     let length = (0..3).map(|i| (x[1][i] - x[0][i]).powi(2)).sum::<f64>().sqrt();
     close("B4", "length [m]", length, 1.0, 1e-3);
@@ -46,7 +50,7 @@ fn trusses_and_hexahedra_have_the_same_bits_on_any_ranks() {
     );
     for level in 1..=4 {
         mesh += &format!(
-            "BAR, 2, 1., 0., {level}., 6., 0., {level}., 1\nBAR, 2, 1., 1., {level}., 6., 1., {}., 1\n",
+            "LINE, 2, 1., 0., {level}., 6., 0., {level}., 1\nLINE, 2, 1., 1., {level}., 6., 1., {}., 1\n",
             level - 1
         );
     }

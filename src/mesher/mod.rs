@@ -8,9 +8,9 @@ pub mod body;
 pub mod recipe;
 
 mod assembly;
-mod bar;
 mod cylinder;
 mod hex_box;
+mod line;
 mod merge;
 mod perturb;
 mod region;

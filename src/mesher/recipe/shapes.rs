@@ -6,10 +6,10 @@ use super::{Draft, Part, Place, Setter};
 use crate::{
     deck::{Card, Diagnostic},
     mesher::{
-        bar::Bar,
         body::{Extent, Shape},
         cylinder::Cylinder,
         hex_box::Hexahedron,
+        line::Line,
         spacing::Spacing,
         sphere::{Sphere, SphereShell},
         tube::Tube,
@@ -23,7 +23,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TUBE", tube),
     ("SPHERE", sphere),
     ("SPHERE SHELL", sphere_shell),
-    ("BAR", bar),
+    ("LINE", line),
 ];
 
 fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
@@ -62,13 +62,13 @@ fn hexahedron(card: &Card, draft: &mut Draft) {
     }
 }
 
-fn bar(card: &Card, draft: &mut Draft) {
+fn line(card: &Card, draft: &mut Draft) {
     let ends = [card.vector(["x", "y", "z"]), card.vector(["x2", "y2", "z2"])];
     if ends[0] == ends[1] {
-        let message = "BAR: it begins where it ends";
+        let message = "LINE: it begins where it ends";
         return draft.report(Diagnostic::error(message).at(card.record, "the two ends must be apart"));
     }
-    add(card, draft, Bar { ends, cells: count(card, "n") });
+    add(card, draft, Line { ends, cells: count(card, "n") });
 }
 
 fn cylinder(card: &Card, draft: &mut Draft) {

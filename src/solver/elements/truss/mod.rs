@@ -2,7 +2,7 @@
 //!
 //! Strain increment Δε = Δt v₂₁·x/x² with x₂₁ of mid-step, so that a chord that turns is not strained. The area follows from
 //! the strain across, A = A₀ exp(2ε_t), and the force at the ends is N = σA along the present line. Work is that of the end
-//! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off.
+//! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
 mod uniaxial;
 

@@ -1,17 +1,17 @@
-//! BAR: a row of two-node elements between two points.
+//! LINE: a row of two-node elements between two points.
 
 use super::body::{Body, Face, Shape};
 
 /// Two-node elements from one point to another.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bar {
+pub struct Line {
     /// Where it begins and ends.
     pub ends: [[f64; 3]; 2],
     /// Number of elements.
     pub cells: usize,
 }
 
-impl Shape for Bar {
+impl Shape for Line {
     fn elements(&self, refine: usize) -> f64 {
         self.cells as f64 * refine as f64
     }
