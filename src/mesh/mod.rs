@@ -6,6 +6,7 @@
 
 pub mod check;
 mod connectivity;
+pub mod corners;
 pub mod exterior;
 pub mod hexahedron;
 mod kind;

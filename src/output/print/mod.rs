@@ -7,12 +7,14 @@ mod modelled;
 mod restart;
 mod steps;
 mod summary;
+mod warnings;
 
 pub use crate::numbers::scientific;
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};
 pub use summary::{Balance, Ending, TimeTable, closing};
+pub use warnings::{labels, warning, warning_on_terminal, with_warnings};
 
 use crate::numbers::number;
 use std::fs::File;

@@ -161,6 +161,11 @@ impl Group {
         (0..self.corners).map(move |corner| self.node(i, corner))
     }
 
+    /// The same as an array, if it has as many.
+    pub fn all_nodes<const N: usize>(&self, i: usize) -> Option<[u32; N]> {
+        (self.corners == N).then(|| std::array::from_fn(|corner| self.node(i, corner)))
+    }
+
     /// Positions of the nodes of the `i`-th element, which has as many.
     pub fn positions<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
         std::array::from_fn(|corner| nodes.position(self.node(i, corner)))

@@ -40,6 +40,7 @@ pub fn field_values(
         ElementField::Stretch => filled(&in_space(element.stretch(group, i, nodes))),
         ElementField::Rotation => filled(element.frame(group, i, nodes).as_flattened()),
         ElementField::BulkViscosity => filled(&[entry.viscous_stress.map_or(0.0, |row| -group.value(i, row))]),
+        ElementField::Corners => filled(&[element.least_corner(group, i, nodes)]),
         ElementField::Status => filled(&[1.0]),
         ElementField::Rank => filled(&[rank as f64]),
     }

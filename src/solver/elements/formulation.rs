@@ -96,6 +96,11 @@ pub trait Formulation: Sized {
     /// Right stretch in the frame of the `i`-th element.
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64>;
 
+    /// The least Jacobian of the `i`-th element's corners over its mean one, 1 in elements that have none.
+    fn least_corner(&self, _group: &Group, _i: usize, _nodes: &Nodes) -> f64 {
+        1.0
+    }
+
     /// Work that the last forces of the `i`-th element have done since the last state. They acted for half of the step that
     /// led here, and no new forces come to be averaged with them when the element goes.
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64;

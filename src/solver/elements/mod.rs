@@ -84,6 +84,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.stretch(group, i, nodes),)+ }
             }
 
+            /// See [`Formulation::least_corner`].
+            pub fn least_corner(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+                match self { $(Element::$element(own) => own.least_corner(group, i, nodes),)+ }
+            }
+
             /// See [`Formulation::last_half_step`].
             pub fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
                 match self { $(Element::$element(own) => own.last_half_step(group, i, nodes, time_step),)+ }
