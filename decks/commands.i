@@ -56,6 +56,7 @@ YOUNGS MODULUS = 70.E9
 POISSONS RATIO = 0.33
 END
 
+INITIAL VELOCITY RADIAL, 1, 5., 0., 0., 0., 0., 0., 1.   $ away from the axis; what follows holds instead
 INITIAL VELOCITY MATERIAL, 1, 0., 0., -50.
 INITIAL VELOCITY MATERIAL, 2, 0., 0., -50.
 INITIAL VELOCITY NODESET, 4, 0., 0., -40.

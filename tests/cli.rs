@@ -153,6 +153,11 @@ fn check_foretells_and_runs_nothing() {
         "deck and mesh are sound",
     ]);
     assert_eq!(std::fs::read_dir(desk.path(".")).expect("the folder").count(), 2);
+    put_bar(&desk, 1e-3, "PLO TIM, 1.E-4\nPLO NOD, DIS, VEL, REAC\nPLO ELE, STRE, STRA, PRESS, VON\n");
+    let left = desk.urto(&["check", "bar.i"]).with(0);
+    assert!(left.out.starts_with("A bar\nmesh bar.g"), "what is modelled comes first:\n{}", left.out);
+    left.says(&["assumed: PLOT TIME for `PLO TIM`, ", " and 6 more, which the log of a run lists\n"]);
+    put_bar(&desk, 1e-3, "NO DISPLACEMENT, X, 1\n");
     desk.put("wrong.i", "TITLE\n x\n");
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["TERMINATION TIME", "MATERIAL"]);
 }
@@ -253,6 +258,32 @@ fn help_helps() {
         long.says(words);
         assert!(long.out.lines().all(|line| line.chars().count() <= 120), "{verb}");
         desk.urto(&[verb, "-h"]).with(0);
+    }
+}
+
+#[test]
+fn radial_velocities_point_away_from_a_point_or_an_axis() {
+    let desk = Desk::new();
+    let velocity = "INITIAL VELOCITY MATERIAL, 1, 0., 0., -10.\n";
+    for (command, axis) in [("RADIAL, 1, 7., 0., 0., -0.01", None), ("RADIAL, 1, -7., 0., 0., 0., 0., 0., 2.", Some(2))]
+    {
+        put_bar(&desk, SOON, "PLOT NODAL, VELOCITY\n");
+        let deck = desk.text("bar.i").replace(velocity, &format!("INITIAL VELOCITY {command}\n"));
+        desk.put("bar.i", &deck);
+        desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(0);
+        let results = desk.results("bar.e");
+        let mesh = results.mesh().expect("the mesh");
+        let found = ["VELX", "VELY", "VELZ"].map(|name| results.nodal(name, 0).expect("velocities"));
+        for (node, &[x, y, z]) in mesh.coordinates.iter().enumerate() {
+            let arm = if axis.is_some() { [x, y, 0.0] } else { [x, y, z + 0.01] };
+            let length = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let speed = if axis.is_some() { -7.0 } else { 7.0 };
+            for i in 0..3 {
+                let expected = if length > 0.0 { speed * arm[i] / length } else { 0.0 };
+                // Three operations of seven units each are less than 1e-14.
+                assert!((found[i][node] - expected).abs() < 1e-14, "{command}: node {node}, {:?}", found[i][node]);
+            }
+        }
     }
 }
 

@@ -8,7 +8,10 @@ use urto::{
     deck::{self, Deck, Source, Status, language},
     material::{self, ElasticPlastic, Law, MATERIALS, Origin, Property, Range},
     mesh::{Block, Mesh, NodeSet, SideSet},
-    model::{self, Direction, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli, examine},
+    model::{
+        self, Direction, ElementField, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli,
+        examine,
+    },
 };
 
 /// Two blocks of 1 × 1 × 2 hexahedra along z: node sets 1 (x = 0), 2 (y = 0), 3 (z = 0), 4 (top) and an empty 9;
@@ -128,6 +131,9 @@ const RECALLED: &str = "PLANE STRAIN/READ RESTART/TIME STEP SCALE/HOURGLASS STIF
     PRESCRIBED FORCE/PRESSURE/ADAPTIVE PRESSURE/DISTRIBUTED LOAD/THERMAL STRESS/SILENT BC/INITIAL VELOCITY NODESET/
     INITIAL VELOCITY ANGULAR/CONTACT MATERIAL/CONTACT DATA/CONTACT NODE SET/RIGID SURFACE/DELETE MATERIAL/DEATH/ACTIVE LIMITS/
     MATERIAL POINT/INTEGRATION POINTS/SHELL/THICKNESS SCALE/SPH";
+/// What SANTOS adds, which is refused.
+const SANTOS: &str = "STEP CONTROL/RESIDUAL TOLERANCE/MAXIMUM ITERATIONS/MAXIMUM TOLERANCE/PREDICTOR SCALE FACTOR/
+    MINIMUM DAMPING FACTOR/INTERMEDIATE PRINT/ELASTIC SOLUTION/AUTO STEP/INITIAL STRESS";
 /// Material models with their spellings.
 const MODELS: &str =
     "ELASTIC/ELASTIC PLASTIC/LOW DEN FOAM/LOW DENSITY FOAM/SOIL N FOAMS/SOILS AND FOAMS/SOIL AND CRUSHABLE FOAM/
@@ -140,7 +146,7 @@ const EQUATIONS: &str = "MG US-UP/MG POWER SERIES/JWL/IDEAL GAS";
 #[test]
 fn the_language_of_pronto_is_known() {
     let list = |names: &'static str| names.split('/').map(str::trim);
-    for (names, origin) in [(VERIFIED, Origin::Verified), (RECALLED, Origin::Recalled)] {
+    for (names, origin) in [(VERIFIED, Origin::Verified), (RECALLED, Origin::Recalled), (SANTOS, Origin::Recalled)] {
         for name in list(names) {
             let entry = language().entry(name).unwrap_or_else(|| panic!("{name} is not in the grammar"));
             assert_eq!(entry.from, origin, "{name}");
@@ -159,7 +165,11 @@ fn the_language_of_pronto_is_known() {
     }
     // What is neither in these lists nor ours has come from nowhere.
     for entry in language().commands().filter(|entry| entry.from != Origin::Ours) {
-        assert!([VERIFIED, RECALLED].into_iter().flat_map(list).any(|name| name == entry.name), "{}", entry.name);
+        assert!(
+            [VERIFIED, RECALLED, SANTOS].into_iter().flat_map(list).any(|name| name == entry.name),
+            "{}",
+            entry.name
+        );
     }
 }
 
@@ -278,6 +288,65 @@ fn hourglass_commands_in_either_order() {
     let reversed = "HOURGLASS CONTROL, FLANAGAN BELYTSCHKO, 0.5\nHOURGLASS STIFFENING, 0.02";
     assert_eq!(hourglass(reversed), flanagan(0.01, 0.0));
     assert_eq!(hourglass("HOURGLASS CONTROL, ASSUMED STRAIN, 0.3"), Hourglass::AssumedStrain { factor: 0.3 });
+}
+
+#[test]
+fn words_mean_what_analysts_mean() {
+    let fields = |text: &str| problem(&format!("{LEAST}PLOT ELEMENT, {text}\n")).model.plot_requests.element;
+    assert_eq!(fields("STRE"), [ElementField::Stress], "PRONTO has no other word that begins so");
+    assert_eq!(fields("STRET, ROT"), [ElementField::Stretch, ElementField::Rotation]);
+    assert_eq!(fields("STRA"), [ElementField::Strain]);
+    for apostrophe in ["'", "\u{2019}"] {
+        let deck = LEAST.replace("YOU MOD", &format!("Young{apostrophe}s modulus"));
+        assert_eq!(problem(&deck).model.materials, problem(LEAST).model.materials);
+    }
+    let velocity = |fields: &str| problem(&format!("{LEAST}INITIAL VELOCITY MATERIAL, 1{fields}\n")).model;
+    for (fields, expected) in
+        [(",,,-5.", [0.0, 0.0, -5.0]), (",2.", [2.0, 0.0, 0.0]), (",,3.", [0.0, 3.0, 0.0]), (",0.", [0.0; 3])]
+    {
+        let given = InitialVelocity::Material { block: 1, velocity: expected };
+        assert_eq!(velocity(fields).initial_velocities, [given], "{fields}");
+    }
+}
+
+#[test]
+fn distribution_factors_are_told_to_be_unused_where_they_would_matter() {
+    let mut mesh = two_blocks();
+    mesh.weighted = [vec![3], vec![200]];
+    let head = with_a_neighbour("MATERIAL 1 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n");
+    let warnings = |commands: &str| -> Vec<String> {
+        let problem = examine(Source::new("t.i", format!("{head}{commands}")), Some(&mesh));
+        let problem = problem.unwrap_or_else(|messages| panic!("{messages}"));
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect()
+    };
+    let told = "PRESSURE: the distribution factors of side set 200 are not used";
+    assert_eq!(warnings("PRESSURE, 200, 1\nPRESSURE, 100, 1\nNO DISPLACEMENT, X, 3\n"), [told]);
+    let told = "PRESCRIBED FORCE: the distribution factors of node set 3 are not used";
+    assert_eq!(warnings("PRESCRIBED FORCE, X, 3, 1\nPRESCRIBED VELOCITY, X, 4, 1\n"), [told]);
+}
+
+#[test]
+fn all_stands_for_every_block_of_contact() {
+    let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
+    let contact = |text: &str| problem(&format!("{LEAST}{blocks}{text}")).model.contact;
+    assert_eq!(contact("CONTACT MATERIAL, ALL\n").materials, contact("CONTACT MATERIAL\n").materials);
+    assert_ne!(contact("CONTACT MATERIAL, 1\n").materials, contact("CONTACT MATERIAL, ALL\n").materials);
+    let coefficient = |text: &str, a: i64, b: i64| -> Option<f64> {
+        let data = contact(&format!("CONTACT MATERIAL, ALL\n{text}")).data;
+        let found: Vec<_> = data.iter().filter(|d| d.materials == [a, b] || d.materials == [b, a]).collect();
+        assert!(found.len() < 2, "{a} and {b} are paired once");
+        found.first().map(|data| data.friction.at_rest)
+    };
+    let all = "CONTACT DATA, ALL, ALL, 0.2\n";
+    for (a, b) in [(1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)] {
+        assert_eq!(coefficient(all, a, b), Some(0.2));
+    }
+    for text in [format!("{all}CONTACT DATA, 3, 1, 0.5\n"), format!("CONTACT DATA, 3, 1, 0.5\n{all}")] {
+        assert_eq!(coefficient(&text, 1, 3), Some(0.5), "what is said of a pair holds over what is said of all");
+        assert_eq!(coefficient(&text, 1, 2), Some(0.2));
+    }
+    let one = "CONTACT DATA, 2, ALL, 0.3, 0.25\n";
+    assert_eq!((coefficient(one, 2, 3), coefficient(one, 3, 1)), (Some(0.3), None));
 }
 
 #[test]

@@ -21,17 +21,36 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
         complain(format_args!("{warnings}\n"));
     }
     let model = &given.problem.model;
-    for note in given.problem.diagnostics.notes() {
-        say(format_args!("assumed: {}", note.message));
-    }
     say(model.title.trim());
     let body = given.body()?;
     if let Some(warning) = body.overlap.left.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }
     say(modelled(&given, &body));
+    if let Some(assumed) = assumed(&given) {
+        say(assumed);
+    }
     say(trial(&given, &body)?);
     Ok(DONE)
+}
+
+/// How abbreviations were understood, in a few lines; the log of a run has all.
+fn assumed(given: &Given) -> Option<String> {
+    /// Assumptions shown.
+    const SHOWN: usize = 4;
+    let mut notes: Vec<&str> = Vec::new();
+    for note in given.problem.diagnostics.notes() {
+        let text = note.message.trim_start_matches("assumed ");
+        if !notes.contains(&text) {
+            notes.push(text);
+        }
+    }
+    let first = notes.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
+    match notes.len() {
+        0 => None,
+        n if n > SHOWN => Some(format!("assumed: {first} and {} more, which the log of a run lists\n", n - SHOWN)),
+        _ => Some(format!("assumed: {first}\n")),
+    }
 }
 
 /// What is modelled, block by block.

@@ -156,6 +156,7 @@ impl FieldRule {
             Kind::Number => number("a number"),
             Kind::Integer => number("a whole number"),
             Kind::Id(what) => format!("the number of a {what}"),
+            Kind::IdOrAll(what) => format!("the number of a {what}, or ALL"),
             Kind::Choice(choices) => spelling::either(&built(choices)),
             Kind::Words => "a name in words".into(),
             Kind::Name => "a name".into(),

@@ -133,6 +133,8 @@ pub enum Kind {
     Integer,
     /// The number of something: "block", "node set", "side set", "function"; at least 0, of functions 1.
     Id(&'static str),
+    /// The same, or the word ALL.
+    IdOrAll(&'static str),
     /// One of some words.
     Choice(Vec<Choice>),
     /// All words up to the first field that is none.
@@ -152,6 +154,8 @@ pub struct Choice {
     pub meaning: String,
     /// Whether it can be used.
     pub standing: Standing,
+    /// Whether PRONTO does not have it: then abbreviations that could mean it mean what PRONTO has.
+    pub ours: bool,
 }
 
 /// Whether a value of a choice can be used.
@@ -278,9 +282,10 @@ impl Entry {
             "does" => self.does = format!("{} {text}", self.does),
             "field" => self.fields.push(FieldRule::read(text)?),
             "column" => self.columns.push(FieldRule::read(text)?),
-            "value" => self.add_choice(text, Standing::Built)?,
-            "planned" => self.add_choice(text, Standing::Planned)?,
-            "elsewhere" => self.add_choice(text, Standing::Elsewhere)?,
+            "value" => self.add_choice(text, Standing::Built, false)?,
+            "added" => self.add_choice(text, Standing::Built, true)?,
+            "planned" => self.add_choice(text, Standing::Planned, false)?,
+            "elsewhere" => self.add_choice(text, Standing::Elsewhere, false)?,
             "body" if text == "properties" => (),
             "required" => self.required = true,
             "once" => self.once = true,
@@ -295,12 +300,12 @@ impl Entry {
         Ok(())
     }
 
-    fn add_choice(&mut self, text: &str, standing: Standing) -> Result<(), String> {
+    fn add_choice(&mut self, text: &str, standing: Standing, ours: bool) -> Result<(), String> {
         let [words, meaning] = columns(text)[..] else { return Err("value: two columns expected".into()) };
         let Some(FieldRule { kind: Kind::Choice(choices), .. }) = self.fields.last_mut() else {
             return Err("value: the field above is no choice".into());
         };
-        choices.push(Choice { name: words.to_string(), meaning: meaning.to_string(), standing });
+        choices.push(Choice { name: words.to_string(), meaning: meaning.to_string(), standing, ours });
         Ok(())
     }
 }
@@ -335,7 +340,7 @@ impl FieldRule {
 
 impl Choice {
     fn plain(name: &str) -> Choice {
-        Choice { name: name.to_string(), meaning: String::new(), standing: Standing::Built }
+        Choice { name: name.to_string(), meaning: String::new(), standing: Standing::Built, ours: false }
     }
 }
 
@@ -349,6 +354,7 @@ fn read_kind(text: &str) -> Result<Kind, String> {
         "number" => Kind::Number,
         "integer" => Kind::Integer,
         "block" => Kind::Id("block"),
+        "block-or-all" => Kind::IdOrAll("block"),
         "node-set" => Kind::Id("node set"),
         "side-set" => Kind::Id("side set"),
         "function" => Kind::Id("function"),
@@ -363,7 +369,7 @@ fn read_kind(text: &str) -> Result<Kind, String> {
 
 fn read_default(text: &str, kind: &Kind) -> Absent {
     let is_value = match kind {
-        Kind::Number | Kind::Integer | Kind::Id(_) => super::number::parse(text).is_some(),
+        Kind::Number | Kind::Integer | Kind::Id(_) | Kind::IdOrAll(_) => super::number::parse(text).is_some(),
         _ => text.chars().all(|c| c.is_ascii_uppercase() || c == ' '),
     };
     match text {

@@ -88,6 +88,16 @@ impl<'a> Reader<'a> {
             self.unfinished(fields, followers);
             return None;
         }
+        let owners = self.commands_with_field(&fields[0].text);
+        if !owners.is_empty() && foreign(&fields[0].text).is_none() {
+            let word = spelling::shown(&fields[..1]);
+            self.diagnostics.push(
+                Diagnostic::error(format!("unknown command {word}"))
+                    .at(fields[0].span, "no command has this name")
+                    .help(format!("{} is a field of {}", word.to_lowercase(), spelling::all(&owners))),
+            );
+            return None;
+        }
         let (_, words) = near.unwrap_or(("", 1));
         let span = fields[0].span.join(fields[words - 1].span);
         let help = match (near, self.cut_too_short(fields)) {
@@ -95,7 +105,7 @@ impl<'a> Reader<'a> {
             (None, Some(name)) => {
                 format!("did you mean {name}? an abbreviation needs at least three letters of each word")
             }
-            (None, None) => foreign_comment(&fields[0].text),
+            (None, None) => foreign(&fields[0].text).unwrap_or("`urto explain` lists all commands").into(),
         };
         let shown = spelling::shown(&fields[..words]);
         self.diagnostics.push(
@@ -103,6 +113,12 @@ impl<'a> Reader<'a> {
         );
         let entry = self.grammar.commands().find(|e| e.spellings().any(|s| Some(s) == near.map(|n| n.0)))?;
         Some(Found { entry, words, sure: false })
+    }
+
+    /// Commands that have a field of this name.
+    fn commands_with_field(&self, word: &str) -> Vec<&'a str> {
+        let has = |entry: &&Entry| entry.fields.iter().any(|field| field.name.eq_ignore_ascii_case(word));
+        self.grammar.commands().filter(|e| e.status == Status::Built).filter(has).map(|e| e.name.as_str()).collect()
     }
 
     /// The command whose words begin with these fields, when they are shorter than an abbreviation may be.
@@ -152,12 +168,12 @@ impl<'a> Reader<'a> {
 }
 
 /// Advice for words that other codes start a comment or a block with.
-fn foreign_comment(word: &str) -> String {
+fn foreign(word: &str) -> Option<&'static str> {
     if word.starts_with(['#', '!', '%']) || word.starts_with("//") || word.starts_with("--") {
-        "comments start with $".into()
+        Some("comments start with $")
     } else if word == "BEGIN" {
-        "this looks like a Sierra deck; here a command is one line, and `urto explain` lists them".into()
+        Some("this looks like a Sierra deck; here a command is one line, and `urto explain` lists them")
     } else {
-        "`urto explain` lists all commands".into()
+        None
     }
 }

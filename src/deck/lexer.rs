@@ -79,6 +79,7 @@ impl Record {
 }
 
 /// Reads a source record by record.
+#[derive(Clone)]
 pub struct Lexer<'s> {
     source: &'s Source,
     line: usize,
@@ -164,7 +165,16 @@ fn line_fields(line: &str, offset: usize, fields: &mut Vec<Field>) -> Option<Spa
 
 fn bare_field(text: &str, span: Span) -> Field {
     let kind = number::parse(text).map_or(FieldKind::Word, FieldKind::Number);
-    Field { text: text.to_uppercase(), kind, span }
+    Field { text: without_apostrophes(text.to_uppercase()), kind, span }
+}
+
+/// YOUNG'S is YOUNGS, with whichever apostrophe.
+fn without_apostrophes(word: String) -> String {
+    let is_apostrophe = |c: char| matches!(c, '\'' | '\u{2019}');
+    if !word.starts_with(char::is_alphabetic) || !word.contains(is_apostrophe) {
+        return word;
+    }
+    word.replace(is_apostrophe, "")
 }
 
 /// Blank space, control characters, and the byte order mark that some editors leave at the start of a file.

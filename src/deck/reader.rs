@@ -124,6 +124,10 @@ impl<'a> Reader<'a> {
     /// Reads one command with all its lines.
     fn command(&mut self, found: Found<'a>, record: &Record) {
         let Found { entry, words, sure } = found;
+        // A guess must not swallow lines that mean something of their own.
+        if !sure && entry.form == Form::Group && !self.has_lines_of(entry) {
+            return;
+        }
         let span = record.fields[..words].iter().map(|f| f.span).reduce(Span::join).unwrap_or_default();
         let mut card =
             Card { name: entry.name.clone(), span, record: record.span(), complete: sure, ..Card::default() };
@@ -160,11 +164,32 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Whether the lines that follow can be those of a group: its END comes before the next command does.
+    fn has_lines_of(&self, group: &Entry) -> bool {
+        let mut ahead = self.lexer.clone();
+        while let Some(record) = ahead.next_record() {
+            let fields = &record.fields;
+            if fields[0].is_word() && fields[0].text == END {
+                return true;
+            }
+            if self.is_next_command(group, fields) {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Whether the next line of the deck is a command.
+    fn command_follows(&self) -> bool {
+        let record = self.lexer.clone().next_record();
+        record.is_some_and(|record| self.exact_command(&record.fields).is_some())
+    }
+
     /// Takes the next line of the deck for an entry, such as TITLE, whose value stands there.
     fn next_line(&mut self, entry: &Entry, record: &Record, words: usize, card: &mut Card) {
         let Some(rule) = entry.fields.iter().find(|f| f.kind == Kind::NextLine) else { return };
         // Text on the command's own line has been reported; the next line is then most likely a command.
-        if record.fields.len() > words {
+        if record.fields.len() > words || (!card.complete && self.command_follows()) {
             return;
         }
         let Some(line) = self.lexer.next_line() else {
@@ -334,6 +359,7 @@ fn begins_well(entry: &Entry, fields: &[Field]) -> bool {
     match (entry.fields.first().map(|rule| &rule.kind), fields.first()) {
         (None, _) => entry.status != Status::Built || fields.is_empty(),
         (Some(Kind::Number | Kind::Integer | Kind::Id(_)), Some(field)) => field.number().is_some(),
+        (Some(Kind::IdOrAll(_)), Some(field)) => field.number().is_some() || field.text == "ALL",
         (Some(Kind::Choice(choices)), Some(_)) => {
             choices.iter().any(|choice| spelling::agreement(fields, &choice.name).is_some())
         }

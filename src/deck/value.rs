@@ -5,8 +5,11 @@ use super::{
     grammar::{Choice, FieldRule, Kind, Standing},
     lexer::Field,
     number,
-    spelling::{self, Spelled},
+    spelling::{self, Agreement, Spelled},
 };
+
+/// Stands for everything where a number could stand.
+const ALL: &str = "ALL";
 
 /// Why a value cannot be read.
 pub(super) struct Wrong {
@@ -35,6 +38,10 @@ pub(super) fn read(rule: &FieldRule, fields: &[Field]) -> Result<(usize, Value),
         Kind::Number => real(rule, field).map(|value| (1, Value::Number(value))),
         Kind::Integer => integer(rule, field).map(|value| (1, Value::Integer(value))),
         Kind::Id(what) => id(what, field).map(|value| (1, Value::Integer(value))),
+        Kind::IdOrAll(_) if spelling::agreement(fields, ALL) == Some(Agreement::Exact) => {
+            Ok((1, Value::Text(ALL.into())))
+        }
+        Kind::IdOrAll(what) => id(what, field).map(|value| (1, Value::Integer(value))),
         Kind::Choice(choices) => choice(choices, fields),
         Kind::Words => words(fields),
         Kind::Name | Kind::NextLine => Ok((1, Value::Text(field.text.clone()))),
@@ -82,7 +89,13 @@ fn choice(choices: &[Choice], fields: &[Field]) -> Result<(usize, Value), Wrong>
     let known = choices.iter().filter(|c| c.standing != Standing::Elsewhere).map(|c| c.name.as_str());
     match spelling::recognise(fields, known.clone().map(|name| (name, name))) {
         Spelled::As { what, words, .. } => Ok((words, Value::Text(what.to_string()))),
-        Spelled::Several(names) => Err(Wrong::hint(format!("this may stand for {}", spelling::either(&names)))),
+        Spelled::Several(names) => {
+            let ours = |name: &str| choices.iter().any(|choice| choice.ours && choice.name == name);
+            match names.iter().filter(|name| !ours(name)).collect::<Vec<_>>()[..] {
+                [pronto] => Ok((spelling::word_count(pronto), Value::Text(pronto.clone()))),
+                _ => Err(Wrong::hint(format!("this may stand for {}", spelling::either(&names)))),
+            }
+        }
         Spelled::Nothing => {
             let elsewhere = choices.iter().find(|c| spelling::agreement(fields, &c.name).is_some());
             if let Some(elsewhere) = elsewhere {

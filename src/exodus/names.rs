@@ -152,6 +152,12 @@ pub fn node_set_size(set: usize) -> String {
 pub fn node_set_nodes(set: usize) -> String {
     format!("node_ns{}", set + 1)
 }
+pub fn node_set_factors(set: usize) -> String {
+    format!("dist_fact_ns{}", set + 1)
+}
+pub fn side_set_factors(set: usize) -> String {
+    format!("dist_fact_ss{}", set + 1)
+}
 pub fn side_set_size(set: usize) -> String {
     format!("num_side_ss{}", set + 1)
 }

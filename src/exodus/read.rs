@@ -335,7 +335,8 @@ impl Reader<'_, '_> {
         let variable = names::node_set_nodes(n);
         let absent = self.arrays.dimension(&names::node_set_size(n)).is_none() && !self.arrays.has(&variable);
         let nodes = if null || absent { Vec::new() } else { self.required(&variable, &format!("node set {id}")) };
-        NodeSetTable { id, name, nodes }
+        let weighted = !nodes.is_empty() && self.weighted(&names::node_set_factors(n));
+        NodeSetTable { id, name, nodes, weighted }
     }
 
     fn side_set(&mut self, n: usize, null: bool, id: i64, name: String) -> SideSetTable {
@@ -345,6 +346,18 @@ impl Reader<'_, '_> {
             return SideSetTable { id, name, ..SideSetTable::default() };
         }
         let place = format!("side set {id}");
-        SideSetTable { id, name, elements: self.required(&elements, &place), sides: self.required(&sides, &place) }
+        SideSetTable {
+            id,
+            name,
+            elements: self.required(&elements, &place),
+            sides: self.required(&sides, &place),
+            weighted: self.weighted(&names::side_set_factors(n)),
+        }
+    }
+
+    /// Whether an array of distribution factors says anything: programs that have none to give write ones, or zeros.
+    fn weighted(&mut self, name: &str) -> bool {
+        let factors = self.whole_reals(name).ok().flatten().unwrap_or_default();
+        !factors.iter().all(|&factor| factor == 1.0) && !factors.iter().all(|&factor| factor == 0.0)
     }
 }

@@ -63,6 +63,8 @@ pub struct NodeSetTable {
     pub name: String,
     /// Node positions, one-based.
     pub nodes: Vec<i64>,
+    /// Whether it has distribution factors other than 1.
+    pub weighted: bool,
 }
 
 /// One side set's arrays.
@@ -76,6 +78,8 @@ pub struct SideSetTable {
     pub elements: Vec<i64>,
     /// Side of each element, 1 to 6.
     pub sides: Vec<i64>,
+    /// Whether it has distribution factors other than 1.
+    pub weighted: bool,
 }
 
 impl Tables {
@@ -108,6 +112,10 @@ impl Tables {
         let shapes: Vec<(usize, Option<Shape>)> = self.blocks.iter().map(|b| (b.len(), b.accepted())).collect();
         let mut ids = element_ids.iter();
         let blocks = self.blocks.into_iter().map(|b| b.assemble(nodes, &mut ids, &mut problems)).collect();
+        let weighted = [
+            self.node_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
+            self.side_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
+        ];
         unique("node set", self.node_sets.iter().map(|s| s.id), &mut problems);
         let node_sets = self.node_sets.into_iter().map(|s| s.assemble(nodes, &mut problems)).collect();
         unique("side set", self.side_sets.iter().map(|s| s.id), &mut problems);
@@ -118,7 +126,8 @@ impl Tables {
         }
         let [x, y, z] = self.coordinates;
         let coordinates = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
-        Ok(Mesh { title: self.title, coordinates, blocks, node_sets, side_sets, node_ids, element_ids, qa: self.qa })
+        let (title, qa) = (self.title, self.qa);
+        Ok(Mesh { title, coordinates, blocks, node_sets, side_sets, node_ids, element_ids, qa, weighted })
     }
 
     /// Number of nodes, once all that speak of it agree.

@@ -30,6 +30,9 @@ pub struct Mesh {
     pub element_ids: Vec<i64>,
     /// Quality-assurance records of the programs that made the mesh: name, version, date, time.
     pub qa: Vec<[String; 4]>,
+    /// Numbers of the node sets and of the side sets that the file gives distribution factors other than 1, which nothing
+    /// here uses: whoever loads such a set is told.
+    pub weighted: [Vec<i64>; 2],
 }
 
 /// One element block: the elements of one material.

@@ -18,6 +18,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
             return found;
         }
     }
+    problem.deck.cards.iter().filter(|card| card.complete).for_each(|card| unused_factors(card, mesh, &mut found));
     blocks_without_material(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
         conflicts(problem, mesh, axis, &mut found);
@@ -58,6 +59,27 @@ fn outside_the_mesh(point: [f64; 3], card: &Card, mesh: &Mesh, found: &mut Diagn
             .at(card.place("x").join(card.place("z")), format!("element {number}, the nearest, is watched instead"))
             .help("points are those of the undeformed mesh, in its unit of length"),
     );
+}
+
+/// Warns of a load or a motion on a set whose distribution factors would change it in other programs.
+fn unused_factors(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    /// Commands whose values other programs multiply by the factors.
+    const SCALED: [&str; 5] =
+        ["PRESSURE", "PRESCRIBED FORCE", "PRESCRIBED DISPLACEMENT", "PRESCRIBED VELOCITY", "PRESCRIBED ACCELERATION"];
+    if !SCALED.contains(&card.name.as_str()) {
+        return;
+    }
+    for (field, kind, weighted) in
+        [("node_set", "node set", &mesh.weighted[0]), ("side_set", "side set", &mesh.weighted[1])]
+    {
+        if let Some(set) = card.maybe_integer(field).filter(|set| weighted.contains(set)) {
+            found.push(
+                Diagnostic::warning(format!("{}: the distribution factors of {kind} {set} are not used", card.name))
+                    .at(card.place(field), "the mesh gives it factors other than 1, and all of it is loaded alike")
+                    .help("for a load that varies over the set, make several sets"),
+            );
+        }
+    }
 }
 
 /// Warns of a rigid surface that does not have its body in front of it.
@@ -108,7 +130,7 @@ fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -
 fn references(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let Some(entry) = language().entry(&card.name) else { return };
     for field in &entry.fields {
-        if let Kind::Id(what @ ("block" | "node set" | "side set")) = field.kind {
+        if let Kind::Id(what @ ("block" | "node set" | "side set")) | Kind::IdOrAll(what) = field.kind {
             for item in card.items(&field.name) {
                 reference(card, what, item, mesh, found);
             }

@@ -76,7 +76,7 @@ fn death_variable(block: i64, name: &str, draft: &Draft) -> Option<DeathVariable
 fn contact_material(card: &Card, draft: &mut Draft) {
     let named: Vec<i64> = card.items("block").iter().filter_map(|item| item.value.integer()).collect();
     let materials = &mut draft.model.contact.materials;
-    *materials = Some(match (materials.take(), named.is_empty()) {
+    *materials = Some(match (materials.take(), names_all(card)) {
         (Some(ContactMaterials::All), _) | (_, true) => ContactMaterials::All,
         (Some(ContactMaterials::Blocks(mut blocks)), _) => {
             blocks.extend(named);
@@ -99,18 +99,24 @@ fn contact_surface(card: &Card, draft: &mut Draft) {
     });
 }
 
+/// Whether CONTACT MATERIAL lets all blocks touch.
+fn names_all(card: &Card) -> bool {
+    card.items("block").iter().all(|item| item.value.integer().is_none())
+        || card.items("block").iter().any(|item| item.value.text().is_some())
+}
+
 fn contact_data(card: &Card, draft: &mut Draft) {
-    let materials = [card.integer("first"), card.integer("second")];
-    let [a, b] = materials;
-    if draft.model.contact.data.iter().any(|data| data.materials == [a, b] || data.materials == [b, a]) {
-        let message = format!("CONTACT DATA: materials {a} and {b} have been paired before");
-        draft.report(Diagnostic::warning(message).at(card.record, "the last one holds"));
+    let (first, second) = (card.maybe_integer("first"), card.maybe_integer("second"));
+    match (first, second) {
+        (Some(a), Some(b)) => {
+            if draft.model.contact.data.iter().any(|data| pairs(data, a, b)) {
+                let message = format!("CONTACT DATA: materials {a} and {b} have been paired before");
+                draft.report(Diagnostic::warning(message).at(card.record, "the last one holds"));
+            }
+            draft.model.contact.data.push(pair([a, b], card));
+        }
+        _ => data_of_all(card, [first, second], draft),
     }
-    draft.model.contact.data.push(ContactData {
-        materials,
-        friction: friction(card),
-        partition: card.maybe_number("partition"),
-    });
     if draft.deck.cards_of("CONTACT MATERIAL").next().is_none() {
         draft.report(
             Diagnostic::warning("CONTACT DATA: there is no CONTACT MATERIAL, so that nothing follows from this")
@@ -121,18 +127,55 @@ fn contact_data(card: &Card, draft: &mut Draft) {
     beside_contact(card, draft);
 }
 
+fn pair(materials: [i64; 2], card: &Card) -> ContactData {
+    ContactData { materials, friction: friction(card), partition: card.maybe_number("partition") }
+}
+
+fn pairs(data: &ContactData, a: i64, b: i64) -> bool {
+    data.materials == [a, b] || data.materials == [b, a]
+}
+
+/// CONTACT DATA with ALL in one place or both: every pair that no other CONTACT DATA names by its numbers, wherever in the
+/// deck that stands.
+fn data_of_all(card: &Card, [first, second]: [Option<i64>; 2], draft: &mut Draft) {
+    if first.is_none() && second.is_none() && card.maybe_number("partition").is_some_and(|share| share != 0.5) {
+        return draft.report(
+            Diagnostic::error("CONTACT DATA, ALL, ALL: a partition does not say whose share it is")
+                .at(card.place("partition"), "the share of the first block of every pair, but which is the first?")
+                .help("leave it out, give 0.5, or name pairs"),
+        );
+    }
+    let all: Vec<i64> = draft.deck.cards_of("MATERIAL").filter_map(|card| card.maybe_integer("block")).collect();
+    let named: Vec<[i64; 2]> = draft
+        .deck
+        .cards_of("CONTACT DATA")
+        .filter_map(|other| Some([other.maybe_integer("first")?, other.maybe_integer("second")?]))
+        .collect();
+    for &a in first.as_ref().map_or(&all[..], std::slice::from_ref) {
+        for &b in second.as_ref().map_or(&all[..], std::slice::from_ref) {
+            let by_number = named.iter().any(|&[c, d]| [c, d] == [a, b] || [d, c] == [a, b]);
+            // Of what ALL says twice of a pair, the last holds, and a pair is named in one order.
+            let of_this_card = |data: &ContactData| pairs(data, a, b);
+            if !by_number {
+                draft.model.contact.data.retain(|data| !of_this_card(data));
+                draft.model.contact.data.push(pair([a, b], card));
+            }
+        }
+    }
+}
+
 /// Warns of CONTACT DATA about a block that no CONTACT MATERIAL names, wherever in the deck that stands.
 fn beside_contact(card: &Card, draft: &mut Draft) {
     let blocks =
         |card: &Card| -> Vec<i64> { card.items("block").iter().filter_map(|item| item.value.integer()).collect() };
     let named: Vec<Vec<i64>> = draft.deck.cards_of("CONTACT MATERIAL").map(blocks).collect();
-    if named.is_empty() || named.iter().any(Vec::is_empty) {
+    if named.is_empty() || draft.deck.cards_of("CONTACT MATERIAL").any(names_all) {
         return;
     }
     let named = named.concat();
     for field in ["first", "second"] {
-        let block = card.integer(field);
-        if named.contains(&block) || field == "second" && block == card.integer("first") {
+        let Some(block) = card.maybe_integer(field) else { continue };
+        if named.contains(&block) || field == "second" && Some(block) == card.maybe_integer("first") {
             continue;
         }
         let all = spelling::all(&named.iter().map(i64::to_string).collect::<Vec<_>>());

@@ -11,15 +11,29 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("INITIAL VELOCITY MATERIAL", of_block),
     ("INITIAL VELOCITY NODESET", of_node_set),
     ("INITIAL VELOCITY ANGULAR", angular),
+    ("INITIAL VELOCITY RADIAL", radial),
 ];
 
+/// The velocity of a card; components that are left out are zero, but not all of them can be meant to be.
+fn velocity(card: &Card, draft: &mut Draft) -> [f64; 3] {
+    let components = ["vx", "vy", "vz"];
+    if !components.iter().any(|component| card.given(component)) {
+        draft.report(
+            Diagnostic::error(format!("{}: the velocity is missing", card.name))
+                .at(card.record, "expected one component at least: vx, vy, vz")
+                .help("a component that is left out is zero: 1, , , -190."),
+        );
+    }
+    card.vector(components)
+}
+
 fn of_block(card: &Card, draft: &mut Draft) {
-    let velocity = card.vector(["vx", "vy", "vz"]);
+    let velocity = velocity(card, draft);
     draft.model.initial_velocities.push(InitialVelocity::Material { block: card.integer("block"), velocity });
 }
 
 fn of_node_set(card: &Card, draft: &mut Draft) {
-    let velocity = card.vector(["vx", "vy", "vz"]);
+    let velocity = velocity(card, draft);
     draft.model.initial_velocities.push(InitialVelocity::NodeSet { node_set: card.integer("node_set"), velocity });
 }
 
@@ -37,5 +51,14 @@ fn angular(card: &Card, draft: &mut Draft) {
         omega: card.number("omega"),
         point: card.vector(["x", "y", "z"]),
         axis,
+    });
+}
+
+fn radial(card: &Card, draft: &mut Draft) {
+    draft.model.initial_velocities.push(InitialVelocity::Radial {
+        block: card.integer("block"),
+        speed: card.number("speed"),
+        point: card.vector(["x", "y", "z"]),
+        axis: unit(card.vector(["ax", "ay", "az"])),
     });
 }

@@ -282,6 +282,17 @@ pub enum InitialVelocity {
         /// Velocity vector.
         velocity: [f64; 3],
     },
+    /// Every node of an element block, away from a point or from an axis.
+    Radial {
+        /// Element block number.
+        block: i64,
+        /// Speed, negative towards the point or the axis.
+        speed: f64,
+        /// The point, or a point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis, unit length; `None` for the point alone.
+        axis: Option<[f64; 3]>,
+    },
     /// Rotation of an element block about an axis, added to the velocity the nodes already have.
     Angular {
         /// Element block number.

@@ -161,8 +161,10 @@ impl Draft<'_> {
     }
 
     fn function_exists(&mut self, id: i64, place: Span, owner: &str) -> bool {
-        let exists = self.deck.cards.iter().any(|c| c.name == "FUNCTION" && c.maybe_integer("id") == Some(id));
-        if !exists {
+        let functions = || self.deck.cards.iter().filter(|card| card.name == "FUNCTION");
+        let exists = functions().any(|card| card.maybe_integer("id") == Some(id));
+        // One whose number could not be read, which has been reported, may be it.
+        if !exists && functions().all(|card| card.maybe_integer("id").is_some()) {
             let ids: Vec<i64> = self.model.functions.iter().map(|f| f.id).collect();
             self.report(
                 Diagnostic::error(format!("{owner}: there is no FUNCTION {id}"))

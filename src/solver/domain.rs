@@ -7,7 +7,7 @@ use super::elements::{ElementBlock, Group, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, NodeForce, PressureFace};
-use super::nodes::{Nodes, add, cross, scaled, subtract};
+use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
 use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
@@ -164,6 +164,16 @@ impl Domain {
                 InitialVelocity::NodeSet { node_set, velocity } => {
                     for node in nodes_of_set(mesh, node_set, local) {
                         self.set_velocity(node, velocity);
+                    }
+                }
+                InitialVelocity::Radial { block, speed, point, axis } => {
+                    for node in nodes_of_block(mesh, block, local) {
+                        let arm = subtract(self.nodes.position(node), point);
+                        let along = axis.map_or([0.0; 3], |axis| scaled(axis, dot(arm, axis)));
+                        let arm = subtract(arm, along);
+                        let distance = dot(arm, arm).sqrt();
+                        let factor = if distance > 0.0 { speed / distance } else { 0.0 };
+                        self.set_velocity(node, scaled(arm, factor));
                     }
                 }
                 InitialVelocity::Angular { block, omega, point, axis } => {

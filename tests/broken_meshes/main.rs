@@ -150,6 +150,20 @@ fn the_good_mesh_is_good() {
 }
 
 #[test]
+fn distribution_factors_that_say_something_are_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("can.g");
+    for (factors, weighted) in
+        [([1.0; 4], &[][..]), ([0.0; 4], &[]), ([1.0, 1.0, 0.5, 1.0], &[31]), ([0.0, 2.0, 0.0, 0.0], &[31])]
+    {
+        let mut raw = Raw::cubes();
+        raw.array("dist_fact_ns1", &["num_nod_ns1"], Values::Reals(factors.to_vec()));
+        raw.write(&path);
+        assert_eq!(read_mesh(&path).unwrap().weighted, [weighted.to_vec(), Vec::new()], "{factors:?}");
+    }
+}
+
+#[test]
 fn spoilt_meshes_are_refused_with_their_message() {
     let mut failures = Vec::new();
     for (name, spoil) in SPOILT {

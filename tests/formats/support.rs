@@ -23,6 +23,7 @@ pub fn two_block_mesh() -> Mesh {
         node_sets: vec![NodeSet { id: 1, name: "foot".into(), nodes: vec![0, 1, 2, 3] }],
         side_sets: vec![SideSet { id: 200, name: "ends".into(), sides: vec![(0, 4), (2, 5)] }],
         qa: vec![["mesher", "1.0", "1994-06-01", "12:00:00"].map(String::from)],
+        ..Mesh::default()
     }
 }
 

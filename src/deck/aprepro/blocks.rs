@@ -59,8 +59,9 @@ const MOST_MISTAKES: usize = 100;
 const DEEPEST: usize = 50;
 
 /// Divides a file. What does not fit together is reported; then the nodes are not all there.
-pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>) {
-    let mut parser = Parser { source, line: 0, wrong: Vec::new(), depth: 0, given_up: false };
+/// The last list are warnings.
+pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>, Vec<Diagnostic>) {
+    let mut parser = Parser { source, line: 0, wrong: Vec::new(), unread: Vec::new(), depth: 0, given_up: false };
     let mut nodes = Vec::new();
     loop {
         nodes.extend(parser.body());
@@ -74,13 +75,28 @@ pub(super) fn parse(source: &Source) -> (Vec<Node>, Vec<Diagnostic>) {
             break;
         }
     }
-    (nodes, parser.wrong)
+    (nodes, parser.wrong, unread_texts(source, parser.unread))
+}
+
+/// Warnings of texts behind governing words, each once.
+fn unread_texts(source: &Source, mut places: Vec<(Span, Span)>) -> Vec<Diagnostic> {
+    places.sort_unstable();
+    places.dedup();
+    let warning = |(word, text): (Span, Span)| {
+        let word = source.slice(word);
+        Diagnostic::warning(format!("what stands on one line with {word} is not read"))
+            .at(text, "this is left out, and nothing in it is evaluated")
+            .help(format!("{word} governs the lines below it; put this on a line of its own"))
+    };
+    places.into_iter().map(warning).collect()
 }
 
 struct Parser<'s> {
     source: &'s Source,
     line: usize,
     wrong: Vec<Diagnostic>,
+    /// Governing words in comments, and what stands behind them on their lines.
+    unread: Vec<(Span, Span)>,
     depth: usize,
     /// Whether the rest is left alone: one message is enough, as what is left would only be misunderstood.
     given_up: bool,
@@ -287,6 +303,11 @@ impl Parser<'_> {
                     .help("a value within a line is chosen by {condition ? value : value}"),
             );
             return self.give_up();
+        }
+        // A remark is meant for nobody, but braces want to be evaluated.
+        if !alone && after.contains('{') {
+            let end = self.whole_line().start + line.trim_end().len();
+            self.unread.push((word.place, Span { start: end - after.len(), end }));
         }
         Some(word)
     }

@@ -82,7 +82,8 @@ struct Run {
 impl Run {
     fn file(&mut self, file: usize) {
         let source = Arc::new(self.origin.files[file].source.clone());
-        let (nodes, wrong) = blocks::parse(&source);
+        let (nodes, wrong, unread) = blocks::parse(&source);
+        unread.into_iter().for_each(|warning| self.report(file, warning));
         if !wrong.is_empty() {
             self.over = true;
             return wrong.into_iter().for_each(|diagnostic| self.report(file, diagnostic));

@@ -41,6 +41,7 @@ impl Gathering {
             node_ids: vec![0; sizes.nodes],
             element_ids: vec![0; sizes.elements()],
             qa: Vec::new(),
+            weighted: Default::default(),
         };
         Gathering { mesh, node_seen: vec![false; sizes.nodes], sizes: sizes.clone() }
     }

@@ -202,6 +202,13 @@ fn conditions(model: &Model) -> String {
     let velocities = model.initial_velocities.iter().map(|v| match *v {
         InitialVelocity::Material { block, velocity } => format!("MATERIAL {block:>8}{}", vector(velocity)),
         InitialVelocity::NodeSet { node_set, velocity } => format!("NODE SET {node_set:>8}{}", vector(velocity)),
+        InitialVelocity::Radial { block, speed, point, axis } => {
+            let from = match axis {
+                Some(axis) => format!("{}   AXIS THROUGH{}", vector(axis), vector(point)),
+                None => format!("{}   POINT", vector(point)),
+            };
+            format!("RADIAL   {block:>8}{from}   SPEED {}", number(speed))
+        }
         InitialVelocity::Angular { block, omega, point, axis } => {
             format!("ANGULAR  {block:>8}{}   AXIS THROUGH{}   RATE {}", vector(axis), vector(point), number(omega))
         }
