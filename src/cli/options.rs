@@ -61,6 +61,9 @@ pub struct Input {
     /// The mesh, or a recipe of one; else x.g or x.mesh beside the deck, or in meshes/ beside the deck's folder
     #[arg(short, long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
+    /// Gives a name in the expressions of deck and recipe this value, in place of what {NAME = ...} gives it there
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
 }
 
 /// Runs a deck
@@ -127,6 +130,9 @@ pub struct Mesh {
     /// Multiplies every number of elements along an edge
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
+    /// Gives a name in the recipe's expressions this value, in place of what {NAME = ...} gives it there
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
     /// Value of the name `ranks` in the recipe's expressions
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub ranks: Option<u32>,

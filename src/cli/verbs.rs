@@ -38,7 +38,9 @@ fn overview() -> String {
 /// `urto mesh`
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
-    let (mesh, files) = super::input::make_mesh(recipe, options.refine, options.ranks)?;
+    let given = super::input::definitions(&options.define)?;
+    let (mesh, files) = super::input::make_mesh(recipe, options.refine, &given, options.ranks)?;
+    super::input::all_used(&given)?;
     let output = options
         .output
         .clone()
