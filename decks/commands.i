@@ -69,6 +69,7 @@ CONTACT SURFACE, 100, 300, 0.1, 0.5
 CONTACT PASSES, 10, 1.E-6
 CONTACT SEARCH, GRID, 10, 0.05
 CONTACT EDGES, ON
+CONTACT ENERGY LIMIT, 0.05                          $ what contact may make before the run stops
 CONTACT DECOMPOSITION, RCB                          $ on many ranks: boxes that follow the bar
 NO DISPLACEMENT, Y, 2                               $ plane of symmetry
 PRESCRIBED DISPLACEMENT, Z, 4, 3, -40.              $ the top comes down at 40 m/s

@@ -1,8 +1,9 @@
 //! Progress: a live bar on a terminal, plain lines otherwise.
 
-use super::terminal::say;
-use crate::output::print::{StepLine, scientific};
-use crate::run::{Display, Quiet};
+use super::terminal::{complain, say};
+use crate::output::print::{StepLine, scientific, warning_on_terminal};
+use crate::run::Display;
+use crate::solver::Finding;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -10,12 +11,27 @@ use std::time::{Duration, Instant};
 /// The display that suits the user's terminal.
 pub fn display(quiet: bool, termination_time: f64, elements: usize) -> Box<dyn Display + Send> {
     if quiet {
-        Box::new(Quiet)
+        Box::new(OnlyWarnings)
     } else if std::io::stderr().is_terminal() {
         Box::new(Bar::new(termination_time, elements))
     } else {
         Box::new(Lines { header: false })
     }
+}
+
+/// Nothing but what must be known.
+struct OnlyWarnings;
+
+impl Display for OnlyWarnings {
+    fn line(&mut self, _: &StepLine) {}
+
+    fn warning(&mut self, finding: &Finding) {
+        complain(warning_on_terminal(finding));
+    }
+
+    fn progress(&mut self, _: u64, _: f64, _: f64) {}
+
+    fn finish(&mut self) {}
 }
 
 /// One plain line per OUTPUT TIME on the standard output.
@@ -38,6 +54,10 @@ impl Display for Lines {
             format!("{:.1}", line.grind * 1e9),
         ];
         say(cells.map(|cell| format!("{cell:>13}")).concat());
+    }
+
+    fn warning(&mut self, finding: &Finding) {
+        complain(warning_on_terminal(finding));
     }
 
     fn progress(&mut self, _: u64, _: f64, _: f64) {}
@@ -75,6 +95,10 @@ impl Bar {
 impl Display for Bar {
     fn line(&mut self, line: &StepLine) {
         self.energy_error = line.totals.relative_error(line.initial_energy);
+    }
+
+    fn warning(&mut self, finding: &Finding) {
+        self.bar.suspend(|| complain(warning_on_terminal(finding)));
     }
 
     fn progress(&mut self, step: u64, time: f64, time_step: f64) {

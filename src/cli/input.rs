@@ -104,7 +104,7 @@ impl Given {
     }
 
     /// A warning about nodes that belong to no element: they have no mass and take no part.
-    fn idle_nodes(&self) -> Option<String> {
+    pub fn idle_nodes(&self) -> Option<String> {
         let idle = unreferenced_nodes(&self.mesh);
         let first: Vec<String> =
             idle.iter().take(5).map(|&node| self.mesh.node_ids[node as usize].to_string()).collect();

@@ -71,7 +71,8 @@ pub struct Input {
 /// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2
 /// and so on. Results are the same to the bit on any number of ranks. To stop a run in good order, create a file
 /// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves. With WRITE RESTART in the deck
-/// it also leaves x.rsout, from which --restart or READ RESTART goes on.
+/// it also leaves x.rsout, from which --restart or READ RESTART goes on. The run looks at itself: what it has to warn of, such
+/// as contact that makes energy or corners that turn inside out, stands on the terminal, in the log and in the last line.
 #[derive(Debug, Args)]
 pub struct Run {
     /// Where deck and mesh are.
@@ -90,9 +91,12 @@ pub struct Run {
     /// The restart file to go on from; else, when the deck has READ RESTART, x.rsin or x.rsout
     #[arg(long, value_name = "FILE")]
     pub restart: Option<PathBuf>,
-    /// Nothing on the terminal but errors
+    /// Nothing on the terminal but errors and warnings
     #[arg(short, long)]
     pub quiet: bool,
+    /// Warnings count as a failure: the run goes on to its end, but the exit code is 1
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// Reads deck and mesh and says what would be modelled; runs nothing

@@ -5,7 +5,7 @@ use super::{Failure, options};
 use crate::exodus::{Restart, read_restart, restart_number};
 use crate::output::print::scientific;
 use crate::restart::{INTERVAL, Snapshot, TIME};
-use crate::run::{differences, states_beside, told};
+use crate::run::{differences, other_form, states_beside, told};
 use crate::solver::Body;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +33,12 @@ pub fn find(
         None => newest,
     };
     let restart = read_restart(&path).map_err(|error| unreadable(&path, error))?;
+    if let Some(reason) = other_form(&restart) {
+        return Err(Failure::input(format_args!(
+            "error: {} is of another version: {reason}\nhelp: run from the start, or go on with the version that wrote it",
+            path.display()
+        )));
+    }
     let differ = differences(&restart, &given.mesh, model, body);
     if !differ.is_empty() {
         return Err(Failure::input(format_args!(

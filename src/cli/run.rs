@@ -6,7 +6,7 @@ use super::signals::Wishes;
 use super::terminal::{complain, say};
 use super::{DONE, FAILED, Failure, date, display, options, restart};
 use crate::comm::{self, RankFailure, launched_by_mpi};
-use crate::output::print::scientific;
+use crate::output::print::{scientific, with_warnings};
 use crate::partition::Decomposition;
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
@@ -87,14 +87,11 @@ impl Prepared {
 
     /// Says on the terminal what will run.
     fn announce(&self, quiet: bool) {
-        if quiet {
-            return;
-        }
         if let Some(warnings) = self.given.warnings() {
             complain(warnings);
         }
-        if let Some(warning) = self.body.overlap.left.warning(&self.given.mesh) {
-            complain(warning);
+        if quiet {
+            return;
         }
         let elements = self.given.mesh.element_count();
         say(format_args!(
@@ -131,9 +128,8 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
     let problem = &prepared.given.problem;
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
     let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
-    let overlaps = prepared.body.overlap.left.warning(&prepared.given.mesh);
-    let overlaps = overlaps.map(|warning| warning.trim_start_matches("warning: ").to_string());
-    let warnings: Vec<String> = told.chain(overlaps).collect();
+    let idle = prepared.given.idle_nodes().map(|warning| warning.trim_start_matches("warning: ").to_string());
+    let warnings: Vec<String> = told.chain(idle).collect();
     let cut = prepared.body.cut(prepared.ranks);
     let contributors = prepared.body.contributors(&cut);
     let nodes = prepared.given.mesh.coordinates.len();
@@ -182,7 +178,7 @@ fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     match outcome {
         Ok(ended) => {
             wishes.obeyed();
-            Ok(report(&prepared, options.quiet, ended.first()))
+            Ok(report(&prepared, options.quiet, options.strict, ended.first()))
         }
         Err(RankFailure::Failed { error, .. }) => Err(failure(&error)),
         Err(other) => Err(Failure::run(format_args!("error: {other}"))),
@@ -242,12 +238,13 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
         Ok(prepared) => prepared,
         Err(failure) => return all_leave(&mut world, failure),
     };
-    let mut screen = screen(&prepared, options.quiet || rank != 0);
+    let mut screen: Box<dyn Display + Send> =
+        if rank == 0 { screen(&prepared, options.quiet) } else { Box::new(Quiet) };
     let outcome = with_job(&prepared, &|| wishes.now(), |job| run::run(job, &mut world, screen.as_mut()));
     match outcome {
         Ok(ended) => {
             wishes.obeyed();
-            Ok(report(&prepared, options.quiet || rank != 0, Some(&ended)))
+            Ok(report(&prepared, options.quiet || rank != 0, options.strict && rank == 0, Some(&ended)))
         }
         Err(error) => all_leave(&mut world, failure(&error)),
     }
@@ -280,15 +277,16 @@ fn under_mpi(options: &options::Run, processes: usize) -> Result<u8, Failure> {
 }
 
 /// Tells how the run ended and picks the exit code.
-fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
+fn report(prepared: &Prepared, quiet: bool, strict: bool, ended: Option<&Ended>) -> u8 {
     let Some(ended) = ended else { return FAILED };
+    let warnings = with_warnings(&ended.warnings);
     if !quiet {
         let how = match ended.by {
             Request::Continue => "done",
             _ => "stopped on request",
         };
         say(format_args!(
-            "{how}: {} steps to time {} in {:.2} s, {:.0} ns per element and cycle, energy error {}",
+            "{how}: {} steps to time {} in {:.2} s, {:.0} ns per element and cycle, energy error {}{warnings}",
             ended.steps,
             scientific(ended.time, 6),
             ended.wall,
@@ -309,7 +307,12 @@ fn report(prepared: &Prepared, quiet: bool, ended: Option<&Ended>) -> u8 {
             say(format_args!("to go on from here: {}", prepared.files.restart.display()));
         }
     }
+    let failed = strict && !warnings.is_empty();
+    if failed {
+        complain(format_args!("error: the run ended{warnings}; --strict makes that a failure"));
+    }
     match ended.by {
+        Request::Continue | Request::Shutdown if failed => FAILED,
         Request::Continue | Request::Shutdown => DONE,
         Request::Interrupt => 130,
         Request::Terminate => 143,
@@ -321,7 +324,7 @@ fn failure(error: &RunError) -> Failure {
         RunError::Stopped { stop, unwritten, .. } => {
             let lost =
                 unwritten.as_ref().map_or(String::new(), |e| format!("\nerror: its last state is not written: {e}"));
-            Failure::run(format_args!("error: {error}{lost}\nhelp: {}", stop.advice()))
+            Failure::run(format_args!("error: {error}{lost}\nhelp: {}", stop.advice().join("\nhelp: ")))
         }
         RunError::Endless(endless) => Failure::input(format_args!("error: {endless}\nhelp: {}", endless.advice())),
         _ => Failure::run(format_args!("error: {error}")),

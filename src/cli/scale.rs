@@ -80,9 +80,10 @@ fn count(options: &options::Scale, given: &Given, body: &Body, ranks: u32) -> Re
     let model = &given.problem.model;
     scale::count(&given.mesh, model, body, ranks as usize, machine(options).ranks_of_node, u64::from(options.steps))
         .map_err(|failure| match *failure {
-            RankFailure::Failed { error, .. } => {
-                Failure::run(format_args!("error: the run would stop: {error}\nhelp: {}", error.advice()))
-            }
+            RankFailure::Failed { error, .. } => Failure::run(format_args!(
+                "error: the run would stop: {error}\nhelp: {}",
+                error.advice().join("\nhelp: ")
+            )),
             other => Failure::run(format_args!("error: {other}")),
         })
 }

@@ -5,6 +5,7 @@
 //! in `node_ids` and `element_ids`.
 
 pub mod check;
+pub mod corners;
 pub mod locate;
 mod part;
 pub mod shape;

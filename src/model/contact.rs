@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),
+    ("CONTACT ENERGY LIMIT", |card, draft| draft.model.contact.control.energy_limit = card.number("fraction")),
     ("CONTACT DECOMPOSITION", contact_decomposition),
     ("DEATH", death),
 ];

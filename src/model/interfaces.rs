@@ -74,7 +74,7 @@ pub enum ContactEdges {
     All,
 }
 
-/// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES and CONTACT DECOMPOSITION: how contact is found and enforced.
+/// CONTACT PASSES, CONTACT SEARCH, CONTACT EDGES, CONTACT ENERGY LIMIT and CONTACT DECOMPOSITION: how contact is found and enforced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
@@ -89,6 +89,8 @@ pub struct ContactControl {
     pub margin: f64,
     /// Which edges may touch edges.
     pub edges: ContactEdges,
+    /// Part of the largest energy supplied so far that contact may make before the run ends.
+    pub energy_limit: f64,
     /// How points are shared out among many ranks.
     pub decomposition: ContactDecomposition,
 }
@@ -102,6 +104,7 @@ impl Default for ContactControl {
             reach: 150.0,
             margin: 0.1,
             edges: ContactEdges::Sharp,
+            energy_limit: 0.05,
             decomposition: ContactDecomposition::Bisection,
         }
     }

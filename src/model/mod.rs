@@ -454,6 +454,8 @@ fields! {
         Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R";
         /// q
         BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
+        /// corner Jacobian
+        Corners = "CORNERS", ["CORNER"], "least Jacobian of the corners over the mean one: 1 in a parallelepiped, 0 or less where a corner is inside out";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank

@@ -7,7 +7,7 @@ use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::{Solver, Totals};
 
 /// Global variables of the plot file with their meaning.
-pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
+pub const GLOBAL_VARIABLES: [(&str, &str); 15] = [
     ("KE", "kinetic energy"),
     ("IE", "internal energy"),
     ("HGE", "hourglass energy"),
@@ -16,7 +16,8 @@ pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
     ("DEADE", "energy of eroded elements"),
     ("EXTW", "work of loads and prescribed motions"),
     ("CONTE", "work of normal contact forces; negative where impacts took energy out"),
-    ("EBAL", "energy accounted for minus energy supplied, over the largest account"),
+    ("CONTGAIN", "energy that contact has made: given beyond what it had taken before; an error"),
+    ("EBAL", "energy accounted for minus energy supplied, with what was made out of nothing, over the largest account"),
     ("XMOM", "momentum in x"),
     ("YMOM", "momentum in y"),
     ("ZMOM", "momentum in z"),
@@ -25,7 +26,7 @@ pub const GLOBAL_VARIABLES: [(&str, &str); 14] = [
 ];
 
 /// Values of the global variables at the present state.
-pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 14] {
+pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 15] {
     let [x, y, z] = totals.momentum;
     [
         totals.kinetic,
@@ -36,6 +37,7 @@ pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 14] {
         totals.eroded,
         totals.external,
         totals.contact,
+        totals.contact_gain,
         totals.relative_error(solver.initial_energy),
         x,
         y,

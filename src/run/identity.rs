@@ -8,8 +8,9 @@ use crate::mesh::Mesh;
 use crate::model::{ContactMaterials, Hourglass, Model};
 use crate::solver::{Body, state_names};
 
-/// Version of the meaning of what a restart file holds.
-const FORMAT: &str = "1";
+/// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
+/// contact has made.
+const FORMAT: &str = "2";
 
 /// Differences told one by one.
 const TOLD: usize = 5;
@@ -45,10 +46,21 @@ fn some(list: Vec<String>) -> String {
     if list.is_empty() { "none".into() } else { list.join(", ") }
 }
 
+/// Why the state of another version of the program cannot be gone on from.
+pub fn other_form(restart: &Restart) -> Option<String> {
+    let form = value(&lines(&restart.identity), "format");
+    (form != FORMAT).then(|| {
+        format!(
+            "its state has form {form}, and this version of urto needs form {FORMAT}: without what contact has made and what \
+             the run was warned of, the balance of the rest would mean nothing"
+        )
+    })
+}
+
 /// Why a state cannot be gone on from with this deck and mesh, a sentence each; none when it can.
 pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
-    let mut found = meshes(&restart.mesh, mesh);
     let now = identity(model);
+    let mut found = meshes(&restart.mesh, mesh);
     found.extend(texts(&restart.identity, &now));
     let dead = restart.snapshot.lists.iter().find(|list| list.name == "DEAD").map_or(0, |list| list.values.len());
     if dead > 0 && model.deaths.is_empty() && model.deletions.is_empty() {
@@ -60,15 +72,19 @@ pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -
     found
 }
 
+/// Names and values of an identity.
+fn lines(text: &str) -> Vec<(String, String)> {
+    text.lines().filter_map(|line| line.split_once(": ")).map(|(a, b)| (a.to_string(), b.to_string())).collect()
+}
+
+/// A value by its name.
+fn value(list: &[(String, String)], name: &str) -> String {
+    list.iter().find(|(known, _)| known == name).map_or("none".to_string(), |(_, value)| value.clone())
+}
+
 /// Values that differ between two identities.
 fn texts(then: &str, now: &str) -> Vec<String> {
-    let lines = |text: &str| -> Vec<(String, String)> {
-        text.lines().filter_map(|line| line.split_once(": ")).map(|(a, b)| (a.to_string(), b.to_string())).collect()
-    };
     let (then, now) = (lines(then), lines(now));
-    let value = |list: &[(String, String)], name: &str| {
-        list.iter().find(|(known, _)| known == name).map_or("none".to_string(), |(_, value)| value.clone())
-    };
     let mut names: Vec<&String> = then.iter().chain(&now).map(|(name, _)| name).collect();
     names.sort();
     names.dedup();

@@ -11,7 +11,7 @@ mod table;
 
 pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
-pub use identity::{differences, told};
+pub use identity::{differences, other_form, told};
 pub use report::{Display, Quiet};
 pub use restart::{Continuation, states_beside};
 
@@ -76,6 +76,8 @@ pub struct Ended {
     pub restart: bool,
     /// Relative error of the energy balance at the end.
     pub energy_error: f64,
+    /// What the run warned of, in a few words each.
+    pub warnings: Vec<String>,
     /// Wall-clock seconds per element and cycle.
     pub grind: f64,
     /// Wall-clock seconds of the step loop.
@@ -159,7 +161,7 @@ fn steps(
     loop {
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
-            Err(stop) => return give_up(stop, solver, writer, comm),
+            Err(stop) => return give_up(stop, solver, writer, comm, display),
         };
         if solver.step == writer.first_step
             && let Some(endless) = Endless::at(solver.time, solver.time_step, model.termination_time)
@@ -171,10 +173,11 @@ fn steps(
         let plot_due = plots.due(solver.time, solver.time_step);
         let line_due = lines.due(solver.time, solver.time_step) || last || solver.step == 0;
         if (line_due || plot_due)
-            && let Err(stop) = solver.check_energy(comm)
+            && let Err(stop) = solver.look(comm)
         {
-            return give_up(stop, solver, writer, comm);
+            return give_up(stop, solver, writer, comm, display);
         }
+        writer.warnings(solver, comm, display)?;
         let history_due = histories.due(solver.time, solver.time_step);
         if line_due {
             writer.line(solver, comm, display)?;
@@ -202,8 +205,10 @@ fn give_up(
     solver: &mut Solver,
     writer: &mut Writer,
     comm: &mut dyn Communicator,
+    display: &mut dyn Display,
 ) -> Result<Request, RunError> {
-    let written = writer.state(solver, comm).and_then(|()| writer.history(solver, comm, false));
+    let written = writer.warnings(solver, comm, display).and_then(|()| writer.state(solver, comm));
+    let written = written.and_then(|()| writer.history(solver, comm, false));
     let unwritten = written.err().map(Box::new);
     Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
 }
@@ -225,6 +230,8 @@ struct Writer<'a> {
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
+    /// Number of warnings from reading deck and mesh.
+    told_before: usize,
 }
 
 impl<'a> Writer<'a> {
@@ -251,6 +258,7 @@ impl<'a> Writer<'a> {
             termination_time: job.model.termination_time,
             last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
+            told_before: job.warnings.len(),
         }
     }
 
@@ -351,6 +359,24 @@ impl<'a> Writer<'a> {
         outcome
     }
 
+    /// Tells what the run has found out about itself.
+    fn warnings(
+        &mut self,
+        solver: &mut Solver,
+        comm: &mut dyn Communicator,
+        display: &mut dyn Display,
+    ) -> Result<(), RunError> {
+        let news = solver.new_findings();
+        // All ranks have found the same.
+        if news.is_empty() {
+            return Ok(());
+        }
+        news.iter().for_each(|finding| display.warning(finding));
+        let text: String = news.iter().map(print::warning).collect();
+        let printed = self.print(&text);
+        together(printed, comm)
+    }
+
     /// Writes a line of the log.
     fn line(
         &mut self,
@@ -421,8 +447,10 @@ impl<'a> Writer<'a> {
         let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
         let states = self.plots.states();
         let initial_energy = solver.initial_energy;
+        let warnings = print::labels(self.told_before, solver.findings());
         let ending = Ending {
-            outcome: &in_words(&outcome, step, time, time_step),
+            outcome: &(in_words(&outcome, step, time, time_step) + &print::with_warnings(&warnings).to_uppercase()),
+            findings: solver.findings(),
             steps: step,
             states,
             totals: &totals,
@@ -440,6 +468,7 @@ impl<'a> Writer<'a> {
             states,
             restart: self.restarts.is_some(),
             energy_error: totals.relative_error(initial_energy),
+            warnings,
             grind: table.grind(),
             wall,
         })
@@ -455,7 +484,7 @@ fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step
         }
         Err(RunError::Stopped { stop, .. }) => format!(
             "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
-            stop.advice()
+            stop.advice().join("\n  advice: ")
         ),
         Err(error) => format!("***** ERROR: {error}"),
     }

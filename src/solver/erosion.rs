@@ -146,6 +146,11 @@ impl Erosion {
         self.keeps[node as usize]
     }
 
+    /// Local nodes that have lost all their elements and go on as free masses.
+    pub fn free_nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        (0u32..).zip(&self.left).filter(|(_, left)| **left == 0).map(|(node, _)| node)
+    }
+
     /// Local number of each node of the mesh.
     pub fn local(&self) -> &[u32] {
         &self.local

@@ -24,6 +24,7 @@ mod totals;
 pub use body::{Body, Cut, NoMaterial, centroid};
 pub use clock::{Clock, Section};
 pub use domain::{Domain, state_names};
+pub use health::{Evidence, Finding, Spot};
 pub use remembered::Remembered;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
@@ -35,6 +36,7 @@ use crate::model::{Function, Model, TimeStepControl};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
+use health::Watch;
 
 /// One rank's solver.
 pub struct Solver {
@@ -60,9 +62,8 @@ pub struct Solver {
     last_totals: Option<(u64, Totals)>,
     kick: f64,
     first_stable_step: Option<f64>,
-    supplied_peak: f64,
-    energy_floor: f64,
-    stored_energy: f64,
+    /// What the run has found out about itself.
+    watch: Watch,
     local: PassOutcome,
     control: TimeStepControl,
     pass: PassSettings,
@@ -99,8 +100,7 @@ impl Solver {
         let domain = Domain::new(mesh, model, body, share, comm);
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
-            energy_floor: health::energy_floor(body, model),
-            stored_energy: health::stored_energy(body, model),
+            watch: Watch::new(mesh, model, body, share, initial_energy),
             domain,
             clock: Clock::default(),
             step: 0,
@@ -113,7 +113,6 @@ impl Solver {
             last_totals: None,
             kick: 0.0,
             first_stable_step: None,
-            supplied_peak: initial_energy,
             local: PassOutcome::NOTHING,
             control: model.time_step,
             pass: PassSettings {
@@ -149,7 +148,8 @@ impl Solver {
                 // The forces of a failed element are no numbers; the state is shown as it was reached, without them.
                 self.domain.nodes.forces.fill(Force::default());
                 self.domain.forget_reactions();
-                return Err(stop);
+                comm.enter(Traffic::Output);
+                return Err(self.post_mortem(stop, comm));
             }
         };
         self.external_forces(comm);
@@ -157,12 +157,10 @@ impl Solver {
         comm.enter(Traffic::Output);
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
-            self.last_totals = Some((0, totals::totals(&self.domain, 0.0, comm)));
+            self.last_totals = Some((0, totals::totals(&mut self.domain, 0.0, comm)));
         }
         self.book_work();
-        if health::check_due(self.step) {
-            self.check_energy(comm)?;
-        }
+        self.glance(comm)?;
         Ok(agreed)
     }
 
@@ -182,7 +180,7 @@ impl Solver {
         match self.last_totals {
             Some((step, totals)) if step == self.step => totals,
             _ => {
-                let totals = totals::totals(&self.domain, self.kick, comm);
+                let totals = totals::totals(&mut self.domain, self.kick, comm);
                 self.last_totals = Some((self.step, totals));
                 totals
             }

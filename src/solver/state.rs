@@ -24,7 +24,7 @@ impl Solver {
             time_step,
             initial_energy,
             first_stable_step,
-            supplied_peak,
+            watch,
             last_totals,
             remembered,
             // Of the step: found anew by `prepare`.
@@ -34,8 +34,6 @@ impl Solver {
             pass: _,
             // Of the problem.
             clock: _,
-            energy_floor: _,
-            stored_energy: _,
             control: _,
             functions: _,
         } = self;
@@ -44,7 +42,6 @@ impl Solver {
         archive.number("LASTTIME", previous_time);
         archive.number("TMSTEP", time_step);
         archive.number("INITIALE", initial_energy);
-        archive.number("SUPPLIED", supplied_peak);
         let mut first = first_stable_step.unwrap_or(f64::INFINITY);
         archive.number("FIRSTSTEP", &mut first);
         *first_stable_step = first.is_finite().then_some(first);
@@ -53,6 +50,7 @@ impl Solver {
         }
         remembered.visit_state(archive);
         domain.visit_state(archive);
+        watch.visit_state(archive);
     }
 
     /// Goes on from a state, of this problem but of any number of ranks. All ranks call it.

@@ -1,5 +1,7 @@
 //! Why a run ends before its time, in words that help.
 
+use super::health::{Evidence, Finding, percent};
+
 /// A run that cannot go on. The state it stopped in has been reached on every rank and can be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Stop {
@@ -37,6 +39,22 @@ pub enum Stop {
         /// Energy accounted for minus energy supplied, over the largest account.
         error: f64,
     },
+    /// Contact has made more energy than the deck allows.
+    #[error("contact has made an energy of {:.4e}, {} of the largest supplied, and the limit is {}; its work is the greatest at {}", .evidence.amount, percent(.evidence.share), percent(*.limit), .evidence.places())]
+    Contact {
+        /// How much, and where most.
+        evidence: Box<Evidence>,
+        /// Limit, a part of the largest energy supplied.
+        limit: f64,
+    },
+    /// What ends the run is not what came first.
+    #[error("{}; that came first, at step {}, time {:.6e}; then: {stop}", .first.words(), .first.step, .first.time)]
+    After {
+        /// What came first.
+        first: Box<Finding>,
+        /// What ends the run.
+        stop: Box<Stop>,
+    },
 }
 
 /// An element as the analyst knows it.
@@ -53,9 +71,30 @@ pub struct ElementPlace {
 }
 
 impl Stop {
-    /// What the analyst can try.
-    pub fn advice(&self) -> &'static str {
+    /// What ends the run, whatever came before it.
+    pub fn event(&self) -> &Stop {
         match self {
+            Stop::After { stop, .. } => stop.event(),
+            _ => self,
+        }
+    }
+
+    /// What the analyst can try, what helps against that which came first before the rest.
+    pub fn advice(&self) -> Vec<&'static str> {
+        match self {
+            Stop::After { first, stop } => [vec![first.advice()], stop.advice()].concat(),
+            _ => vec![self.own_advice()],
+        }
+    }
+
+    fn own_advice(&self) -> &'static str {
+        match self {
+            Stop::After { first, .. } => first.advice(),
+            Stop::Contact { .. } => {
+                "look at the last plot state there, with PLOT NODAL, CONTACT: bodies that overlap or are held on both \
+                 sides, squashed elements and soft layers between stiff ones are the usual causes; try half the TIME STEP \
+                 SCALE, or other CONTACT PASSES; CONTACT ENERGY LIMIT lets the run go on"
+            }
             Stop::NotFinite(_) => {
                 "a load or a prescribed motion of absurd size is the usual cause, or an unstable step: see whether TIME \
                  STEP SCALE is above 1, and what the last plot state shows there"

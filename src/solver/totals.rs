@@ -1,6 +1,8 @@
 //! Energies and momenta of the whole body, and their balance.
 //!
 //! kinetic + internal + hourglass + bulk viscosity + friction + eroded = initial + external work + contact work.
+//! What contact, hourglass resistance or viscosity have made out of nothing is in these accounts with its sign, so that
+//! they close; it counts as an error of the balance all the same.
 //! Kinetic energy is ½ m v⁻·v⁺ of the velocities half a step before and after the state: with it central
 //! differences balance exactly for constant steps. Work is booked in the same manner.
 
@@ -27,6 +29,8 @@ pub struct Totals {
     pub external: f64,
     /// Work of normal contact forces: they stop nodal masses dead, which takes energy out.
     pub contact: f64,
+    /// Energy that contact has made: given beyond what it had taken before. It is a part of `contact` and `friction`.
+    pub contact_gain: f64,
     /// Linear momentum.
     pub momentum: [f64; 3],
 }
@@ -44,15 +48,33 @@ impl Totals {
             friction: s[4],
             external: s[5],
             contact: s[6],
+            contact_gain: 0.0,
             momentum: [s[7], s[8], s[9]],
             eroded: s[10],
         }
     }
 
-    /// Energy accounted for minus energy supplied.
+    /// Energy accounted for minus energy supplied, with what was made out of nothing: the error of the balance.
     pub fn imbalance(&self, initial: f64) -> f64 {
+        self.gap(initial) + self.made()
+    }
+
+    /// What the accounts do not explain: energy accounted for minus energy supplied.
+    pub fn gap(&self, initial: f64) -> f64 {
         let stored = self.kinetic + self.internal + self.hourglass + self.bulk_viscosity;
         (stored + self.friction + self.eroded) - (initial + self.external + self.contact)
+    }
+
+    /// Energy that was made out of nothing: by contact, and by resistances that have given back more than they took.
+    pub fn made(&self) -> f64 {
+        // Friction that gives is a part of what contact gives.
+        let [hourglass, viscosity, friction] = self.given_back();
+        self.contact_gain.max(friction) + hourglass + viscosity
+    }
+
+    /// What hourglass resistance, bulk viscosity and friction have given back beyond what they took.
+    pub fn given_back(&self) -> [f64; 3] {
+        [self.hourglass, self.bulk_viscosity, self.friction].map(|taken| (-taken).max(0.0))
     }
 
     /// The largest account.
@@ -62,20 +84,49 @@ impl Totals {
 
     /// Imbalance over the largest account; 0 when nothing has happened yet.
     pub fn relative_error(&self, initial: f64) -> f64 {
+        self.relative(self.imbalance(initial), initial)
+    }
+
+    /// What the accounts do not explain over the largest of them; 0 when nothing has happened yet.
+    pub fn relative_gap(&self, initial: f64) -> f64 {
+        self.relative(self.gap(initial), initial)
+    }
+
+    fn relative(&self, energy: f64, initial: f64) -> f64 {
         let scale = self.scale(initial);
-        if scale > 0.0 { self.imbalance(initial) / scale } else { 0.0 }
+        if scale > 0.0 { energy / scale } else { 0.0 }
     }
 }
 
-/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied.
-pub fn totals(domain: &Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
+/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied. Contact learns its work.
+pub fn totals(domain: &mut Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
     let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
     add_nodes(domain, kick, &mut sums);
     add_elements(domain, &mut sums);
     add_work(domain, &mut sums);
     add_eroded(domain, &mut sums);
     ExactSum::merge_ranks(&mut sums, comm);
-    Totals::from_array(sums.map(|sum| sum.value()))
+    let mut totals = Totals::from_array(sums.map(|sum| sum.value()));
+    if let Some(contact) = &mut domain.contact {
+        contact.note_work(totals.contact - totals.friction);
+        totals.contact_gain = contact.gain();
+    }
+    totals
+}
+
+/// Lets contact learn its work, and returns what it has made; without the price of all sums.
+pub fn contact_gain(domain: &mut Domain, comm: &mut dyn Communicator) -> f64 {
+    let Some(contact) = &mut domain.contact else { return 0.0 };
+    let mut sums = [ExactSum::new(), ExactSum::new()];
+    for [normal, friction] in contact.works() {
+        sums[0].add(normal);
+        sums[1].add(-friction);
+    }
+    ExactSum::merge_ranks(&mut sums, comm);
+    // As `totals` has it, so that looking more often changes no bit of what both have seen.
+    let [normal, friction] = sums.map(|sum| sum.value());
+    contact.note_work(normal - friction);
+    contact.gain()
 }
 
 fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {

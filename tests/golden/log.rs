@@ -20,6 +20,9 @@ const LEFT_OUT: [&str; 3] = ["INPUTSTREAMIMAGES", "WHERETHETIMEWENT", "WHATARANK
 /// Lines of the banner: program and version; day, machine and ranks; names of the files.
 const BANNER: usize = 3;
 
+/// Words of lines among those of steps that are kept as they are.
+const WARNINGS: [&str; 2] = ["***** WARNING", "  advice: "];
+
 /// Differing lines of a log that are shown.
 const SHOWN: usize = 12;
 
@@ -35,7 +38,8 @@ pub fn lasting(log: &str) -> String {
         // What follows the time table without a head of its own begins with the number of ranks.
         skipped &= !line.contains("NUMBER OF RANKS");
         steps |= line.contains("TIME DILATATION");
-        if steps && !packed.is_empty() && !line.contains("RESTART FILE") {
+        let is_warning = WARNINGS.iter().any(|words| line.starts_with(words));
+        if steps && !packed.is_empty() && !line.contains("RESTART FILE") && !is_warning {
             out += &untimed(line);
             out += "\n";
         } else if !skipped && !PASSING.iter().any(|words| line.contains(words)) {

@@ -7,11 +7,13 @@ mod modelled;
 mod restart;
 mod steps;
 mod summary;
+mod warnings;
 
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};
 pub use summary::{Balance, Ending, TimeTable, closing};
+pub use warnings::{labels, warning, warning_on_terminal, with_warnings};
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

@@ -2,8 +2,8 @@
 
 use super::{heading, leader, number, scientific};
 use crate::comm::Spread;
-use crate::solver::Totals;
 use crate::solver::contact::Report;
+use crate::solver::{Finding, Totals};
 use std::fmt::Write;
 
 /// Where the time of a run went, and over how many ranks.
@@ -49,6 +49,8 @@ pub struct Ending<'a> {
     pub totals: &'a Totals,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
+    /// What the run has found out about itself.
+    pub findings: &'a [Finding],
     /// Contact, where there was any.
     pub contact: Option<Report>,
     /// Elements that were taken away, where that was asked for.
@@ -60,6 +62,7 @@ pub fn closing(table: &TimeTable, ending: &Ending) -> String {
     let mut out = balance(ending);
     out += &ending.contact.as_ref().map_or(String::new(), |report| contact(report, ending.steps));
     out += &ending.gone.map_or(String::new(), |gone| leader("ELEMENTS TAKEN AWAY", &gone.to_string()));
+    out += &super::warnings::table(ending.findings);
     out += &sections(table);
     out += &balance_of_ranks(table);
     out += "\n";
@@ -85,6 +88,7 @@ fn balance(ending: &Ending) -> String {
     out += &leader("INITIAL KINETIC ENERGY", &number(ending.initial_energy));
     out += &leader("WORK OF LOADS AND PRESCRIBED MOTIONS", &number(t.external));
     out += &leader("WORK OF NORMAL CONTACT FORCES", &number(t.contact));
+    out += &leader("ENERGY MADE BY CONTACT", &number(t.contact_gain));
     out += &leader("KINETIC ENERGY", &number(t.kinetic));
     out += &leader("INTERNAL ENERGY", &number(t.internal));
     out += &leader("HOURGLASS ENERGY", &number(t.hourglass));

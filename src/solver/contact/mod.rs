@@ -14,6 +14,7 @@ pub mod enforce;
 mod face;
 pub mod faces;
 mod friction;
+mod gain;
 mod links;
 mod locate;
 mod neighbourhood;
@@ -28,6 +29,7 @@ pub mod search;
 mod setup;
 mod sites;
 mod state;
+mod sunk;
 pub mod surface;
 mod traffic;
 mod work;
@@ -44,6 +46,7 @@ use detect::{NONE, Past, Touch};
 use edges::PastPair;
 use enforce::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
 use faces::Faces;
+use gain::Gain;
 use locate::Reach;
 use planes::PlanePoint;
 use remote::Remote;
@@ -53,6 +56,7 @@ use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
 use sites::Sites;
 
 pub use overlap::{Left, Overlap, remove as remove_overlap};
+pub use sunk::Sunk;
 pub use work::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
@@ -82,6 +86,8 @@ pub struct Contact {
     limits: Limits,
     /// Work of normal and friction forces at points that are gone, those of this rank.
     lost_work: Vec<[f64; 2]>,
+    /// Energy that contact has made.
+    gain: Gain,
     /// What the log tells.
     pub tally: Tally,
     /// Number of searches so far.
@@ -156,6 +162,7 @@ impl Contact {
             watches: plane_points(&watched, model, body, &layout),
             limits: limits(model, &watched),
             lost_work: Vec::new(),
+            gain: Gain::default(),
             tally: Tally::default(),
             searches: 0,
             age: 0,

@@ -186,7 +186,7 @@ fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: 
 }
 
 /// Whether a point is inside a hexahedron: in one of the tetrahedra that join its middle with the four triangles of each side.
-fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
+pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
     let middle = corners.iter().fold([0.0; 3], |sum, corner| add(sum, scaled(*corner, 0.125)));
     let volume = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| dot(a, cross(b, c));
     HEX_SIDES.iter().any(|side| {

@@ -35,6 +35,7 @@ impl Contact {
             sites: _,
             watches: _,
             lost_work: _,
+            gain,
             tally: Tally { steps, passes, capped, left },
             searches,
             age,
@@ -55,6 +56,7 @@ impl Contact {
             limits: _,
             decomposition: _,
         } = self;
+        gain.visit_state(archive);
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
             archive.count("CONTSTEPS", steps);

@@ -5,6 +5,7 @@ use super::kinematics::rotation_matrix;
 use super::{ElementBlock, Group, logarithm};
 use crate::lanes::{Matrix3, Sym3};
 use crate::mesh::check::hexahedron_volume;
+use crate::mesh::corners::least_corner;
 use crate::model::ElementField;
 use crate::solver::nodes::Nodes;
 
@@ -37,6 +38,7 @@ pub fn field_values(
         ElementField::Stretch => filled(&in_space(tensor(group, i, rows::STRETCH))),
         ElementField::Rotation => filled(frame(group, i).as_flattened()),
         ElementField::BulkViscosity => filled(&[-group.value(i, rows::VISCOUS_STRESS)]),
+        ElementField::Corners => filled(&[least_corner(&group.nodes(i), &positions(group, i, nodes))]),
         ElementField::Status => filled(&[1.0]),
         ElementField::Rank => filled(&[rank as f64]),
     }

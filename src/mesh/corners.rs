@@ -1,0 +1,68 @@
+//! Corners of hexahedra that have turned inside out.
+
+use super::check::hexahedron_volume;
+
+/// For each corner its neighbours along the three edges, in the order in which they turn to the right.
+const NEIGHBOURS: [[usize; 3]; 8] =
+    [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
+
+/// The least Jacobian of a hexahedron's corners over its mean one: 1 in a parallelepiped, 0 or less where a corner is
+/// flat or inside out. In wedges and pyramids, whose corners coincide in part, of the corners that have three edges.
+pub fn least_corner(nodes: &[u32; 8], corners: &[[f64; 3]; 8]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (corner, neighbours) in NEIGHBOURS.iter().enumerate() {
+        if neighbours.iter().any(|&neighbour| nodes[neighbour] == nodes[corner]) {
+            continue;
+        }
+        let [a, b, c] = neighbours.map(|neighbour| {
+            let (to, from) = (corners[neighbour], corners[corner]);
+            [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
+        });
+        let jacobian = a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]);
+        least = least.min(jacobian);
+    }
+    let volume = hexahedron_volume(corners).abs();
+    // Where no corner has three edges, or nothing has a volume, nothing is said.
+    if least.is_finite() && volume > 0.0 { least / volume } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::UNIT_CUBE;
+
+    const NODES: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+    #[test]
+    fn a_parallelepiped_has_equal_corners() {
+        let sheared = UNIT_CUBE.map(|[x, y, z]| [2.0 * x + 0.5 * y, y - 0.25 * z, 3.0 * z + 0.1 * x]);
+        assert!((least_corner(&NODES, &sheared) - 1.0).abs() < 1e-14);
+    }
+
+    /// One corner pushed along the diagonal of the cube by d: its Jacobian is 1 − 3d, that of the whole cube's volume
+    /// stays positive long after.
+    #[test]
+    fn a_corner_turns_inside_out_before_the_element_does() {
+        for corner in 0..8 {
+            let pushed = |d: f64| {
+                let mut cube = UNIT_CUBE;
+                cube[corner] = cube[corner].map(|x| x + d * (1.0 - 2.0 * x));
+                cube
+            };
+            let (sound, turned) = (pushed(0.3), pushed(0.4));
+            assert!(hexahedron_volume(&turned) > 0.5);
+            let measured = [sound, turned].map(|cube| least_corner(&NODES, &cube) * hexahedron_volume(&cube));
+            assert!((measured[0] - 0.1).abs() < 1e-14, "corner {corner}: {measured:?}");
+            assert!((measured[1] + 0.2).abs() < 1e-14, "corner {corner}: {measured:?}");
+        }
+    }
+
+    #[test]
+    fn coinciding_corners_of_a_wedge_are_no_fault() {
+        let (mut wedge, mut nodes) = (UNIT_CUBE, NODES);
+        (wedge[3], wedge[7], nodes[3], nodes[7]) = (wedge[2], wedge[6], 2, 6);
+        assert!(least_corner(&nodes, &wedge) > 1.0);
+    }
+}

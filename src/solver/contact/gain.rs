@@ -1,0 +1,43 @@
+//! Energy that contact has made: what it has given to the bodies beyond what it had taken from them before.
+//!
+//! Contact may only take energy. The account is the largest value so far of the running sum of the work of all contact
+//! forces, normal and friction; it is known as often as that sum is looked at.
+
+use super::Contact;
+use crate::restart::Archive;
+
+/// The account of what contact has made.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gain {
+    most: f64,
+}
+
+impl Gain {
+    /// Visits the state between two steps.
+    pub fn visit_state(&mut self, archive: &mut dyn Archive) {
+        let Gain { most } = self;
+        archive.number("CONTGAIN", most);
+    }
+}
+
+impl Contact {
+    /// Energy that contact has given beyond what earlier losses had banked, summed over all steps: never negative, it
+    /// only grows, and it is the same on all ranks.
+    pub fn gain(&self) -> f64 {
+        self.gain.most
+    }
+
+    /// Takes note of the work of all contact forces so far, summed over all ranks.
+    pub fn note_work(&mut self, work: f64) {
+        // NaN is no gain: other checks find it.
+        if work > self.gain.most {
+            self.gain.most = work;
+        }
+    }
+
+    /// Local nodes on the surface that this rank owns, with the work of contact forces on each so far.
+    pub fn node_works(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let sites = self.sites.list.iter().zip(&self.sites.works).filter(|(site, _)| site.owned);
+        sites.map(|(site, [normal, friction])| (site.node, normal + friction))
+    }
+}

@@ -1,0 +1,122 @@
+//! Nodes that are in the outermost elements of others, and how deep: beyond half an element contact does not hold them.
+
+use super::Contact;
+use super::face;
+use super::overlap::is_inside;
+use super::search::{Box3, Candidates, SearchKind};
+use super::setup::ABSENT;
+use crate::comm::Communicator;
+use crate::mesh::HEX_SIDES;
+use crate::mesh::check::hexahedron_volume;
+use crate::solver::body::centroid;
+use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
+
+/// A node inside an element that is not its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sunk {
+    /// Place of the node in the mesh file.
+    pub node: u32,
+    /// Canonical number of the element.
+    pub element: u32,
+    /// Depth below the nearest outer face of the element, in thicknesses of the element there.
+    pub depth: f64,
+}
+
+/// An element by its canonical number and its local nodes.
+pub type Outer = (u32, [u32; 8]);
+
+/// Elements are seen larger by this part, so that a point between two of them is in both.
+const LARGER: f64 = 1e-3;
+
+/// Bytes of a point on its way to other ranks: its number and its position.
+const PARCEL: usize = 4 + 3 * 8;
+
+impl Contact {
+    /// Canonical numbers of the elements with faces that CONTACT MATERIAL lets touch, ascending.
+    pub fn outer_elements(&self) -> Vec<u32> {
+        let automatic = self.layout.automatic();
+        let numbers = automatic.iter().flat_map(|interface| &interface.faces);
+        let mut elements: Vec<u32> = numbers.map(|&face| self.layout.faces.number[face as usize] / 6).collect();
+        elements.sort_unstable();
+        elements.dedup();
+        elements
+    }
+
+    /// The nodes of all ranks that are in some of these elements, those of this rank; a node is told once for each element
+    /// that it is in. All ranks call it.
+    pub fn sunk(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<Sunk> {
+        let points = self.points_of_all(nodes, comm);
+        let corners = |outer: &Outer| outer.1.map(|node| nodes.position(node));
+        let boxes: Vec<Box3> = elements.iter().map(|outer| Box3::around(&corners(outer))).collect();
+        let places: Vec<Box3> = points.iter().map(|(_, at)| Box3::around(&[*at])).collect();
+        let mut near = Candidates::default();
+        // An element is not a face: no point is a corner of it here.
+        SearchKind::Grid.make().find(&places, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut near);
+        let mut found = Vec::new();
+        for (i, (point, at)) in points.iter().enumerate() {
+            let node = self.layout.nodes[*point as usize];
+            let of_others = near
+                .of(i)
+                .iter()
+                .map(|&element| &elements[element as usize])
+                .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node));
+            found.extend(of_others.filter_map(|outer| {
+                let depth = self.depth(outer.0, &corners(outer), *at)?;
+                Some(Sunk { node, element: outer.0, depth })
+            }));
+        }
+        found
+    }
+
+    /// How deep a point is in an element, in thicknesses below the nearest of its outer faces; `None` where it is not in it.
+    fn depth(&self, element: u32, corners: &[[f64; 3]; 8], point: [f64; 3]) -> Option<f64> {
+        let middle = centroid(corners);
+        let larger = corners.map(|corner| add(middle, scaled(subtract(corner, middle), 1.0 + LARGER)));
+        if !is_inside(&larger, point) {
+            return None;
+        }
+        let volume = hexahedron_volume(corners);
+        let mut least = f64::INFINITY;
+        for (side, of_side) in (0..).zip(HEX_SIDES) {
+            if self.layout.face(6 * element + side) == ABSENT {
+                continue;
+            }
+            let face = of_side.map(|corner| corners[corner]);
+            let area = face::area_normal(&face);
+            // A face without area says nothing.
+            let Some(stand) = face::stand(&face, point) else { continue };
+            least = least.min(-stand.gap * dot(area, area).sqrt() / volume);
+        }
+        least.is_finite().then_some(least)
+    }
+
+    /// Points that CONTACT MATERIAL lets touch, of all ranks, and where they are; on each rank.
+    fn points_of_all(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<(u32, [f64; 3])> {
+        let Some(automatic) = self.layout.automatic() else { return Vec::new() };
+        let own = self.sites.list.iter().filter(|site| site.owned && automatic.points[site.point as usize]);
+        let mut points: Vec<(u32, [f64; 3])> = own.map(|site| (site.point, nodes.position(site.node))).collect();
+        if comm.size() > 1 {
+            let parcel = |(point, at): &(u32, [f64; 3])| {
+                let bytes = at.iter().flat_map(|x| x.to_le_bytes());
+                point.to_le_bytes().into_iter().chain(bytes).collect::<Vec<u8>>()
+            };
+            let bytes: Vec<u8> = points.iter().flat_map(parcel).collect();
+            let others = (0..comm.size()).filter(|&rank| rank != comm.rank());
+            let incoming = comm.sparse_exchange(others.map(|rank| (rank, bytes.clone())).collect());
+            points.extend(incoming.iter().flat_map(|(_, bytes)| bytes.chunks_exact(PARCEL)).map(unpacked));
+        }
+        points.sort_unstable_by_key(|(point, _)| *point);
+        points
+    }
+}
+
+fn unpacked(bytes: &[u8]) -> (u32, [f64; 3]) {
+    let mut number = [0; 4];
+    number.copy_from_slice(&bytes[..4]);
+    let coordinate = |i: usize| {
+        let mut word = [0; 8];
+        word.copy_from_slice(&bytes[4 + 8 * i..12 + 8 * i]);
+        f64::from_le_bytes(word)
+    };
+    (u32::from_le_bytes(number), std::array::from_fn(coordinate))
+}

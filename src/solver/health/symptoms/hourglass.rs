@@ -1,0 +1,56 @@
+//! Hourglass energy that is no small part of a block's internal energy: the mesh is too coarse for what it does.
+
+use super::{Symptom, When};
+use crate::comm::{Communicator, ExactSum};
+use crate::solver::elements::hex8::rows;
+use crate::solver::health::finding::{Evidence, percent};
+use crate::solver::health::place::{elements, worst_element};
+use crate::solver::health::watch::Exam;
+
+/// Less than this part of the energy supplied, times the block's part of the mass, does no harm: so begins every impact.
+const WORTH_WORDS: f64 = 1e-3;
+
+pub const SYMPTOM: Symptom = Symptom {
+    code: 4,
+    when: When::Lines,
+    threshold: 0.1,
+    // Above the internal energy, the block is its hourglass resistance rather than its material.
+    cause: 1.0,
+    measure,
+    place: |exam, evidence, comm| {
+        let own = elements(&exam.solver.domain).filter(|(block, ..)| block.id == evidence.block);
+        let energies = own.map(|(_, group, i)| (group.places[i], group.value(i, rows::HOURGLASS_ENERGY)));
+        evidence.spots[0] = worst_element(exam, energies, comm);
+    },
+    label: |evidence| format!("hourglass energy of block {}", evidence.block),
+    words: |evidence| {
+        let Evidence { share, amount, of, block, .. } = *evidence;
+        format!(
+            "hourglass energy of block {block} is {amount:.4e}, {} of its internal energy {of:.4e}; most of it in {}",
+            percent(share),
+            evidence.places()
+        )
+    },
+    advice: "look there with PLOT ELEMENT, HOURGLASS: a finer mesh, more elements through a thickness, loads that act on \
+             more than single nodes, or the other HOURGLASS CONTROL; results of the block are stiffer or softer than its \
+             material",
+};
+
+fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
+    let blocks = &exam.facts.blocks;
+    let mut sums: Vec<ExactSum> = vec![ExactSum::new(); 2 * blocks.len()];
+    for (block, group, i) in elements(&exam.solver.domain) {
+        sums[2 * block.index].add(group.value(i, rows::INTERNAL_ENERGY));
+        sums[2 * block.index + 1].add(group.value(i, rows::HOURGLASS_ENERGY));
+    }
+    ExactSum::merge_ranks(&mut sums, comm);
+    let mass: f64 = blocks.iter().map(|block| block.mass).sum();
+    let evidence = |(block, sums): (&super::super::watch::BlockFacts, &[ExactSum])| {
+        let [internal, hourglass] = [sums[0].value(), sums[1].value()];
+        let counts = hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
+        // A gas that has expanded has lost internal energy; what it has done counts.
+        let share = hourglass / internal.abs();
+        counts.then_some(Evidence { share, amount: hourglass, of: internal, block: block.id, ..Evidence::default() })
+    };
+    blocks.iter().zip(sums.chunks_exact(2)).filter_map(evidence).collect()
+}

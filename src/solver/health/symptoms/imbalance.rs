@@ -1,0 +1,29 @@
+//! The accounts of energy do not close.
+
+use super::{Symptom, When, nowhere};
+use crate::solver::health::finding::{Evidence, percent};
+
+pub const SYMPTOM: Symptom = Symptom {
+    code: 8,
+    when: When::Energies,
+    threshold: 0.01,
+    cause: 0.05,
+    measure: |exam, _| {
+        let initial = exam.solver.initial_energy;
+        let (gap, scale) = (exam.totals.gap(initial), exam.totals.scale(initial).max(exam.supplied));
+        vec![Evidence { share: gap.abs() / scale, amount: gap, of: scale, ..Evidence::default() }]
+    },
+    place: nowhere,
+    label: |_| "energy balance does not close".into(),
+    words: |evidence| {
+        let Evidence { share, amount, .. } = *evidence;
+        let way = if amount < 0.0 { "lost" } else { "gained" };
+        format!(
+            "the energy balance is off by {:.4e}, {} of the largest account: so much was {way} in the integration of time",
+            amount.abs(),
+            percent(share)
+        )
+    },
+    advice: "the time step is too large for what happens within it, such as a strong shock in a gas or a law that changes \
+             within one step: try a TIME STEP SCALE of 0.5, and see whether the balance closes better",
+};

@@ -1,0 +1,79 @@
+//! What a run may suffer from, one file each: a measure, a threshold, words and advice.
+
+pub mod contact_gain;
+mod corners;
+mod debris;
+mod given_back;
+mod hourglass;
+mod imbalance;
+mod overlap_deep;
+mod overlap_moved;
+mod passes;
+mod runaway;
+mod sunk;
+
+use super::finding::Evidence;
+use super::watch::Exam;
+use crate::comm::Communicator;
+
+/// Something that goes wrong in a run while it seems to go well.
+pub struct Symptom {
+    /// What restart files call it. It never changes, and grows along the list.
+    pub code: u32,
+    /// When it is looked at.
+    pub when: When,
+    /// The share above which it is worth a warning.
+    pub threshold: f64,
+    /// The share above which it can be why an element inverts or energy runs away; infinite where it never is.
+    pub cause: f64,
+    /// Measures it now, for the whole body or for each block. All ranks call it and get the same.
+    pub measure: fn(&Exam, &mut dyn Communicator) -> Vec<Evidence>,
+    /// Finds where it is worst, once it has passed the threshold. All ranks call it and get the same.
+    pub place: fn(&Exam, &mut Evidence, &mut dyn Communicator),
+    /// What it is called in a list of warnings.
+    pub label: fn(&Evidence) -> String,
+    /// What was seen, with number and place.
+    pub words: fn(&Evidence) -> String,
+    /// What the analyst can try.
+    pub advice: &'static str,
+}
+
+/// All symptoms. Of those seen in one look the first counts as the one that came first.
+pub static SYMPTOMS: [Symptom; 11] = [
+    overlap_moved::SYMPTOM,
+    overlap_deep::SYMPTOM,
+    contact_gain::SYMPTOM,
+    hourglass::SYMPTOM,
+    given_back::SYMPTOM,
+    corners::SYMPTOM,
+    runaway::SYMPTOM,
+    imbalance::SYMPTOM,
+    passes::SYMPTOM,
+    sunk::SYMPTOM,
+    debris::SYMPTOM,
+];
+
+/// When a symptom is looked at, from seldom to often.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum When {
+    /// At the first state: what the mesh begins with.
+    Start,
+    /// Where a line of the log or a plot state is due: what costs as much as some steps.
+    Lines,
+    /// Whenever energies are summed.
+    Energies,
+}
+
+impl When {
+    /// Whether it is due at a step where `look` is.
+    pub fn is_due(self, look: When, step: u64) -> bool {
+        match self {
+            When::Start => step == 0,
+            When::Lines => look == When::Lines,
+            When::Energies => true,
+        }
+    }
+}
+
+/// Has no place.
+fn nowhere(_: &Exam, _: &mut Evidence, _: &mut dyn Communicator) {}

@@ -1,0 +1,255 @@
+//! Looking, and remembering what was found.
+
+use super::finding::{Evidence, Finding, ROW, Spot};
+use super::symptoms::{SYMPTOMS, When};
+use super::{energy, symptoms};
+use crate::comm::Communicator;
+use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::partition::Share;
+use crate::restart::Archive;
+use crate::solver::contact::Overlap;
+use crate::solver::nodes::{dot, subtract};
+use crate::solver::{Body, Solver, Stop, Totals, totals};
+
+/// Steps between looks at what contact alone has made.
+const CONTACT_INTERVAL: u64 = 10;
+
+/// What does not change in a run.
+#[derive(Debug, Clone, Default)]
+pub struct Facts {
+    /// The analyst's number of each local node.
+    pub node_id: Vec<i64>,
+    /// Number, mass and elements of each block of the mesh.
+    pub blocks: Vec<BlockFacts>,
+    /// Energy below which nothing is said about energies.
+    pub energy_floor: f64,
+    /// Internal energy that gases and explosives hold at the start.
+    pub stored_energy: f64,
+    /// Part of the largest energy supplied at which a gain of contact ends the run.
+    pub contact_limit: f64,
+    /// Overlaps of the mesh.
+    pub overlap: Overlap,
+    /// The node that was moved farthest out of them, and the one that is left deepest inside an element.
+    pub overlap_spots: [Option<Spot>; 2],
+}
+
+/// A block of the mesh.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct BlockFacts {
+    /// Its number.
+    pub id: i64,
+    /// Its mass at the start.
+    pub mass: f64,
+    /// Number of its elements at the start.
+    pub elements: usize,
+}
+
+/// What a run has found out about itself.
+#[derive(Debug, Clone, Default)]
+pub struct Watch {
+    facts: Facts,
+    /// Largest energy supplied so far.
+    pub supplied: f64,
+    /// What is worth a warning, in the order in which it was seen.
+    findings: Vec<Finding>,
+    /// How many of these have been handed out.
+    told: usize,
+    /// What can be why an element inverts or energy runs away, in the order in which it was seen.
+    causes: Vec<Finding>,
+}
+
+/// What a look looks at.
+pub struct Exam<'a> {
+    /// The run.
+    pub solver: &'a Solver,
+    /// What does not change in it.
+    pub facts: &'a Facts,
+    /// Energies of the present state.
+    pub totals: Totals,
+    /// Largest energy supplied so far, not below the one that is worth words.
+    pub supplied: f64,
+}
+
+impl Watch {
+    /// What there is to know of a run before its first step.
+    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, initial_energy: f64) -> Watch {
+        let masses = body.block_masses(mesh.blocks.len());
+        let block = |(block, mass): (&crate::mesh::Block, f64)| BlockFacts {
+            id: block.id,
+            mass,
+            elements: block.connectivity.len(),
+        };
+        let facts = Facts {
+            node_id: share.nodes.iter().map(|&node| mesh.node_ids[node as usize]).collect(),
+            blocks: mesh.blocks.iter().zip(masses).map(block).collect(),
+            energy_floor: energy::energy_floor(body, model),
+            stored_energy: energy::stored_energy(body, model),
+            contact_limit: model.contact.control.energy_limit,
+            overlap: body.overlap,
+            overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
+        };
+        Watch { facts, supplied: initial_energy, ..Watch::default() }
+    }
+
+    /// What has been found so far.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// What has been found since the last call.
+    pub fn news(&mut self) -> Vec<Finding> {
+        let from = std::mem::replace(&mut self.told, self.findings.len());
+        self.findings[from..].to_vec()
+    }
+
+    /// Energy supplied so far, not below the one that is worth words.
+    fn base(&self) -> f64 {
+        self.supplied.max(self.facts.energy_floor)
+    }
+
+    /// Looks for the symptoms that are due.
+    fn look(&mut self, solver: &Solver, totals: Totals, due: When, comm: &mut dyn Communicator) {
+        let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base() };
+        for symptom in SYMPTOMS.iter().filter(|symptom| symptom.when.is_due(due, solver.step)) {
+            for evidence in (symptom.measure)(&exam, comm) {
+                let mut found = Finding::new(symptom, solver, evidence);
+                let is_news = found.is_news_in(&mut self.findings) && evidence.share > symptom.threshold;
+                let is_cause = found.is_news_in(&mut self.causes) && evidence.share > symptom.cause;
+                if is_news || is_cause {
+                    (symptom.place)(&exam, &mut found.evidence, comm);
+                }
+                self.findings.extend(is_news.then_some(found));
+                self.causes.extend(is_cause.then_some(found));
+            }
+        }
+    }
+
+    /// Visits the state between two steps.
+    pub fn visit_state(&mut self, archive: &mut dyn Archive) {
+        let Watch { facts: _, supplied, findings, told, causes } = self;
+        archive.number("SUPPLIED", supplied);
+        // Empty lists leave no trace in a file; this says that there was somebody who looked.
+        let mut count = findings.len() as u64;
+        archive.count("FINDINGS", &mut count);
+        visit(archive, "FINDING", findings);
+        visit(archive, "CAUSE", causes);
+        if archive.loading() {
+            *told = findings.len();
+        }
+    }
+}
+
+/// Visits findings, which every rank knows.
+fn visit(archive: &mut dyn Archive, name: &str, findings: &mut Vec<Finding>) {
+    let first = archive.comm().rank() == 0;
+    let mut rows: Vec<f64> = if first { findings.iter().flat_map(Finding::row).collect() } else { Vec::new() };
+    archive.list(name, ROW, &mut rows);
+    if archive.loading() {
+        *findings = rows.chunks_exact(ROW).filter_map(Finding::from_row).collect();
+        findings.sort_by_key(|finding| finding.step);
+    }
+}
+
+impl Solver {
+    /// What the run has found out about itself so far; the same on all ranks.
+    pub fn findings(&self) -> &[Finding] {
+        self.watch.findings()
+    }
+
+    /// What it has found out since the last call.
+    pub fn new_findings(&mut self) -> Vec<Finding> {
+        self.watch.news()
+    }
+
+    /// Looks at everything: where a line of the log or a plot state is due. All ranks call it, and all get the same.
+    ///
+    /// # Errors
+    /// When the run must not go on.
+    pub fn look(&mut self, comm: &mut dyn Communicator) -> Result<(), Stop> {
+        self.examine(When::Lines, comm)
+    }
+
+    /// Looks at what is due at every step.
+    pub(in crate::solver) fn glance(&mut self, comm: &mut dyn Communicator) -> Result<(), Stop> {
+        let due = energy::check_due(self.step);
+        if due || (self.step.is_multiple_of(CONTACT_INTERVAL) && self.contact_is_suspect(comm)) {
+            return self.examine(When::Energies, comm);
+        }
+        Ok(())
+    }
+
+    /// Whether contact has made so much that all energies must be looked at.
+    fn contact_is_suspect(&mut self, comm: &mut dyn Communicator) -> bool {
+        // Without contact nobody says anything.
+        totals::contact_gain(&mut self.domain, comm) > symptoms::contact_gain::THRESHOLD * self.watch.base()
+    }
+
+    fn examine(&mut self, due: When, comm: &mut dyn Communicator) -> Result<(), Stop> {
+        self.complete_contact(comm);
+        let totals = self.look_for(due, comm);
+        self.check_energies(&totals, comm).map_err(|stop| self.because(stop))
+    }
+
+    fn look_for(&mut self, due: When, comm: &mut dyn Communicator) -> Totals {
+        let totals = self.totals(comm);
+        let mut watch = std::mem::take(&mut self.watch);
+        let supplied = self.initial_energy + watch.facts.stored_energy + totals.external.max(0.0);
+        watch.supplied = watch.supplied.max(supplied);
+        watch.look(self, totals, due, comm);
+        self.watch = watch;
+        totals
+    }
+
+    /// Looks a last time at a run that cannot go on, and names what came first.
+    pub(in crate::solver) fn post_mortem(&mut self, stop: Stop, comm: &mut dyn Communicator) -> Stop {
+        self.look_for(When::Lines, comm);
+        self.because(stop)
+    }
+
+    /// The reason to stop with the cause that came before it.
+    fn because(&self, stop: Stop) -> Stop {
+        let own = matches!(stop, Stop::Contact { .. }).then_some(symptoms::contact_gain::CODE);
+        // Of those seen in one look the first in the list.
+        match self.watch.causes.first().copied().filter(|first| Some(first.code) != own) {
+            Some(first) => Stop::After { first: Box::new(first), stop: Box::new(stop) },
+            None => stop,
+        }
+    }
+
+    /// Ends a run whose energies mean nothing any more.
+    fn check_energies(&self, totals: &Totals, comm: &mut dyn Communicator) -> Result<(), Stop> {
+        let facts = &self.watch.facts;
+        let share = totals.contact_gain / self.watch.base();
+        if share > facts.contact_limit {
+            let exam = Exam { solver: self, facts, totals: *totals, supplied: self.watch.base() };
+            let mut evidence = Evidence { share, amount: totals.contact_gain, ..Evidence::default() };
+            symptoms::contact_gain::place(&exam, &mut evidence, comm);
+            return Err(Stop::Contact { evidence: Box::new(evidence), limit: facts.contact_limit });
+        }
+        energy::check(totals, self.initial_energy, self.watch.supplied, facts.energy_floor)
+    }
+}
+
+/// The node that was moved farthest out of an initial overlap.
+fn farthest_moved(mesh: &Mesh, body: &Body) -> Option<Spot> {
+    if body.overlap.nodes == 0 {
+        return None;
+    }
+    let way = |node: usize| {
+        let way = subtract(body.positions[node], mesh.coordinates[node]);
+        dot(way, way)
+    };
+    let farthest = (0..mesh.coordinates.len()).fold(0, |best, node| if way(node) > way(best) { node } else { best });
+    Some(Spot { node: Some(mesh.node_ids[farthest]), element: None, at: mesh.coordinates[farthest] })
+}
+
+/// The node that begins deepest inside an element.
+fn left_deepest(mesh: &Mesh, body: &Body) -> Option<Spot> {
+    let left = body.overlap.left;
+    (left.nodes > 0).then(|| Spot {
+        node: mesh.node_ids.get(left.node as usize).copied(),
+        element: mesh.element_ids.get(left.element as usize).copied(),
+        at: mesh.coordinates.get(left.node as usize).copied().unwrap_or_default(),
+    })
+}
