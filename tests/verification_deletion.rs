@@ -72,7 +72,7 @@ fn free_masses_go_with_their_block() {
 #[test]
 fn time_step_is_what_the_log_prints() {
     let mesh = recipe(
-        "TITLE\n bar\nBOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nBOX, 1, 1., 0., 0., 1.5, 1., 1., 1, 1, 1\nMERGE\n",
+        "TITLE\n bar\nBOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nBOX, 1, 1., 0., 0., 0.5, 1., 1., 1, 1, 1\nMERGE\n",
     );
     let deck = |rule: &str| {
         format!(

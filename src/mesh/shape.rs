@@ -60,7 +60,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => &["HEX"],
             Shape::Quadrilateral => &["SHE", "QUA"],
-            Shape::Bar => &["BAR", "TRU", "BEA", "ROD"],
+            Shape::Bar => &["BAR", "TRU"],
         }
     }
 
