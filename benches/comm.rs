@@ -4,6 +4,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 use urto::comm::{Communicator, Counted, ExactSum, Peer, run_threads};
+use urto::mesh::{Connectivity, Shape};
 use urto::partition::{Contributors, Decomposition, rcb, space_filling_order};
 
 fn main() {
@@ -82,7 +83,8 @@ fn decomposition(n: usize) {
     let nodes: Vec<u32> = order.iter().flat_map(|e| corners(*e as usize)).collect();
     let mut ranks = Vec::new();
     let bisection = seconds(1, || ranks = rcb(&centroids, &vec![1.0; centroids.len()], 64));
-    let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &ranks }];
+    let nodes = Connectivity::of(Shape::Hexahedron, nodes);
+    let groups = [Contributors { nodes: &nodes, ranks: &ranks }];
     let start = Instant::now();
     let plan = Decomposition::new(&groups, (n + 1).pow(3), 64);
     let planned = start.elapsed().as_secs_f64();

@@ -454,3 +454,26 @@ fn the_readme_shows_a_deck_of_ours() {
     let deck = std::fs::read_to_string(project("decks/taylor_bar.i")).expect("the deck");
     assert_eq!(words(&shown.collect::<Vec<_>>().join("\n")), words(&deck));
 }
+
+#[test]
+fn values_from_the_command_line_stand_for_those_of_deck_and_recipe() {
+    let desk = Desk::new();
+    desk.put("box.mesh", "TITLE\n box\n$ {n = 2}\nBOX, 1, 0., 0., 0., 1., 1., 1., {n}, 1, 1\n");
+    desk.urto(&["mesh", "box.mesh"]).with(0).says(&["2 elements"]);
+    desk.urto(&["mesh", "box.mesh", "-D", "n=5"]).with(0).says(&["5 elements"]);
+    desk.urto(&["mesh", "box.mesh", "-D", "m=5"]).with(2).says(&["-D gives a value to m", "no expression"]);
+    desk.urto(&["mesh", "box.mesh", "-D", "n"]).with(2).says(&["NAME=VALUE"]);
+    desk.put(
+        "box.i",
+        "TITLE\n box\n$ {speed = 10.}\nTERMINATION TIME, 1.E-5\nMATERIAL, 1, ELASTIC, 7800.\nYOUNGS MODULUS = 2.E11\n\
+         POISSONS RATIO = 0.3\nEND\nINITIAL VELOCITY MATERIAL, 1, {speed}, 0., 0.\nEXIT\n",
+    );
+    std::fs::remove_file(desk.path("box.g")).expect("the mesh of the recipe");
+    // A name may be the deck's or the recipe's.
+    desk.urto(&["check", "box.i", "-D", "n=3", "-D", "speed=20"]).with(0).says(&["3 elements"]);
+    desk.urto(&["check", "box.i", "-D", "sped=20"]).with(2).says(&["-D gives a value to sped"]);
+    // Half of 7800 times the square of 20.
+    desk.urto(&["run", "box.i", "-q", "-D", "speed=20", "-m", "box.mesh"]).with(0);
+    let energy = desk.results("box.e").global(0).expect("the first state")[0];
+    assert!((energy - 0.5 * 7800.0 * 400.0).abs() < 1e-6, "{energy}");
+}

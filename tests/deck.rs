@@ -27,8 +27,8 @@ fn two_blocks() -> Mesh {
     let side_set = |id, sides| SideSet { id, name: String::new(), sides };
     Mesh {
         blocks: vec![
-            Block { id: 1, name: "lower".into(), connectivity: vec![hex(0), hex(1)] },
-            Block { id: 2, name: String::new(), connectivity: vec![hex(2), hex(3)] },
+            Block { name: "lower".into(), ..Block::hexahedra_of(1, [hex(0), hex(1)]) },
+            Block::hexahedra_of(2, [hex(2), hex(3)]),
         ],
         node_sets: vec![
             node_set(1, nodes(|x| x[0] == 0.0)),

@@ -54,7 +54,7 @@ fn empty_blocks_and_sets_are_kept() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("empty.g");
     let mut mesh = two_block_mesh();
-    mesh.blocks.insert(1, urto::mesh::Block { id: 7, name: "nothing".into(), connectivity: vec![] });
+    mesh.blocks.insert(1, urto::mesh::Block { id: 7, name: "nothing".into(), ..Default::default() });
     mesh.node_sets.push(urto::mesh::NodeSet { id: 8, ..Default::default() });
     mesh.side_sets.insert(0, urto::mesh::SideSet { id: 9, ..Default::default() });
     write_mesh(&path, &mesh).unwrap();
@@ -117,10 +117,10 @@ fn arrays_of_the_wrong_length_are_refused_and_harm_nothing() {
 fn check_cubes(mesh: &Mesh) {
     let reference = two_block_mesh();
     assert_eq!(mesh.coordinates, reference.coordinates);
-    let blocks: Vec<_> = mesh.blocks.iter().filter(|b| !b.connectivity.is_empty()).collect();
+    let blocks: Vec<_> = mesh.blocks.iter().filter(|b| !b.is_empty()).collect();
     assert_eq!(blocks.len(), 2);
     for (block, expected) in blocks.iter().zip(&reference.blocks) {
-        assert_eq!((block.id, &block.connectivity), (expected.id, &expected.connectivity));
+        assert_eq!((block.id, &block.nodes), (expected.id, &expected.nodes));
     }
 }
 
@@ -161,7 +161,7 @@ fn compressed_netcdf4_files_with_long_names_are_read() {
 fn null_blocks_and_sets_are_kept_empty() {
     let mesh = read_mesh(&fixture("null_block.g")).unwrap();
     check_cubes(&mesh);
-    let ids: Vec<_> = mesh.blocks.iter().map(|b| (b.id, b.name.as_str(), b.connectivity.len())).collect();
+    let ids: Vec<_> = mesh.blocks.iter().map(|b| (b.id, b.name.as_str(), b.len())).collect();
     assert_eq!(ids, [(10, "first", 2), (77, "", 0), (4, "third", 1)]);
     let sets: Vec<_> = mesh.node_sets.iter().map(|s| (s.id, s.nodes.as_slice())).collect();
     assert_eq!(sets, [(5, [].as_slice()), (3, [1, 3, 5].as_slice())]);

@@ -89,7 +89,7 @@ fn pieces_of_a_mesh_in_disorder() {
     mesh.coordinates.insert(0, [1.0, 1.0, 1.0]);
     for block in &mut mesh.blocks {
         block.name = format!("block {}", block.id);
-        block.connectivity.iter_mut().flatten().for_each(|node| *node += 1);
+        block.nodes.iter_mut().for_each(|node| *node += 1);
     }
     mesh.node_sets.iter_mut().flat_map(|set| &mut set.nodes).for_each(|node| *node += 1);
     for set in &mut mesh.node_sets {
@@ -117,7 +117,7 @@ fn list(piece: &netcdf::File, name: &str) -> Vec<i64> {
 fn across(path: &std::path::Path) -> BTreeMap<i64, Vec<[u32; 4]>> {
     let piece = netcdf::open(path).expect("a piece");
     let mesh = exodus::Results::open(path).expect("a piece").mesh().expect("its mesh");
-    let elements: Vec<[u32; 8]> = mesh.elements().map(|(_, nodes)| *nodes).collect();
+    let elements: Vec<[u32; 8]> = mesh.hexahedra().copied().collect();
     let [sides, given, ranks] = ["e_comm_sids", "e_comm_eids", "e_comm_proc"].map(|name| list(&piece, name));
     let mut start = 0;
     let mut map = BTreeMap::new();
@@ -153,7 +153,7 @@ fn pieces_know_whose_elements_are_across() {
             })
             .collect();
         let mut sharers: BTreeMap<[u32; 4], Vec<i64>> = BTreeMap::new();
-        for ((_, nodes), number) in mesh.elements().zip(&mesh.element_ids) {
+        for (nodes, number) in mesh.hexahedra().zip(&mesh.element_ids) {
             for side in HEX_SIDES {
                 let mut face = side.map(|corner| mesh.node_ids[nodes[corner] as usize] as u32);
                 face.sort_unstable();

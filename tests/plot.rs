@@ -16,7 +16,7 @@ fn cube() -> Mesh {
         coordinates: corners.map(|corner| corner.map(f64::from)).to_vec(),
         node_ids: (11..=18).collect(),
         element_ids: vec![5],
-        blocks: vec![Block { id: 1, name: String::new(), connectivity: vec![[0, 1, 2, 3, 4, 5, 6, 7]] }],
+        blocks: vec![Block::hexahedra_of(1, [[0, 1, 2, 3, 4, 5, 6, 7]])],
         ..Mesh::default()
     }
 }

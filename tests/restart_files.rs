@@ -177,7 +177,7 @@ fn wedges(mesh: &Mesh) -> Mesh {
     let halves = |[a, b, c, d, e, f, g, h]: [u32; 8]| [[a, b, c, c, e, f, g, g], [a, c, d, d, e, g, h, h]];
     let mut cut = mesh.clone();
     for block in &mut cut.blocks {
-        block.connectivity = block.connectivity.iter().flat_map(|hex| halves(*hex)).collect();
+        block.nodes = block.hexahedra().iter().flat_map(|hex| halves(*hex)).flatten().collect();
     }
     for set in &mut cut.side_sets {
         // Bottom and top are cut, and the first half has the face where x is largest.

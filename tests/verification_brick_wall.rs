@@ -28,7 +28,7 @@ fn shorter(end: f64, plots: f64) -> String {
 fn v28_seventeen_bricks_of_54_elements_apart_at_first() {
     let mesh = recipe(RECIPE);
     let skin = Skin::new(&mesh);
-    let count = |block: usize| mesh.blocks[block].connectivity.len();
+    let count = |block: usize| mesh.blocks[block].len();
     assert_eq!(mesh.element_count(), 8400);
     assert_eq!((count(1) / 54, count(2) / 27, skin.bodies()), (11, 6, 1 + 17 + 1));
     assert_eq!(skin.inside(&mesh.coordinates), []);

@@ -79,9 +79,9 @@ fn check(case: &str, run: &Run, mesh: &Mesh) {
 
 /// The number of nodes of the can that meet an element of the can in any state.
 fn folded(run: &Run, mesh: &Mesh) -> usize {
-    let can = mesh.blocks[0].connectivity.len();
+    let can = mesh.blocks[0].len();
     let of_can = |element: f64| mesh.element_ids[..can].binary_search(&(element as i64)).is_ok();
-    let mut nodes: Vec<u32> = mesh.blocks[0].connectivity.concat();
+    let mut nodes: Vec<u32> = mesh.blocks[0].nodes.clone();
     nodes.sort_unstable();
     nodes.dedup();
     let meets = |n: u32| run.states.iter().any(|state| of_can(state.nodal("CONTFACE")[n as usize]));

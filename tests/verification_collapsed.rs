@@ -35,7 +35,7 @@ fn v45_mass_and_free_fall() {
     let volume: f64 = {
         let mesh = irregular();
         let corners = |nodes: &[u32; 8]| nodes.map(|n| mesh.coordinates[n as usize]);
-        mesh.elements().map(|(_, nodes)| urto::mesh::check::hexahedron_volume(&corners(nodes))).sum()
+        mesh.hexahedra().map(|nodes| urto::mesh::check::hexahedron_volume(&corners(nodes))).sum()
     };
     for (name, cut) in CUTS {
         let mesh = cut(&irregular());
@@ -69,8 +69,8 @@ fn v45_wave_in_a_bar() {
         let plateau = -steel::RHO * steel::bar_speed();
         let state = run.at(150e-6);
         let centres: Vec<f64> = mesh
-            .elements()
-            .map(|(_, nodes)| nodes.iter().map(|&n| mesh.coordinates[n as usize][0]).sum::<f64>() / 8.0)
+            .hexahedra()
+            .map(|nodes| nodes.iter().map(|&n| mesh.coordinates[n as usize][0]).sum::<f64>() / 8.0)
             .collect();
         let behind: Vec<f64> = (centres.iter().zip(state.element("SIGXX")))
             .filter(|(x, _)| (0.02..0.65).contains(*x))
@@ -140,9 +140,11 @@ fn v45_bars_with_triangles_collide() {
     // Along x, so that the triangles are on the ends.
     let turned = |block: usize, mesh: &Mesh| {
         let mut mesh = mesh.clone();
-        let cut = mesh.blocks[block].connectivity.iter();
-        mesh.blocks[block].connectivity =
-            cut.flat_map(|&[a, b, c, d, e, f, g, h]| [[a, d, h, h, b, c, g, g], [a, h, e, e, b, g, f, f]]).collect();
+        let cut = mesh.blocks[block].hexahedra().iter();
+        mesh.blocks[block].nodes = cut
+            .flat_map(|&[a, b, c, d, e, f, g, h]| [[a, d, h, h, b, c, g, g], [a, h, e, e, b, g, f, f]])
+            .flatten()
+            .collect();
         mesh.element_ids = (1..=mesh.element_count() as i64).collect();
         mesh
     };
@@ -161,7 +163,7 @@ fn v45_bars_with_triangles_collide() {
 fn v45_pressure_on_triangles() {
     let mut mesh = wedges(&box_of_cells([3, 3, 3], [0.03, 0.03, 0.03]));
     let mut count = std::collections::BTreeMap::<Vec<u32>, Vec<(u32, u8)>>::new();
-    for (element, (_, nodes)) in mesh.elements().enumerate() {
+    for (element, nodes) in mesh.hexahedra().enumerate() {
         for (side, corners) in HEX_SIDES.iter().enumerate() {
             let mut face = corners.map(|corner| nodes[corner]).to_vec();
             face.sort_unstable();
@@ -211,7 +213,7 @@ fn collapsed_elements_on_several_ranks() {
 /// Faces all of whose nodes are among the lowest sixteen of the box.
 fn bottom(mesh: &Mesh) -> Vec<(u32, u8)> {
     let mut sides = Vec::new();
-    for (element, (_, nodes)) in mesh.elements().enumerate() {
+    for (element, nodes) in mesh.hexahedra().enumerate() {
         for (side, corners) in HEX_SIDES.iter().enumerate() {
             let face = corners.map(|corner| nodes[corner]);
             let mut different = face.to_vec();

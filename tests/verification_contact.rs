@@ -152,7 +152,7 @@ fn v23_bars_of_unequal_impedance() {
             .filter(|(x, _)| between_fronts(x[0]))
             .map(|(_, v)| *v)
             .collect();
-        let centre = |nodes: &[u32; 8]| nodes.iter().map(|&n| mesh.coordinates[n as usize][0]).sum::<f64>() / 8.0;
+        let centre = |nodes: &[u32]| nodes.iter().map(|&n| mesh.coordinates[n as usize][0]).sum::<f64>() / 8.0;
         let stress: Vec<f64> = (mesh.elements().zip(end.element("SIGXX")))
             .filter(|((_, nodes), _)| between_fronts(centre(nodes)))
             .map(|(_, s)| *s)
@@ -186,7 +186,7 @@ fn velocities_at(mesh: &Mesh, run: &Run, time: f64) -> Vec<f64> {
     let velocity = run.at(time).nodal("VELX");
     let of = |corners: &[u32; 8]| corners.iter().map(|&node| velocity[node as usize]).sum::<f64>() / 8.0;
     let mean = |elements: &[[u32; 8]]| elements.iter().map(of).sum::<f64>() / elements.len() as f64;
-    mesh.blocks.iter().map(|block| mean(&block.connectivity) / 5.0).collect()
+    mesh.blocks.iter().map(|block| mean(block.hexahedra()) / 5.0).collect()
 }
 
 /// What the short bar keeps is not the wave's alone: through bars that are joined to one it goes and leaves rest behind. Bars

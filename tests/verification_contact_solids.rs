@@ -188,7 +188,7 @@ fn patch_error(run: &Run, mesh: &Mesh) -> [f64; 2] {
     let states: Vec<&State> = run.states.iter().filter(|state| state.time > 3e-3).collect();
     let mut worst = [0.0f64; 2];
     for (name, expected) in STRESSES {
-        for (e, (_, nodes)) in mesh.elements().enumerate() {
+        for (e, nodes) in mesh.hexahedra().enumerate() {
             let mean = states.iter().map(|state| state.element(name)[e]).sum::<f64>() / states.len() as f64;
             let error = (mean - expected).abs() / 100e6;
             let beside = nodes.iter().any(|&n| (mesh.coordinates[n as usize][2] - 0.1).abs() < 1e-9);

@@ -66,3 +66,27 @@ fn free_masses_go_with_their_block() {
     assert_eq!([momentum(4e-3), momentum(f64::INFINITY)], [5000.0, 3000.0]);
     assert_eq!(left.last().totals.eroded, 0.5 * 1000.0 * 4.0);
 }
+
+/// DEATH watches the step that the log prints. A bar of two bricks, one of them half as long; the log's first step is that of
+/// the short one, with everything that shortens it. A limit just above takes it away as soon as it is known, just below none.
+#[test]
+fn time_step_is_what_the_log_prints() {
+    let mesh = recipe(
+        "TITLE\n bar\nBOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nBOX, 1, 1., 0., 0., 0.5, 1., 1., 1, 1, 1\nMERGE\n",
+    );
+    let deck = |rule: &str| {
+        format!(
+            "TITLE\n bar\nTERMINATION TIME, 5.E-3\nOUTPUT TIME, 1.E-5\nPLOT TIME, 1.E-3\nTIME STEP SCALE, 0.8\n{rule}\
+             MATERIAL, 1, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E9\nPOISSONS RATIO = 0.3\nEND\n"
+        )
+    };
+    let step = run(&deck(""), &mesh).lines[0].time_step;
+    let alive = |ranks: usize, limit: f64| {
+        let left = run_on(ranks, &deck(&format!("PLOT ELEMENT, STATUS\nDEATH, 1, TMSTEP, MIN, {limit:e}\n")), &mesh);
+        left.whole().end().element("STATUS").to_vec()
+    };
+    for ranks in [1, 2] {
+        assert_eq!(alive(ranks, step * (1.0 - 1e-6)), [1.0, 1.0]);
+        assert_eq!(alive(ranks, step * (1.0 + 1e-6)), [1.0, 0.0]);
+    }
+}

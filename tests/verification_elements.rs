@@ -8,7 +8,7 @@ use urto::model::{
     BlockMaterial, BulkViscosity, Hourglass, InitialVelocity, Model, PlotSchedule, StepModuli, TimeStepControl,
 };
 use urto::partition::Decomposition;
-use urto::solver::elements::{fields, hex8::rows};
+use urto::solver::elements::hexahedron::rows;
 use urto::solver::{Body, Request, Solver, Stop};
 
 const EDGE: f64 = 0.1;
@@ -32,7 +32,7 @@ fn cube(n: usize) -> Mesh {
     Mesh {
         node_ids: (1..=side.pow(3) as i64).collect(),
         element_ids: (1..=n.pow(3) as i64).collect(),
-        blocks: vec![Block { id: 1, name: String::new(), connectivity }],
+        blocks: vec![Block::hexahedra_of(1, connectivity)],
         coordinates,
         ..Mesh::default()
     }
@@ -165,7 +165,7 @@ fn extreme_21_a_million_steps_of_spin() {
     let frame = group.values::<4>(0, rows::FRAME).iter().map(|c| c * c).sum::<f64>().sqrt() - 1.0;
     let [xx, yy, zz, xy, yz, zx] = group.values::<6>(0, rows::STRETCH);
     let stretch = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
-    let volume = fields::volume(group, 0, &solver.domain.nodes) / 1e-9;
+    let volume = block.element.volume(group, 0, &solver.domain.nodes) / 1e-9;
     let turns = omega * solver.time / std::f64::consts::TAU;
     println!("extreme 21: {turns:.0} revolutions, frame {frame:e}, det U - V/V0 {:e}", stretch - volume);
     assert!(frame.abs() < 1e-14, "the frame has grown by {frame:e}");

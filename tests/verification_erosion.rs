@@ -30,7 +30,7 @@ fn colliding(edges: &str, time: f64) -> String {
 
 /// Mean z velocity of a block's nodes, with equal weights.
 fn mean_velocity(mesh: &Mesh, velocities: &[f64], block: usize) -> f64 {
-    let mut nodes: Vec<u32> = mesh.blocks[block].connectivity.iter().flatten().copied().collect();
+    let mut nodes: Vec<u32> = mesh.blocks[block].nodes.to_vec();
     nodes.sort_unstable();
     nodes.dedup();
     nodes.iter().map(|&n| velocities[n as usize]).sum::<f64>() / nodes.len() as f64
@@ -261,11 +261,7 @@ fn fast_debris_does_not_spoil_the_search() {
     both.coordinates.extend(corners.map(|c: [f64; 3]| [1.0 + 1e-3 * c[0], 1e-3 * c[1], 1e-3 * c[2]]));
     both.node_ids.extend((0..8).map(|i| i64::from(first) + 1 + i));
     both.element_ids.push(both.element_ids.len() as i64 + 1);
-    both.blocks.push(urto::mesh::Block {
-        id: 3,
-        connectivity: vec![[0, 1, 2, 3, 4, 5, 6, 7].map(|i| first + i)],
-        ..Default::default()
-    });
+    both.blocks.push(urto::mesh::Block::hexahedra_of(3, [[0, 1, 2, 3, 4, 5, 6, 7].map(|i| first + i)]));
     let speck = "INITIAL VELOCITY MATERIAL, 3, 10000., 0., 0.\nMATERIAL, 3, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\nEXIT\n";
     let fast = run(&(deck + speck), &both);
     let steps = fast.last().step;

@@ -124,7 +124,7 @@ fn v30_cold_gas_against_a_wall() {
 fn centres(mesh: &Mesh, positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let centre =
         |nodes: &[u32; 8]| [0, 1, 2].map(|i| nodes.iter().map(|&n| positions[n as usize][i]).sum::<f64>() / 8.0);
-    mesh.elements().map(|(_, nodes)| centre(nodes)).collect()
+    mesh.hexahedra().map(centre).collect()
 }
 
 fn radius(x: &[f64; 3]) -> f64 {
@@ -142,8 +142,9 @@ fn v30_sedov_blast() {
         support::meshes::add_node_set(&mut mesh, id, |x| x[axis] == 0.0);
     }
     // The corner element comes first in the file; it becomes a block of its own.
-    let corner = mesh.blocks[0].connectivity.remove(0);
-    mesh.blocks.insert(0, urto::mesh::Block { id: 2, name: String::new(), connectivity: vec![corner] });
+    let corner = mesh.blocks[0].hexahedra()[0];
+    mesh.blocks[0].nodes.drain(..8);
+    mesh.blocks.insert(0, urto::mesh::Block::hexahedra_of(2, [corner]));
     let energy = 0.125 / (size / n as f64).powi(3);
     let mut deck = String::from(
         "TIME STEP SCALE, 0.25\nTERMINATION TIME, 0.3\nPLOT TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT ELEMENT, PRESSURE, DENSITY\n",
@@ -266,8 +267,8 @@ fn noh(n: usize) -> Noh {
         positions[file as usize] = solver.domain.nodes.position(here as u32);
     }
     let elements: Vec<(f64, f64)> = mesh
-        .elements()
-        .map(|(_, nodes)| {
+        .hexahedra()
+        .map(|nodes| {
             let corners = nodes.map(|n| positions[n as usize]);
             let volume = urto::mesh::check::hexahedron_volume(&corners);
             (radius(&urto::solver::centroid(&corners)), (n as f64).powi(-3) / volume)

@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use tiny_skia::Pixmap;
 use urto::exodus::{ResultsHeader, ResultsWriter, write_mesh};
 use urto::mesh::{Block, Mesh};
-use urto::view::{StateChoice, ViewError, ViewOptions, draw, draw_many};
+use urto::view::{MapChoice, StateChoice, ViewError, ViewOptions, draw, draw_many, draw_row};
 
 const WHITE: [u8; 3] = [255; 3];
 
@@ -31,7 +31,7 @@ fn boxes([nx, ny, nz]: [u32; 3]) -> Mesh {
         cubes[usize::from(k > 0)].push([a, b, c, d, e, f, g, h]);
     }
     for (connectivity, id) in cubes.into_iter().zip(1..).filter(|(cubes, _)| !cubes.is_empty()) {
-        mesh.blocks.push(Block { id, name: String::new(), connectivity });
+        mesh.blocks.push(Block::hexahedra_of(id, connectivity));
     }
     mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
     mesh.element_ids = (1..=mesh.element_count() as i64).collect();
@@ -163,7 +163,7 @@ fn what_is_behind_is_hidden() {
 #[test]
 fn a_mirrored_half_makes_a_symmetric_whole() {
     let run = Run::new([2, 1, 2], &[State::of(&[1.0, 2.0, 3.0, 4.0])]);
-    let picture = run.picture(&ViewOptions { mirror: [true, false, false], edges: true, ..plain("front") });
+    let picture = run.picture(&ViewOptions { mirror: [Some(0.0), None, None], edges: true, ..plain("front") });
     assert_eq!(extent(&picture), [130, 984, 270, 697]);
     let worst = (260..710).flat_map(|y| (120..557).map(move |x| (f64::from(x), f64::from(y)))).map(|(x, y)| {
         let (left, right) = (pixel(&picture, [x, y]), pixel(&picture, [1114.0 - x, y]));
@@ -172,6 +172,90 @@ fn a_mirrored_half_makes_a_symmetric_whole() {
     // Rounding decides for single samples on the border of two faces.
     assert!(worst.max().unwrap() <= 40);
     assert!(has_bar_colour(&picture, [450.0, 590.0], 0.0) && has_bar_colour(&picture, [200.0, 377.0], 1.0));
+}
+
+#[test]
+fn a_cut_shows_the_section_of_what_is_kept() {
+    let run = Run::new([1, 2, 1], &[State::of(&[10.0, 20.0])]);
+    let middle = [557.0, 484.0];
+    let shows = |from: &str, at: f64, fraction: f64| {
+        let options = ViewOptions { cuts: vec![(1, at)], range: Some((10.0, 20.0)), ..plain(from) };
+        has_bar_colour(&run.picture(&options), middle, fraction)
+    };
+    assert!(shows("front", 0.5, 0.0) && shows("front", 1.0, 1.0) && shows("back", 0.5, 0.0));
+    let gone = run.refusal(&ViewOptions { cuts: vec![(1, 9.0)], ..plain("front") });
+    assert!(gone.to_string().contains("cut has taken off all"), "{gone}");
+}
+
+#[test]
+fn a_section_has_the_values_between_the_nodes() {
+    let run = Run::new([1, 2, 1], &[State { displacement: |x| [0.0, x[1], 0.0], ..State::of(&[0.0; 2]) }]);
+    let options = ViewOptions {
+        variable: Some("DISPLY".to_owned()),
+        magnify: 0.0,
+        cuts: vec![(1, 0.5)],
+        range: Some((0.0, 2.0)),
+        ..plain("front")
+    };
+    assert!(has_bar_colour(&run.picture(&options), [557.0, 484.0], 0.25));
+}
+
+/// The image of a mirrored body is cut where the plane goes through the image.
+#[test]
+fn mirrored_bodies_are_cut_as_wholes() {
+    let run = Run::new([1, 2, 1], &[State::of(&[10.0, 20.0])]);
+    for (at, fraction) in [(-1.5, 1.0), (-0.5, 0.0), (0.0, 0.0), (1.0, 1.0)] {
+        let mirror = [None, Some(0.0), None];
+        let options = ViewOptions { cuts: vec![(1, at)], mirror, range: Some((10.0, 20.0)), ..plain("front") };
+        assert!(has_bar_colour(&run.picture(&options), [557.0, 484.0], fraction), "cut at {at}");
+    }
+}
+
+#[test]
+fn a_mirror_stands_where_it_is_put() {
+    // A cube from 0 to 1 and its image from 5 to 6: 142.5 pixels to a length.
+    let run = Run::new([1, 1, 1], &[State::of(&[1.0])]);
+    let picture = run.picture(&ViewOptions { mirror: [Some(3.0), None, None], ..plain("front") });
+    let inked = |x: f64| pixel(&picture, [x, 484.0]) != WHITE;
+    assert!(inked(200.0) && inked(914.0) && !inked(557.0) && !inked(280.0) && !inked(835.0));
+}
+
+#[test]
+fn values_of_both_signs_are_white_at_zero() {
+    let run = Run::new([2, 1, 1], &[State::of(&[-4.0, 2.0])]);
+    let picture = run.picture(&plain("front"));
+    assert!(bar(&picture, 0.5).iter().all(|&c| c > 225), "{:?}", bar(&picture, 0.5));
+    // The range is as wide on either side: 2 is at three quarters.
+    assert!(has_bar_colour(&picture, [343.0, 484.0], 0.0) && has_bar_colour(&picture, [771.0, 484.0], 0.75));
+    let rising = run.picture(&ViewOptions { map: MapChoice::Sequential, ..plain("front") });
+    assert!(has_bar_colour(&rising, [771.0, 484.0], 1.0));
+}
+
+#[test]
+fn states_stand_in_a_row_and_arrows_on_the_surface() {
+    // Taller than wide, so that they stand side by side.
+    let states = [0.0, 1.0, 2.0]
+        .map(|stress| State { displacement: |x| [0.1 * x[2], 0.0, 0.0], ..State::of(&[stress, stress, 3.0]) });
+    let run = Run::new([1, 1, 3], &states);
+    let path = run.folder.path().join("row.png");
+    let choices = [StateChoice::Number(1), StateChoice::Mesh, StateChoice::Last];
+    let options = ViewOptions { size: (600, 450), ..plain("front") };
+    let shown = draw_row(&run.results, &path, &choices, &options).unwrap();
+    assert_eq!(shown.iter().map(|summary| summary.state).collect::<Vec<_>>(), [Some(1), None, Some(3)]);
+    let picture = Pixmap::load_png(&path).unwrap();
+    // Three bodies, with white between them.
+    let inked: Vec<bool> = (66..490).map(|x| pixel(&picture, [f64::from(x), 235.0]) != WHITE).collect();
+    assert_eq!(inked.chunk_by(|a, b| a == b).filter(|run| run[0]).count(), 3);
+    let plain = ViewOptions { variable: Some("VONMISES".to_owned()), ..options };
+    let dark = |options: &ViewOptions| {
+        let picture = run.picture(options);
+        picture.pixels().iter().filter(|p| p.red() < 40 && p.green() < 40 && p.blue() < 40).count()
+    };
+    let arrows = ViewOptions { arrows: Some("DISPL".to_owned()), ..plain.clone() };
+    let (with, without) = (dark(&arrows), dark(&plain));
+    assert!(with > without + 15, "{with} {without}");
+    let none = run.refusal(&ViewOptions { arrows: Some("VEL".to_owned()), ..plain });
+    assert!(none.to_string().contains("DISPL"), "{none}");
 }
 
 #[test]
@@ -209,6 +293,8 @@ fn blocks_states_and_ranges_are_chosen() {
     let path = run.folder.path().join("choice.png");
     let drawn = |options: &ViewOptions| draw(&run.results, &path, options).unwrap();
     let upper = ViewOptions { blocks: vec![2], ..plain("iso") };
+    let hidden = ViewOptions { hide: vec![1], ..plain("iso") };
+    assert_eq!(drawn(&hidden).faces, drawn(&upper).faces);
     assert_eq!((drawn(&upper).extremes, drawn(&upper).faces), (Some((7.0, 8.0)), 10));
     let first = ViewOptions { state: StateChoice::Number(1), ..upper.clone() };
     assert_eq!(drawn(&first).extremes, Some((3.0, 4.0)));

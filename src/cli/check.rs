@@ -7,7 +7,7 @@ use crate::comm::Serial;
 use crate::output::print::{self, scientific};
 use crate::partition::Decomposition;
 use crate::run::Endless;
-use crate::solver::elements::hex8::rows;
+use crate::solver::elements::Element;
 use crate::solver::{Body, Request, Solver, state_names};
 use std::time::Instant;
 
@@ -71,7 +71,7 @@ fn modelled(given: &Given, body: &Body) -> String {
         out += &format!(
             "  block {}: {} elements of {}, mass {}, dilatational wave speed {}\n",
             block.id,
-            block.connectivity.len(),
+            block.len(),
             material.law.entry().name,
             scientific(masses[index], 4),
             scientific((modulus / material.density).sqrt(), 4)
@@ -132,7 +132,8 @@ fn memory(given: &Given) -> f64 {
             let law_rows =
                 model.materials.iter().find(|m| m.block == block.id).map_or(0, |m| state_names(&m.law).len());
             // State, mass, connectivity; place, file number, analyst's number and canonical number.
-            block.connectivity.len() * (8 * (rows::LAW + law_rows) + 8 + 32 + 4 + 4 + 8 + 4)
+            let own_rows = Element::of_block(block, model).map_or(0, |element| element.entry().rows.len());
+            block.len() * (8 * (own_rows + law_rows) + 8 + 4 * block.shape.corners() + 4 + 4 + 8 + 4)
         })
         .sum();
     // A node's record, force, initial position, file number and ownership.

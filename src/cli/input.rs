@@ -3,16 +3,18 @@
 use super::outputs::Inputs;
 use super::terminal::complain;
 use super::{Failure, options};
-use crate::deck::{Diagnostics, Source};
+use crate::deck::{Definitions, Diagnostic, Diagnostics, Source};
 use crate::exodus::{MeshError, read_mesh};
 #[cfg(feature = "mpi")]
 use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
 use crate::model::{ContactOverlap, Problem, examine};
-use crate::solver::Body;
+use crate::solver::elements::Unfit;
+use crate::solver::{Body, unfit_blocks};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A deck and its mesh, read and checked against each other.
 pub struct Given {
@@ -39,7 +41,8 @@ impl Given {
 
     /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
     pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
-        Given::read_with(input, ranks, &mut |path| read_or_make(path, ranks, &mut read_mesh))
+        let given = definitions(&input.define)?;
+        Given::read_with(input, &given, ranks, &mut |path| read_or_make(path, &given, ranks, &mut read_mesh))
     }
 
     /// The same on every process of a job; they read the mesh together.
@@ -52,8 +55,9 @@ impl Given {
         if !together.same(ready.then_some(0)) {
             return Given::read(input);
         }
-        Given::read_with(input, None, &mut |path| {
-            read_or_make(path, None, &mut |path| read_mesh_together(path, together))
+        let given = definitions(&input.define)?;
+        Given::read_with(input, &given, None, &mut |path| {
+            read_or_make(path, &given, None, &mut |path| read_mesh_together(path, together))
         })
     }
 
@@ -69,17 +73,27 @@ impl Given {
 
     fn read_with(
         input: &options::Input,
+        given: &Arc<Definitions>,
         ranks: Option<u32>,
         read: &mut dyn FnMut(&Path) -> Result<MeshOf, Failure>,
     ) -> Result<Given, Failure> {
         let deck = deck_path(&input.deck)?;
-        let source = open(&deck, ranks)
+        let source = open(&deck, given, ranks)
             .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
             (Ok(problem), Ok(((mesh, mesh_files), mesh_path))) => {
-                Ok(Given { deck, mesh_path, problem, mesh, mesh_files })
+                all_used(given)?;
+                let unfit = unfit_blocks(&mesh, &problem.model);
+                if unfit.is_empty() {
+                    return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
+                }
+                let mut told = problem.diagnostics;
+                for (block, Unfit { reason, help }) in unfit {
+                    told.push(Diagnostic::error(format!("block {block}: {reason}")).help(help));
+                }
+                Err(Failure::input(render(&told)))
             }
             (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
             (Ok(_), Err(failure)) => Err(failure),
@@ -120,6 +134,24 @@ impl Given {
     }
 }
 
+/// The values that options -D give to names.
+pub fn definitions(texts: &[String]) -> Result<Arc<Definitions>, Failure> {
+    Definitions::parse(texts).map(Arc::new).map_err(Failure::input_error)
+}
+
+/// Refuses names that neither deck nor recipe has: most likely misspelt ones.
+pub fn all_used(given: &Definitions) -> Result<(), Failure> {
+    let unused = given.unused();
+    if unused.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::input(format_args!(
+        "error: -D gives a value to {}, which no expression in braces uses\n\
+         help: a deck or recipe has such names as {{n = 4}}; without -D the value is 4",
+        unused.join(" and ")
+    )))
+}
+
 /// Messages as text, coloured on a terminal.
 pub fn render(diagnostics: &Diagnostics) -> String {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
@@ -141,8 +173,8 @@ pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
 }
 
 /// Reads a text, in whose expressions the name `ranks` has this value, if there is one.
-fn open(path: &Path, ranks: Option<u32>) -> std::io::Result<Source> {
-    let source = Source::open(path)?;
+fn open(path: &Path, given: &Arc<Definitions>, ranks: Option<u32>) -> std::io::Result<Source> {
+    let source = Source::open(path)?.with_definitions(given);
     Ok(match ranks {
         Some(ranks) => source.with_value("ranks", ranks),
         None => source,
@@ -152,11 +184,12 @@ fn open(path: &Path, ranks: Option<u32>) -> std::io::Result<Source> {
 /// The mesh of a file: read, or made when the file is a recipe.
 fn read_or_make(
     path: &Path,
+    given: &Arc<Definitions>,
     ranks: Option<u32>,
     read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
 ) -> Result<MeshOf, Failure> {
     if is_recipe(path) {
-        return make_mesh(path, 1, ranks);
+        return make_mesh(path, 1, given, ranks);
     }
     read(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input)
 }
@@ -166,8 +199,8 @@ fn is_recipe(path: &Path) -> bool {
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
-pub fn make_mesh(recipe: &Path, refine: u32, ranks: Option<u32>) -> Result<MeshOf, Failure> {
-    let source = open(recipe, ranks)
+pub fn make_mesh(recipe: &Path, refine: u32, given: &Arc<Definitions>, ranks: Option<u32>) -> Result<MeshOf, Failure> {
+    let source = open(recipe, given, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
     let (mesh, found) =
         mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))?;

@@ -193,6 +193,9 @@ The same on four MPI processes, with the same bits.
 .B urto view out/case1.e \-\-variable EQPS \-\-mirror xy
 Draws the last state, coloured by equivalent plastic strain, with the mirror images of a quarter model.
 .TP
+.B urto view out/case1.e \-v SIGZZ \-\-cut y=0 \-\-mirror xy \-s 2,8,last
+The whole bar from its quarter, cut open, at three times side by side.
+.TP
 .B urto plot out/case1.e
 The energies of the body over time, as case1_curves.png; with a table of what they reach.
 .TP

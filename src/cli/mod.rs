@@ -14,6 +14,7 @@ mod scale;
 mod signals;
 mod terminal;
 mod verbs;
+mod view;
 
 pub use manual::manual;
 pub use options::{Options, command};
@@ -134,7 +135,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Check(options) => check::check(&options),
         Verb::Explain(options) => verbs::explain(&options),
         Verb::Mesh(options) => verbs::mesh(&options),
-        Verb::View(options) => verbs::view(&options),
+        Verb::View(options) => view::view(&options),
         Verb::Plot(options) => plot::plot(&options),
         Verb::Diff(options) => verbs::diff(&options),
         Verb::Scale(options) => scale::scale(&options),

@@ -61,6 +61,9 @@ pub struct Input {
     /// The mesh, or a recipe of one; else x.g or x.mesh beside the deck, or in meshes/ beside the deck's folder
     #[arg(short, long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
+    /// Gives a name in the expressions of deck and recipe this value, in place of what {NAME = ...} gives it there
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
 }
 
 /// Runs a deck
@@ -131,6 +134,9 @@ pub struct Mesh {
     /// Multiplies every number of elements along an edge
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
+    /// Gives a name in the recipe's expressions this value, in place of what {NAME = ...} gives it there
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
     /// Value of the name `ranks` in the recipe's expressions
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub ranks: Option<u32>,
@@ -150,7 +156,8 @@ pub struct View {
     /// Variable that colours it: a nodal or element variable, or a vector such as VEL
     #[arg(short, long, value_name = "NAME")]
     pub variable: Option<String>,
-    /// State: its number from 1, last, t=TIME for the nearest one, or mesh for the mesh before the run [default: last]
+    /// State: its number from 1, last, t=TIME for the nearest one, or mesh for the mesh before the run; several, with commas
+    /// between, side by side in one picture [default: last]
     #[arg(short, long, value_name = "STATE", conflicts_with = "time")]
     pub state: Option<String>,
     /// State nearest to a time
@@ -162,9 +169,24 @@ pub struct View {
     /// Factor on displacements
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub magnify: f64,
-    /// Shows the mirror image of a half or quarter model too: any of x, y, z
-    #[arg(long, value_name = "AXES", default_value = "", hide_default_value = true)]
+    /// Shows the mirror image of a half or quarter model too: any of x, y, z; or with their places, such as x=5,z=0
+    #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
     pub mirror: String,
+    /// Draws these blocks only
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub block: Vec<i64>,
+    /// Leaves these blocks out
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub hide: Vec<i64>,
+    /// Takes off what stands between a plane and the eye, and shows the section: z=50, or several planes with commas between
+    #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
+    pub cut: String,
+    /// Draws a nodal vector, such as VEL or CONT, as arrows too
+    #[arg(long, value_name = "NAME")]
+    pub arrows: Option<String>,
+    /// Colours: sequential from dark to light, diverging from white at zero; else as suits the signs of the values
+    #[arg(long, value_name = "NAME")]
+    pub map: Option<MapName>,
     /// Range of colours: LOW,HIGH
     #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true)]
     pub range: Option<String>,
@@ -174,7 +196,7 @@ pub struct View {
     /// Leaves out element edges
     #[arg(long)]
     pub no_edges: bool,
-    /// All states as an animated GIF
+    /// All states as an animated GIF; with -o NAME.png as numbered pictures
     #[arg(long)]
     pub animate: bool,
 }
@@ -262,6 +284,15 @@ pub struct Plot {
     /// Lists what there is to plot; draws nothing
     #[arg(long)]
     pub list: bool,
+}
+
+/// Maps of colours that `view` knows.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum MapName {
+    /// From dark to light
+    Sequential,
+    /// From white at zero both ways
+    Diverging,
 }
 
 /// Compares two EXODUS files: 0 same, 1 differ, 2 cannot compare

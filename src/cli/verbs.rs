@@ -1,12 +1,11 @@
-//! The smaller verbs: explain, mesh, view, diff, join, generate.
+//! The smaller verbs: explain, mesh, diff, join, generate.
 
 use super::options::{self, Generated};
 use super::outputs::{ANOTHER_NAME, Inputs};
 use super::terminal::{complain, print, say};
 use super::{DONE, FAILED, Failure};
 use crate::output::GLOBAL_VARIABLES;
-use crate::view::{Direction, StateChoice, ViewError, ViewOptions};
-use crate::{deck, exodus, mesher, view};
+use crate::{deck, exodus, mesher};
 use std::path::PathBuf;
 
 /// `urto explain`
@@ -39,7 +38,9 @@ fn overview() -> String {
 /// `urto mesh`
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
-    let (mesh, files) = super::input::make_mesh(recipe, options.refine, options.ranks)?;
+    let given = super::input::definitions(&options.define)?;
+    let (mesh, files) = super::input::make_mesh(recipe, options.refine, &given, options.ranks)?;
+    super::input::all_used(&given)?;
     let output = options
         .output
         .clone()
@@ -49,73 +50,6 @@ pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let (nodes, elements, blocks) = (mesh.coordinates.len(), mesh.element_count(), mesh.blocks.len());
     say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s)", output.display()));
     Ok(DONE)
-}
-
-/// `urto view`
-pub fn view(options: &options::View) -> Result<u8, Failure> {
-    let suffix = if options.animate { "gif" } else { "png" };
-    let output = options
-        .output
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(options.results.file_name().unwrap_or_default()).with_extension(suffix));
-    let kinds = if options.animate { &["gif", "png"][..] } else { &["png"] };
-    if !kinds.iter().any(|kind| output.extension().is_some_and(|given| given.eq_ignore_ascii_case(kind))) {
-        let wrong =
-            format_args!("error: cannot draw into {}; expected a name with .{suffix}", output.display()).to_string();
-        let help = if options.animate { "" } else { "\nhelp: --animate makes a moving .gif of all states" };
-        return Err(Failure::input(wrong + help));
-    }
-    let wanted = view_options(options)?;
-    Inputs::default().with("the file to draw", [&options.results]).spare([&output], ANOTHER_NAME)?;
-    if options.animate {
-        let frames =
-            view::draw_many(&options.results, &output, std::num::NonZeroUsize::MIN, &wanted).map_err(not_drawn)?;
-        say(format_args!("{}: {} states", output.display(), frames.len()));
-        return Ok(DONE);
-    }
-    let summary = view::draw(&options.results, &output, &wanted).map_err(not_drawn)?;
-    let variable = summary.variable.unwrap_or("blocks".into());
-    let time = summary.time.map_or(String::new(), |t| format!(" at time {t:.6e}"));
-    say(format_args!("{}: {variable}{time}", summary.path.display()));
-    Ok(DONE)
-}
-
-/// A picture that cannot be written is no fault of the input.
-fn not_drawn(error: ViewError) -> Failure {
-    match error {
-        ViewError::Write { .. } => Failure::run(format_args!("error: {error}")),
-        _ => Failure::input_error(error),
-    }
-}
-
-fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
-    let pair = |name: &str, text: &str, separator: char| {
-        let numbers = text
-            .split_once(separator)
-            .and_then(|(a, b)| Some((a.trim().parse::<f64>().ok()?, b.trim().parse::<f64>().ok()?)));
-        numbers.ok_or_else(|| {
-            Failure::input(format_args!("error: --{name} is {text}; expected two numbers with {separator:?} between"))
-        })
-    };
-    let (width, height) = pair("size", &options.size, 'x')?;
-    if let Some(other) = options.mirror.chars().find(|c| !"xyzXYZ".contains(*c)) {
-        return Err(Failure::input(format_args!("error: --mirror has {other:?}; expected any of x, y and z")));
-    }
-    Ok(ViewOptions {
-        variable: options.variable.clone(),
-        state: match (&options.state, options.time) {
-            (Some(text), _) => text.parse::<StateChoice>().map_err(Failure::input_error)?,
-            (None, Some(time)) => StateChoice::Nearest(time),
-            (None, None) => StateChoice::Last,
-        },
-        from: options.from.parse::<Direction>().map_err(Failure::input_error)?,
-        size: (width as u32, height as u32),
-        magnify: options.magnify,
-        mirror: ['x', 'y', 'z'].map(|axis| options.mirror.to_ascii_lowercase().contains(axis)),
-        range: options.range.as_deref().map(|text| pair("range", text, ',')).transpose()?,
-        edges: !options.no_edges,
-        ..ViewOptions::default()
-    })
 }
 
 /// `urto diff`

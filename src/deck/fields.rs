@@ -9,7 +9,7 @@ use super::{
     spelling,
     value::{self, Wrong},
 };
-use crate::material::Range;
+use crate::vocabulary::Range;
 
 /// Reads fields by rules and gathers what is wrong.
 pub struct FieldReader<'a> {

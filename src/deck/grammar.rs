@@ -34,7 +34,7 @@ use super::{
     fields::FieldReader,
     source::{Source, Span},
 };
-use crate::material::{Origin, Range};
+use crate::vocabulary::{Origin, Range};
 
 /// All entries of a language, in the order of the files.
 #[derive(Debug, Clone, Default)]

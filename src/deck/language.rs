@@ -13,6 +13,8 @@ pub const CARDS: &[(&str, &str)] = &[
     ("initial", include_str!("../../grammar/initial.cards")),
     ("contact", include_str!("../../grammar/contact.cards")),
     ("element", include_str!("../../grammar/element.cards")),
+    // What elements bring with them, gathered by the build script.
+    ("element", include_str!(concat!(env!("OUT_DIR"), "/elements.cards"))),
     ("output", include_str!("../../grammar/output.cards")),
 ];
 

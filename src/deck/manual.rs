@@ -214,7 +214,9 @@ mod tests {
     #[test]
     fn every_family_has_a_heading() {
         let families: Vec<&str> = HEADINGS.iter().map(|(family, _)| *family).collect();
-        assert_eq!(families, super::super::CARDS.iter().map(|(family, _)| *family).collect::<Vec<_>>());
+        let mut files: Vec<&str> = super::super::CARDS.iter().map(|(family, _)| *family).collect();
+        files.dedup();
+        assert_eq!(families, files);
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod aprepro;
 mod card;
+mod definitions;
 mod diagnostic;
 mod explain;
 mod fields;
@@ -23,6 +24,7 @@ pub mod spelling;
 mod value;
 
 pub use card::{Card, Item, Row, Value};
+pub use definitions::{Definitions, Given};
 pub use diagnostic::{Diagnostic, Diagnostics, Label, Level};
 pub use explain::{UnknownTopic, explain, explain_in};
 pub use fields::FieldReader;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::definitions::Definitions;
 use super::origin::Origin;
 use crate::files;
 
@@ -15,6 +16,8 @@ pub struct Source {
     origin: Option<Arc<Origin>>,
     /// Names that have a value in its expressions from the start.
     names: Vec<(String, u32)>,
+    /// Values from the command line, which stand for those of assignments.
+    given: Option<Arc<Definitions>>,
 }
 
 /// A stretch of the text, from byte `start` up to but not including byte `end`.
@@ -38,7 +41,7 @@ impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
         let text = lines_end_in_line_feeds(text.into());
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Source { name: name.into(), text, line_starts, origin: None, names: Vec::new() }
+        Source { name: name.into(), text, line_starts, origin: None, names: Vec::new(), given: None }
     }
 
     /// Evaluated text.
@@ -64,6 +67,17 @@ impl Source {
     pub fn with_value(mut self, name: &str, value: u32) -> Source {
         self.names.push((name.to_string(), value));
         self
+    }
+
+    /// The same text, in whose expressions these names have these values, whatever it assigns to them.
+    pub fn with_definitions(mut self, given: &Arc<Definitions>) -> Source {
+        self.given = Some(given.clone());
+        self
+    }
+
+    /// Values from the command line.
+    pub(super) fn definitions(&self) -> Option<&Arc<Definitions>> {
+        self.given.as_ref()
     }
 
     /// The names of all files that the text was made from: itself, and what it includes.

@@ -139,7 +139,8 @@ fn mesh_difference(a: &Mesh, b: &Mesh) -> Option<String> {
         .or_else(|| (a.element_ids != b.element_ids).then(|| "the elements are numbered differently".into()))
         .or_else(|| {
             a.blocks.iter().zip(&b.blocks).find_map(|(a, b)| {
-                (a.id != b.id || a.connectivity != b.connectivity).then(|| format!("block {} is not the same", a.id))
+                (a.id != b.id || a.shape != b.shape || a.nodes != b.nodes)
+                    .then(|| format!("block {} is not the same", a.id))
             })
         })
         .or_else(|| {

@@ -146,6 +146,12 @@ pub fn block_nodes_per_element(block: usize) -> String {
 pub fn connectivity(block: usize) -> String {
     format!("connect{}", block + 1)
 }
+pub fn block_attributes(block: usize) -> String {
+    format!("num_att_in_blk{}", block + 1)
+}
+pub fn attributes(block: usize) -> String {
+    format!("attrib{}", block + 1)
+}
 pub fn node_set_size(set: usize) -> String {
     format!("num_nod_ns{}", set + 1)
 }

@@ -322,6 +322,10 @@ impl Reader<'_, '_> {
             Some(&[_, nodes_per_element]) => {
                 block.nodes_per_element = nodes_per_element;
                 block.connectivity = self.required(&variable, &format!("block {id}"));
+                match self.arrays.reals(&names::attributes(n)) {
+                    Ok(attributes) => block.attributes = attributes.unwrap_or_default(),
+                    Err(reason) => self.problem(format!("block {id}: {reason}")),
+                }
             }
             Some(shape) => {
                 self.problem(format!("block {id}: {variable} has the shape {shape:?}, it must be elements by nodes"))

@@ -4,8 +4,9 @@
 
 use super::names;
 use crate::mesh::check::{Problem, Problems, counted};
-use crate::mesh::shape::Shape;
-use crate::mesh::{Block, HEX_SIDES, Mesh, NodeSet, SideSet};
+use crate::mesh::exterior::SIDES;
+use crate::mesh::hexahedron::Form;
+use crate::mesh::{Block, Kind, Mesh, NodeSet, Shape, SideSet};
 
 /// How many bad references of one array are named one by one before the rest is summed up.
 const NAMED_PER_ARRAY: usize = 3;
@@ -52,6 +53,8 @@ pub struct BlockTable {
     pub nodes_per_element: usize,
     /// Node positions, one-based, element by element.
     pub connectivity: Vec<i64>,
+    /// Attributes, element by element; empty when there are none.
+    pub attributes: Vec<f64>,
 }
 
 /// One node set's arrays.
@@ -109,7 +112,7 @@ impl Tables {
         let element_ids = numbers("element", self.element_ids, elements, &mut problems);
 
         unique("block", self.blocks.iter().map(|b| b.id), &mut problems);
-        let shapes: Vec<(usize, Option<Shape>)> = self.blocks.iter().map(|b| (b.len(), b.accepted())).collect();
+        let kinds: Vec<(usize, Option<Kind>)> = self.blocks.iter().map(|b| (b.len(), b.accepted())).collect();
         let mut ids = element_ids.iter();
         let blocks = self.blocks.into_iter().map(|b| b.assemble(nodes, &mut ids, &mut problems)).collect();
         let weighted = [
@@ -119,7 +122,7 @@ impl Tables {
         unique("node set", self.node_sets.iter().map(|s| s.id), &mut problems);
         let node_sets = self.node_sets.into_iter().map(|s| s.assemble(nodes, &mut problems)).collect();
         unique("side set", self.side_sets.iter().map(|s| s.id), &mut problems);
-        let side_sets = self.side_sets.into_iter().map(|s| s.assemble(elements, &shapes, &mut problems)).collect();
+        let side_sets = self.side_sets.into_iter().map(|s| s.assemble(elements, &kinds, &mut problems)).collect();
 
         if !problems.is_empty() {
             return Err(problems);
@@ -179,20 +182,17 @@ impl BlockTable {
     }
 
     /// What the elements are by type name, with or without the number of nodes in it; without a type by the number of
-    /// nodes. `None` when they are of no kind that can be computed with.
-    pub(super) fn shape(&self) -> Option<Shape> {
-        let stems =
-            [(Shape::Hexahedron, "HEX"), (Shape::Wedge, "WED"), (Shape::Pyramid, "PYR"), (Shape::Tetrahedron, "TET")];
-        let fits = |&&(shape, stem): &&(Shape, &str)| {
-            let named = self.begins_with(stem) || (self.element_type.is_empty() && shape == Shape::Hexahedron);
-            named && self.nodes_per_element == shape.nodes()
-        };
-        stems.iter().find(fits).map(|&(shape, _)| shape)
+    /// nodes. `None` when they are of no kind that is known.
+    pub(super) fn kind(&self) -> Option<Kind> {
+        let name = self.element_type.to_ascii_uppercase();
+        Kind::ALL.into_iter().find(|kind| kind.is_named(&name) && kind.nodes() == self.nodes_per_element)
     }
 
-    /// The same, but for tetrahedra: see [`BlockTable::unsupported`].
-    fn accepted(&self) -> Option<Shape> {
-        self.shape().filter(|shape| *shape != Shape::Tetrahedron)
+    /// The same, but for what is not computed with: see [`BlockTable::unsupported`].
+    fn accepted(&self) -> Option<Kind> {
+        self.kind().filter(|kind| {
+            matches!(kind, Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid) | Kind::Other(Shape::Bar))
+        })
     }
 
     fn begins_with(&self, stem: &str) -> bool {
@@ -205,31 +205,37 @@ impl BlockTable {
         element_ids: &mut impl Iterator<Item = &'a i64>,
         problems: &mut Problems,
     ) -> Block {
-        let empty = Block { id: self.id, name: self.name.clone(), connectivity: Vec::new() };
+        let mut block = Block { id: self.id, name: self.name.clone(), ..Block::default() };
         if self.connectivity.is_empty() {
-            return empty;
+            return block;
         }
-        let Some(shape) = self.accepted() else {
+        let Some(kind) = self.accepted() else {
             problems.add(|| self.unsupported());
             element_ids.by_ref().take(self.len()).for_each(drop);
-            return empty;
+            return block;
         };
+        block.shape = kind.shape();
+        block.attributes = self.attributes;
         let mut references = References::new(format!("block {}", self.id), Target::Node, nodes, problems);
-        let connectivity = self.connectivity.chunks_exact(shape.nodes()).zip(element_ids).map(|(given, id)| {
-            let mut own = [0; 8];
+        let mut own = vec![0; kind.nodes()];
+        for (given, id) in self.connectivity.chunks_exact(kind.nodes()).zip(element_ids) {
             for (corner, (own, &given)) in own.iter_mut().zip(given).enumerate() {
                 *own = references.resolve(given, || format!(", element {id}: its node {}", corner + 1));
             }
-            shape.corners().map(|node| own[node])
-        });
-        let connectivity = connectivity.collect();
+            block.nodes.extend(kind.expand(&own));
+        }
         references.sum_up();
-        Block { connectivity, ..empty }
+        if !block.attributes.len().is_multiple_of(block.len()) {
+            let (count, of) = (block.attributes.len(), block.len());
+            let what = format!("block {}: {} for {}", block.id, counted(count, "attribute"), counted(of, "element"));
+            problems.add(|| Problem::new(what, "write the mesh again"));
+        }
+        block
     }
 
     /// Why this block's elements are refused, and what would be accepted.
     fn unsupported(&self) -> Problem {
-        if self.shape() == Some(Shape::Tetrahedron) {
+        if self.kind() == Some(Kind::Solid(Form::Tetrahedron)) {
             return Problem::new(
                 format!(
                     "block {}: linear tetrahedra are not taken: with one point of integration each they lock in plastic \
@@ -266,8 +272,8 @@ impl NodeSetTable {
 }
 
 impl SideSetTable {
-    /// `shapes` are the number of elements and their shape, block by block.
-    fn assemble(self, elements: usize, shapes: &[(usize, Option<Shape>)], problems: &mut Problems) -> SideSet {
+    /// `kinds` are the number of elements and what they are, block by block.
+    fn assemble(self, elements: usize, kinds: &[(usize, Option<Kind>)], problems: &mut Problems) -> SideSet {
         let place = format!("side set {}", self.id);
         let counts = (self.elements.len(), self.sides.len());
         if counts.0 != counts.1 {
@@ -275,15 +281,15 @@ impl SideSetTable {
             problems.add(|| Problem::new(what, "write the mesh again"));
         }
         let faces = References::new(place.clone(), Target::Element, elements, problems).resolve_all(&self.elements);
-        let given = References::new(place.clone(), Target::Side, HEX_SIDES.len(), problems).resolve_all(&self.sides);
+        let given = References::new(place.clone(), Target::Side, SIDES, problems).resolve_all(&self.sides);
         let mut sides = Vec::with_capacity(faces.len());
         for (element, side) in faces.into_iter().zip(given) {
-            let shape = shape_of(element, shapes).unwrap_or(Shape::Hexahedron);
-            match shape.sides().get(side as usize) {
+            let kind = kind_of(element, kinds).unwrap_or(Kind::Solid(Form::Hexahedron));
+            match kind.sides().get(side as usize) {
                 Some(&side) => sides.push((element, side)),
                 None => problems.add(|| {
                     let what = format!("{place}: side {} of the element at place {}", side + 1, element + 1);
-                    Problem::new(what, format!("the sides of a {} are 1 to {}", shape.name(), shape.sides().len()))
+                    Problem::new(what, format!("the sides of a {} are 1 to {}", kind.name(), kind.sides().len()))
                 }),
             }
         }
@@ -291,12 +297,12 @@ impl SideSetTable {
     }
 }
 
-/// The shape of an element by its place in the file.
-fn shape_of(element: u32, shapes: &[(usize, Option<Shape>)]) -> Option<Shape> {
+/// What an element is, by its place in the file.
+fn kind_of(element: u32, kinds: &[(usize, Option<Kind>)]) -> Option<Kind> {
     let mut rest = element as usize;
-    for &(count, shape) in shapes {
+    for &(count, kind) in kinds {
         if rest < count {
-            return shape;
+            return kind;
         }
         rest -= count;
     }

@@ -83,7 +83,7 @@ pub(super) struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn create(path: &Path, mesh: &'a Mesh, contents: &'a Contents) -> netcdf::Result<Self> {
         let wide = needs_64_bit_numbers(mesh);
-        let large = mesh.blocks.iter().any(|b| b.connectivity.len() * 32 >= LARGE_VARIABLE)
+        let large = mesh.blocks.iter().any(|b| b.nodes.len() * 4 >= LARGE_VARIABLE)
             || mesh.coordinates.len() * 8 >= LARGE_VARIABLE;
         let format = if wide || large { Options::_64BIT_DATA } else { Options::_64BIT_OFFSET };
         let file = netcdf::create_with(path, format)?;
@@ -180,12 +180,17 @@ impl<'a> Writer<'a> {
             self.variable::<f64>(name, &[names::NUM_NODES])?;
         }
         self.define_family(&names::BLOCKS, mesh.blocks.len())?;
-        for (n, block) in mesh.blocks.iter().enumerate().filter(|(_, block)| !block.connectivity.is_empty()) {
+        for (n, block) in mesh.blocks.iter().enumerate().filter(|(_, block)| !block.is_empty()) {
             let dimensions = [names::block_elements(n), names::block_nodes_per_element(n)];
-            self.dimensions(&[(&dimensions[0], block.connectivity.len()), (&dimensions[1], 8)])?;
+            self.dimensions(&[(&dimensions[0], block.len()), (&dimensions[1], block.shape.corners())])?;
             let mut variable =
                 self.file.add_variable::<i32>(&names::connectivity(n), &[&dimensions[0], &dimensions[1]])?;
-            variable.put_attribute(names::ELEMENT_TYPE, "HEX8")?;
+            variable.put_attribute(names::ELEMENT_TYPE, block.shape.exodus_name())?;
+            if !block.attributes.is_empty() {
+                let count = names::block_attributes(n);
+                self.dimensions(&[(&count, block.attributes_of(0).len())])?;
+                self.variable::<f64>(&names::attributes(n), &[&dimensions[0], &count])?;
+            }
         }
         self.define_family(&names::NODE_SETS, mesh.node_sets.len())?;
         for (n, set) in mesh.node_sets.iter().enumerate().filter(|(_, set)| !set.nodes.is_empty()) {
@@ -232,7 +237,7 @@ impl<'a> Writer<'a> {
             self.variable::<Character>(names::ELEMENT_NAMES, &[names::NUM_ELEMENT_VARIABLES, names::LEN_NAME])?;
             self.variable::<i32>(names::TRUTH_TABLE, &[names::NUM_BLOCKS, names::NUM_ELEMENT_VARIABLES])?;
             for v in 0..contents.element.len() {
-                for (b, _) in self.mesh.blocks.iter().enumerate().filter(|(_, b)| !b.connectivity.is_empty()) {
+                for (b, _) in self.mesh.blocks.iter().enumerate().filter(|(_, b)| !b.is_empty()) {
                     let size = names::block_elements(b);
                     self.variable::<f64>(&names::element_values(v, b), &[names::TIME_STEP, &size])?;
                 }
@@ -303,7 +308,7 @@ impl<'a> Writer<'a> {
         self.put_names(names::GLOBAL_NAMES, contents.global.iter().map(String::as_str))?;
         self.put_names(names::NODAL_NAMES, contents.nodal.iter().map(String::as_str))?;
         self.put_names(names::ELEMENT_NAMES, contents.element.iter().map(String::as_str))?;
-        let present = |b: &crate::mesh::Block| vec![i32::from(!b.connectivity.is_empty()); contents.element.len()];
+        let present = |b: &crate::mesh::Block| vec![i32::from(!b.is_empty()); contents.element.len()];
         let truth: Vec<i32> = self.mesh.blocks.iter().flat_map(present).collect();
         if truth.is_empty() { Ok(()) } else { self.values(names::TRUTH_TABLE, &truth) }
     }
@@ -321,10 +326,13 @@ impl<'a> Writer<'a> {
     fn put_blocks(&mut self) -> netcdf::Result<()> {
         let mesh = self.mesh;
         self.put_numbers(names::ELEMENT_IDS, &mesh.element_ids)?;
-        let list = mesh.blocks.iter().map(|b| (b.id, b.name.as_str(), !b.connectivity.is_empty()));
+        let list = mesh.blocks.iter().map(|b| (b.id, b.name.as_str(), !b.is_empty()));
         self.put_family(&names::BLOCKS, list)?;
-        for (n, block) in mesh.blocks.iter().enumerate().filter(|(_, block)| !block.connectivity.is_empty()) {
-            self.values(&names::connectivity(n), &one_based(block.connectivity.as_flattened()))?;
+        for (n, block) in mesh.blocks.iter().enumerate().filter(|(_, block)| !block.is_empty()) {
+            self.values(&names::connectivity(n), &one_based(&block.nodes))?;
+            if !block.attributes.is_empty() {
+                self.values(&names::attributes(n), &block.attributes)?;
+            }
         }
         Ok(())
     }

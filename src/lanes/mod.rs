@@ -55,6 +55,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Elements per chunk. Element data is stored as rows of this many values, one per element.
 pub const CHUNK: usize = 8;
 
+/// Corners of an element at most.
+pub const MOST_CORNERS: usize = 8;
+
 /// One quantity of the eight elements of a chunk, or the eight numbers of a node; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(64))]
@@ -115,7 +118,7 @@ pub trait Lanes:
     /// of every fetched row.
     fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8];
     /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize);
+    fn spread(force: [Self; 3], out: &mut [[Force; MOST_CORNERS]; CHUNK], corner: usize, part: usize);
 }
 
 /// Bits of the part of a double that is not its exponent.
@@ -127,15 +130,20 @@ const WHOLE: f64 = 4_503_599_627_370_496.0;
 /// Exponent that stands for 2⁰.
 const BIAS: f64 = 1023.0;
 
-/// Instruction sets for which kernels are compiled.
+/// A set of vector instructions for which kernels are compiled and which this processor has: there is no other way to get
+/// one than to ask what there is, so that no safe call reaches instructions that are missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub enum InstructionSet {
+pub struct InstructionSet(Vectors);
+
+/// The vectors of an [`InstructionSet`], from the narrowest to the widest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) enum Vectors {
     /// Whatever the target guarantees.
     #[default]
     Portable,
-    /// 256-bit vectors.
+    /// 256 bits.
     Avx2,
-    /// 512-bit vectors.
+    /// 512 bits.
     Avx512,
 }
 
@@ -145,39 +153,46 @@ impl InstructionSet {
     pub fn detect() -> InstructionSet {
         let widest = InstructionSet::widest();
         match std::env::var("URTO_SIMD").as_deref() {
-            Ok("portable") => InstructionSet::Portable,
-            Ok("avx2") if widest != InstructionSet::Portable => InstructionSet::Avx2,
+            Ok("portable") => InstructionSet(Vectors::Portable),
+            Ok("avx2") => widest.min(InstructionSet(Vectors::Avx2)),
             _ => widest,
         }
     }
 
-    /// The widest set this processor has.
-    #[cfg(target_arch = "x86_64")]
-    pub fn widest() -> InstructionSet {
-        let avx512 = is_x86_feature_detected!("avx512f")
-            && is_x86_feature_detected!("avx512dq")
-            && is_x86_feature_detected!("avx512vl");
-        if avx512 {
-            InstructionSet::Avx512
-        } else if is_x86_feature_detected!("avx2") {
-            InstructionSet::Avx2
-        } else {
-            InstructionSet::Portable
-        }
+    /// All sets that this processor has, from the narrowest to the widest.
+    pub fn available() -> impl Iterator<Item = InstructionSet> {
+        let all = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512].map(InstructionSet);
+        all.into_iter().filter(|set| *set <= InstructionSet::widest())
     }
 
-    /// The widest set this processor has.
-    #[cfg(not(target_arch = "x86_64"))]
+    /// The widest set that this processor has.
     pub fn widest() -> InstructionSet {
-        InstructionSet::Portable
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx512 = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl");
+            if avx512 && is_x86_feature_detected!("avx2") {
+                return InstructionSet(Vectors::Avx512);
+            }
+            if is_x86_feature_detected!("avx2") {
+                return InstructionSet(Vectors::Avx2);
+            }
+        }
+        InstructionSet(Vectors::Portable)
+    }
+
+    /// The vectors that may be used.
+    pub(crate) fn vectors(self) -> Vectors {
+        self.0
     }
 
     /// Name for the print log.
     pub fn name(self) -> &'static str {
-        match self {
-            InstructionSet::Portable => "portable",
-            InstructionSet::Avx2 => "AVX2",
-            InstructionSet::Avx512 => "AVX-512",
+        match self.0 {
+            Vectors::Portable => "portable",
+            Vectors::Avx2 => "AVX2",
+            Vectors::Avx512 => "AVX-512",
         }
     }
 }

@@ -135,11 +135,11 @@ fn all_operate(a: &Row, b: &Row, c: &Row) -> Vec<Vec<Row>> {
     let mut all = vec![operate::<f64>(a, b, c), operate::<Pair>(a, b, c)];
     #[cfg(target_arch = "x86_64")]
     {
-        if InstructionSet::widest() != InstructionSet::Portable {
+        if InstructionSet::widest().vectors() != Vectors::Portable {
             // SAFETY: detected.
             all.push(unsafe { wide::operate256(a, b, c) });
         }
-        if InstructionSet::widest() == InstructionSet::Avx512 {
+        if InstructionSet::widest().vectors() == Vectors::Avx512 {
             // SAFETY: detected.
             all.push(unsafe { wide::operate512(a, b, c) });
         }
@@ -151,11 +151,11 @@ fn all_any(a: &Row, b: &Row) -> Vec<bool> {
     let mut all = vec![any::<f64>(a, b), any::<Pair>(a, b)];
     #[cfg(target_arch = "x86_64")]
     {
-        if InstructionSet::widest() != InstructionSet::Portable {
+        if InstructionSet::widest().vectors() != Vectors::Portable {
             // SAFETY: detected.
             all.push(unsafe { wide::any256(a, b) });
         }
-        if InstructionSet::widest() == InstructionSet::Avx512 {
+        if InstructionSet::widest().vectors() == Vectors::Avx512 {
             // SAFETY: detected.
             all.push(unsafe { wide::any512(a, b) });
         }
@@ -167,11 +167,11 @@ fn all_turn(rows: &[Row], index: &[u32; CHUNK]) -> Vec<(Vec<Row>, [[Force; 8]; C
     let mut all = vec![turn::<f64>(rows, index), turn::<Pair>(rows, index)];
     #[cfg(target_arch = "x86_64")]
     {
-        if InstructionSet::widest() != InstructionSet::Portable {
+        if InstructionSet::widest().vectors() != Vectors::Portable {
             // SAFETY: detected.
             all.push(unsafe { wide::turn256(rows, index) });
         }
-        if InstructionSet::widest() == InstructionSet::Avx512 {
+        if InstructionSet::widest().vectors() == Vectors::Avx512 {
             // SAFETY: detected.
             all.push(unsafe { wide::turn512(rows, index) });
         }

@@ -22,6 +22,7 @@ mod soil;
 mod tests;
 mod viscoplastic;
 
+pub use crate::vocabulary::{Origin, Property, Range, StateVariable};
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;
 pub use ep_hydrodynamic::ElasticPlasticHydrodynamic;
@@ -32,7 +33,7 @@ pub use low_density_foam::LowDensityFoam;
 pub use mooney_rivlin::MooneyRivlin;
 pub use orthotropic_crush::OrthotropicCrush;
 pub use power_hardening::PowerHardening;
-pub use property::{Curve, Given, Origin, Property, Range, Refusal, StateVariable};
+pub use property::{Curve, Given, Refusal};
 pub use soil::Soil;
 pub use viscoplastic::Viscoplastic;
 

@@ -1,15 +1,14 @@
 //! Is a mesh fit to compute with? Finds what an analyst must mend, in the analyst's numbers.
 
-use super::{Mesh, shape};
+use super::Mesh;
+use super::hexahedron::{self, Form};
+
+pub use super::hexahedron::hexahedron_volume;
 
 /// How many problems are told in full; the rest are counted.
 const LISTED: usize = 20;
 /// How many elements with the same fault are named one by one before the rest of their block is summed up.
 const NAMED_PER_BLOCK: usize = 3;
-
-/// Less than this part of an eighth of its element's mass makes a node of a collapsed element too light: a fifth of what
-/// a regular pyramid leaves its apex.
-const LEAST_SHARE: f64 = 0.1;
 
 /// One element of a block in so many may be a tetrahedron.
 const MOST_TETRAHEDRA: usize = 10;
@@ -103,10 +102,10 @@ fn coordinates(mesh: &Mesh, problems: &mut Problems) {
 /// Tetrahedra lock; a few in a block do no harm.
 fn tetrahedra(mesh: &Mesh, problems: &mut Problems) {
     for block in &mesh.blocks {
-        let found = block.connectivity.iter().filter(|nodes| shape::kind(nodes) == shape::Shape::Tetrahedron).count();
-        if found * MOST_TETRAHEDRA > block.connectivity.len() {
+        let found = block.hexahedra().iter().filter(|nodes| hexahedron::form(nodes) == Form::Tetrahedron).count();
+        if found * MOST_TETRAHEDRA > block.len() {
             problems.add(|| {
-                let of = block.connectivity.len();
+                let of = block.len();
                 Problem::new(
                     format!(
                         "block {}: {found} of its {of} elements are tetrahedra; they lock in plastic flow and when nearly \
@@ -124,11 +123,11 @@ fn volumes(mesh: &Mesh, problems: &mut Problems) {
     let mut ids = mesh.element_ids.iter();
     for block in &mesh.blocks {
         let mut faulty = 0;
-        for (nodes, id) in block.connectivity.iter().zip(&mut ids) {
-            let corners = nodes.map(|n| mesh.coordinates[n as usize]);
-            let Some(Problem { what, help }) = fault(mesh, nodes, &corners) else { continue };
+        for (nodes, id) in block.elements().zip(&mut ids) {
+            let Some(Problem { what, help }) = block.shape.fault(mesh, nodes) else { continue };
             faulty += 1;
             if faulty <= NAMED_PER_BLOCK {
+                let corners: Vec<[f64; 3]> = nodes.iter().map(|&n| mesh.coordinates[n as usize]).collect();
                 let place = point(centre(&corners));
                 problems
                     .add(|| Problem::new(format!("block {}, element {id}: {what}; centre {place}", block.id), help));
@@ -141,7 +140,7 @@ fn volumes(mesh: &Mesh, problems: &mut Problems) {
                         "block {}: {faulty} of its {} elements cannot be computed with, the first {NAMED_PER_BLOCK} are \
                          named above",
                         block.id,
-                        block.connectivity.len()
+                        block.len()
                     ),
                     "",
                 )
@@ -150,78 +149,8 @@ fn volumes(mesh: &Mesh, problems: &mut Problems) {
     }
 }
 
-/// Why an element cannot be computed with, if it cannot.
-fn fault(mesh: &Mesh, nodes: &[u32; 8], corners: &[[f64; 3]; 8]) -> Option<Problem> {
-    let volume = hexahedron_volume(corners);
-    if volume <= smallest_volume(corners) || volume.is_nan() {
-        let what = format!("its volume is {}, it must be positive", short(volume));
-        return Some(Problem::new(what, volume_hint(mesh, nodes, corners, volume)));
-    }
-    if !shape::is_collapsed(nodes) {
-        return None;
-    }
-    if let Some(node) = shape::pinched_at(nodes) {
-        let what = format!("node {} stands at corners that no edge joins", mesh.node_ids[node as usize]);
-        return Some(Problem::new(what, "only the ends of edges may be one node, as in wedges and pyramids"));
-    }
-    let least = shape::least_share(nodes, &shape::mass_shares(nodes, corners));
-    (least.is_nan() || least < LEAST_SHARE).then(|| {
-        Problem::new(
-            "it is so distorted that one of its nodes would have hardly any of its mass",
-            "give it a shape nearer to that of a regular wedge or pyramid",
-        )
-    })
-}
-
-/// What may be wrong with an element that has no positive volume.
-fn volume_hint(mesh: &Mesh, nodes: &[u32; 8], corners: &[[f64; 3]; 8], volume: f64) -> String {
-    let repeated = (1..8).find(|&i| nodes[..i].contains(&nodes[i]));
-    let [a, b, c, d, e, f, g, h] = *corners;
-    let upside_down = [e, f, g, h, a, b, c, d];
-    match repeated {
-        Some(_) if volume < 0.0 => {
-            "its base must turn counter-clockwise seen from its apex, a wedge's first triangle seen from \
-                                    the second"
-                .into()
-        }
-        Some(i) => format!("node {} appears more than once among its nodes", mesh.node_ids[nodes[i] as usize]),
-        None if volume < 0.0 && hexahedron_volume(&upside_down) > 0.0 => {
-            "nodes 1-2-3-4 must turn counter-clockwise seen from nodes 5-6-7-8; here the two faces are exchanged \
-             or the mesh is mirrored"
-                .into()
-        }
-        None => "the element is flat or twisted; look at the positions and the order of its nodes".into(),
-    }
-}
-
-/// Exact volume of the trilinear hexahedron, equal to the mean-quadrature volume of Flanagan and Belytschko (1981).
-///
-/// By the divergence theorem it is the sum over the six faces of the volume between the face and the first corner;
-/// for a bilinear face that is the mean of the two ways to cut it into triangles.
-pub fn hexahedron_volume(corners: &[[f64; 3]; 8]) -> f64 {
-    let from_first = corners.map(|c| [c[0] - corners[0][0], c[1] - corners[0][1], c[2] - corners[0][2]]);
-    let six_fold = |a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]| {
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-    };
-    let mut sum = 0.0;
-    for face in &super::HEX_SIDES {
-        let [a, b, c, d] = face.map(|i| &from_first[i]);
-        sum += six_fold(a, b, c) + six_fold(a, c, d) + six_fold(a, b, d) + six_fold(b, c, d);
-    }
-    sum / 12.0
-}
-
-/// The volume below which an element counts as flat: round-off of the cube of its extent.
-fn smallest_volume(corners: &[[f64; 3]; 8]) -> f64 {
-    let extent = (0..3).map(|axis| {
-        let values = corners.iter().map(|c| c[axis]);
-        values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
-    });
-    4.0 * f64::EPSILON * extent.fold(0.0, f64::max).powi(3)
-}
-
-fn centre(corners: &[[f64; 3]; 8]) -> [f64; 3] {
-    [0, 1, 2].map(|axis| corners.iter().map(|c| c[axis]).sum::<f64>() / 8.0)
+fn centre(corners: &[[f64; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| corners.iter().map(|c| c[axis]).sum::<f64>() / corners.len() as f64)
 }
 
 fn point(p: [f64; 3]) -> String {
@@ -229,7 +158,7 @@ fn point(p: [f64; 3]) -> String {
 }
 
 /// A number with five significant digits, without an exponent where it reads well.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     let plain = rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs());
     if plain { format!("{rounded}") } else { format!("{rounded:e}") }
@@ -297,7 +226,7 @@ mod tests {
             node_ids: (1..=29).collect(),
             element_ids: (11..=16).collect(),
             coordinates,
-            blocks: vec![Block { id: 3, name: String::new(), connectivity: (0..6).map(element).collect() }],
+            blocks: vec![Block::hexahedra_of(3, (0..6).map(element))],
             ..Mesh::default()
         }
     }

@@ -1,6 +1,7 @@
 //! Which element a point lies in.
 
-use super::{HEX_SIDES, Mesh};
+use super::{Mesh, Shape};
+use crate::vector::{add, cross, dot, subtract};
 
 /// An element that holds a point, or is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,9 +17,11 @@ pub struct Located {
 /// Outside the mesh it is the element whose farthest violated face is nearest. `None` for a mesh without elements.
 pub fn locate(mesh: &Mesh, point: [f64; 3]) -> Option<Located> {
     let mut best: Option<Located> = None;
-    for (element, (_, nodes)) in mesh.elements().enumerate() {
-        let corners = nodes.map(|node| mesh.coordinates[node as usize]);
-        let outside = distance(&corners, point);
+    let mut corners: Vec<[f64; 3]> = Vec::new();
+    for (element, (shape, nodes)) in mesh.shaped().enumerate() {
+        corners.clear();
+        corners.extend(nodes.iter().map(|&node| mesh.coordinates[node as usize]));
+        let outside = distance(shape, &corners, point);
         // Round-off must not make the neighbour of a common face the nearer one.
         let inside = outside <= ROUND_OFF;
         let outside = if inside { 0.0 } else { outside };
@@ -35,22 +38,34 @@ pub fn locate(mesh: &Mesh, point: [f64; 3]) -> Option<Located> {
 /// Points on a face are inside, up to this fraction of the element's size.
 const ROUND_OFF: f64 = 1e-9;
 
+/// How far a point is outside of an element, as a fraction of its size.
+fn distance(shape: Shape, corners: &[[f64; 3]], point: [f64; 3]) -> f64 {
+    let sum = corners.iter().fold([0.0; 3], |sum, corner| add(sum, *corner));
+    let centre = sum.map(|sum| sum / corners.len() as f64);
+    if shape.dimension() == 3 {
+        outside_of_faces(shape, corners, centre, point)
+    } else {
+        beyond(corners, centre, point)
+    }
+}
+
 /// The largest distance of a point outside of a face's plane, over the distance of that plane from the centre.
-fn distance(corners: &[[f64; 3]; 8], point: [f64; 3]) -> f64 {
-    let mean = |places: &[usize]| -> [f64; 3] {
-        [0, 1, 2].map(|i| places.iter().map(|&p| corners[p][i]).sum::<f64>() / places.len() as f64)
-    };
-    let centre = mean(&[0, 1, 2, 3, 4, 5, 6, 7]);
-    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    HEX_SIDES.iter().fold(f64::NEG_INFINITY, |most, side| {
-        let (a, b) = (minus(corners[side[2]], corners[side[0]]), minus(corners[side[3]], corners[side[1]]));
-        let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let face = mean(side);
-        let depth = dot(normal, minus(face, centre));
-        let out = dot(normal, minus(point, face)) / depth;
+fn outside_of_faces(shape: Shape, corners: &[[f64; 3]], centre: [f64; 3], point: [f64; 3]) -> f64 {
+    shape.faces().iter().fold(f64::NEG_INFINITY, |most, side| {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i: usize| corners[side[i.min(side.len() - 1)]]);
+        let normal = cross(subtract(c, a), subtract(d, b));
+        let face = side.iter().fold([0.0; 3], |sum, &corner| add(sum, corners[corner])).map(|x| x / side.len() as f64);
+        let depth = dot(normal, subtract(face, centre));
+        let out = dot(normal, subtract(point, face)) / depth;
         if depth > 0.0 { most.max(out) } else { f64::INFINITY }
     })
+}
+
+/// Distance from the centre of a surface or a bar over that of its farthest corner, less one: it has no inside but itself.
+fn beyond(corners: &[[f64; 3]], centre: [f64; 3], point: [f64; 3]) -> f64 {
+    let square = |a: [f64; 3]| dot(subtract(a, centre), subtract(a, centre));
+    let reach = corners.iter().map(|corner| square(*corner)).fold(0.0, f64::max);
+    if reach > 0.0 { (square(point) / reach).sqrt().max(ROUND_OFF * 2.0) } else { f64::INFINITY }
 }
 
 #[cfg(test)]
@@ -62,15 +77,14 @@ mod tests {
     fn points_are_found_inside_on_faces_and_near() {
         let mesh = mesher::make("BOX, 1, 0, 0, 0, 2, 3, 4, 2, 3, 4\nROTATE, 1, Z, 30.\n", "t", 1).expect("a mesh");
         for (element, (_, nodes)) in mesh.elements().enumerate() {
-            let corners = nodes.map(|node| mesh.coordinates[node as usize]);
+            let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.coordinates[node as usize]).collect();
             // A point nearer to a corner than to the centre.
             let centre = crate::solver::centroid(&corners);
             let point = [0, 1, 2].map(|i| 0.2 * centre[i] + 0.8 * corners[6][i]);
             assert_eq!(locate(&mesh, point), Some(Located { element: element as u32, outside: 0.0 }));
         }
         // On the face between elements 0 and 1, the first of them.
-        let shared: Vec<[f64; 3]> =
-            [1, 2, 5, 6].map(|c| mesh.coordinates[mesh.blocks[0].connectivity[0][c] as usize]).to_vec();
+        let shared: Vec<[f64; 3]> = [1, 2, 5, 6].map(|c| mesh.coordinates[mesh.blocks[0].nodes[c] as usize]).to_vec();
         let point = [0, 1, 2].map(|i| shared.iter().map(|x| x[i]).sum::<f64>() / 4.0);
         assert_eq!(locate(&mesh, point).map(|l| l.element), Some(0));
         // Half an element, which is its whole distance from centre to face, above the top.

@@ -1,18 +1,26 @@
-//! The discretised body: nodes, blocks of hexahedra, node sets and side sets, in the order of the file.
+//! The discretised body: nodes, blocks of elements of one shape each, node sets and side sets, in the order of the file.
 //!
 //! A [`Mesh`] is plain data. It knows neither file formats (`exodus` fills it), nor mechanics (`solver` uses it).
 //! All indices are zero-based positions in the file's order; the numbers an analyst knows are kept beside them
 //! in `node_ids` and `element_ids`.
 
 pub mod check;
+mod connectivity;
 pub mod corners;
+pub mod exterior;
+pub mod hexahedron;
+mod kind;
 pub mod locate;
 mod part;
-pub mod shape;
+mod shape;
 
+pub use connectivity::Connectivity;
+pub use hexahedron::{HEX_SIDES, UNIT_CUBE};
+pub use kind::Kind;
 pub use part::{Part, Places};
+pub use shape::Shape;
 
-/// A mesh of eight-node hexahedra as the analyst's file describes it.
+/// A mesh as the analyst's file describes it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     /// Title of the mesh file, at most 80 characters.
@@ -36,15 +44,53 @@ pub struct Mesh {
     pub weighted: [Vec<i64>; 2],
 }
 
-/// One element block: the elements of one material.
+/// One element block: the elements of one material and one shape.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Block {
     /// The block's number, which a deck's MATERIAL command names.
     pub id: i64,
     /// The block's name, or an empty string.
     pub name: String,
-    /// Eight zero-based node indices per element: 1-2-3-4 around the bottom, 5-6-7-8 above them.
-    pub connectivity: Vec<[u32; 8]>,
+    /// Shape of its elements.
+    pub shape: Shape,
+    /// Zero-based node indices, [`Shape::corners`] of them per element, in the order of EXODUS.
+    pub nodes: Vec<u32>,
+    /// Attributes of the elements as the mesh file gives them, equally many for each, element by element: the thickness
+    /// of a shell, the area of a truss. Empty in a block that has none.
+    pub attributes: Vec<f64>,
+}
+
+impl Block {
+    /// A block of hexahedra, each given by its eight nodes: 1-2-3-4 around the bottom, 5-6-7-8 above them.
+    pub fn hexahedra_of(id: i64, elements: impl IntoIterator<Item = [u32; 8]>) -> Block {
+        Block { id, nodes: elements.into_iter().flatten().collect(), ..Block::default() }
+    }
+
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.nodes.len() / self.shape.corners()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Nodes of each element.
+    pub fn elements(&self) -> impl ExactSizeIterator<Item = &[u32]> + Clone {
+        self.nodes.chunks_exact(self.shape.corners())
+    }
+
+    /// Nodes of each element of a block of hexahedra; none in a block of another shape.
+    pub fn hexahedra(&self) -> &[[u32; 8]] {
+        if self.shape == Shape::Hexahedron { self.nodes.as_chunks().0 } else { &[] }
+    }
+
+    /// Attributes of the element at a place in the block; empty where it has none.
+    pub fn attributes_of(&self, element: usize) -> &[f64] {
+        let count = self.attributes.len().checked_div(self.len()).unwrap_or(0);
+        self.attributes.get(element * count..(element + 1) * count).unwrap_or_default()
+    }
 }
 
 /// A named set of nodes.
@@ -65,35 +111,36 @@ pub struct SideSet {
     pub id: i64,
     /// The set's name, or an empty string.
     pub name: String,
-    /// Faces as `(zero-based element index, zero-based local side)`; see [`HEX_SIDES`].
+    /// Faces as `(zero-based element index, zero-based local side)`; see [`Shape::sides`].
     pub sides: Vec<(u32, u8)>,
 }
-
-/// Corners of a unit cube in the order of a hexahedron's nodes.
-pub const UNIT_CUBE: [[f64; 3]; 8] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [0.0, 1.0, 1.0],
-];
-
-/// Local nodes of the six faces of a hexahedron in EXODUS order, each turning counter-clockwise seen from outside.
-pub const HEX_SIDES: [[usize; 4]; 6] =
-    [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3], [0, 3, 2, 1], [4, 5, 6, 7]];
 
 impl Mesh {
     /// Number of elements in all blocks.
     pub fn element_count(&self) -> usize {
-        self.blocks.iter().map(|b| b.connectivity.len()).sum()
+        self.blocks.iter().map(Block::len).sum()
     }
 
-    /// All elements in file order, each with the index of its block and its eight node indices.
-    pub fn elements(&self) -> impl Iterator<Item = (usize, &[u32; 8])> {
-        self.blocks.iter().enumerate().flat_map(|(b, block)| block.connectivity.iter().map(move |nodes| (b, nodes)))
+    /// All elements in file order, each with the index of its block and its node indices.
+    pub fn elements(&self) -> impl Iterator<Item = (usize, &[u32])> + Clone {
+        self.blocks.iter().enumerate().flat_map(|(b, block)| block.elements().map(move |nodes| (b, nodes)))
+    }
+
+    /// The eight nodes of each hexahedron, in file order.
+    pub fn hexahedra(&self) -> impl Iterator<Item = &[u32; 8]> + Clone {
+        self.blocks.iter().flat_map(Block::hexahedra)
+    }
+
+    /// Shapes and nodes of all elements, in file order.
+    pub fn shaped(&self) -> impl Iterator<Item = (Shape, &[u32])> + Clone {
+        self.blocks.iter().flat_map(|block| block.elements().map(move |nodes| (block.shape, nodes)))
+    }
+
+    /// The same as a list in which each element is found by its place.
+    pub fn connectivity(&self) -> Connectivity {
+        let mut all = Connectivity::default();
+        self.shaped().for_each(|(shape, nodes)| all.push(shape, nodes.iter().copied()));
+        all
     }
 
     /// The node set with this number, if there is one.
@@ -109,10 +156,12 @@ impl Mesh {
     /// Nodes of the faces of a side set, each once, ascending; none when there is no such set.
     pub fn side_set_nodes(&self, id: i64) -> Vec<u32> {
         let Some(set) = self.side_set(id) else { return Vec::new() };
-        let elements: Vec<&[u32; 8]> = self.elements().map(|(_, nodes)| nodes).collect();
-        let mut nodes: Vec<u32> = (set.sides.iter())
-            .flat_map(|&(element, side)| HEX_SIDES[side as usize].map(|corner| elements[element as usize][corner]))
-            .collect();
+        let elements: Vec<(Shape, &[u32])> = self.shaped().collect();
+        let of_side = |&(element, side): &(u32, u8)| {
+            let (shape, nodes) = elements[element as usize];
+            shape.sides()[side as usize].iter().map(move |&corner| nodes[corner])
+        };
+        let mut nodes: Vec<u32> = set.sides.iter().flat_map(of_side).collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes

@@ -61,13 +61,16 @@ impl Mesh {
         let mut first = 0;
         let mut blocks = Vec::with_capacity(self.blocks.len());
         for block in &self.blocks {
-            let end = first + block.connectivity.len();
+            let end = first + block.len();
             let (here, rest) = elements.split_at(elements.partition_point(|&e| (e as usize) < end));
-            let corners = |&e: &u32| block.connectivity[e as usize - first].map(|n| node_here[n as usize]);
+            let corners = block.shape.corners();
+            let nodes = here.iter().flat_map(|&e| &block.nodes[(e as usize - first) * corners..][..corners]);
             blocks.push(Block {
                 id: block.id,
                 name: block.name.clone(),
-                connectivity: here.iter().map(corners).collect(),
+                shape: block.shape,
+                nodes: nodes.map(|&n| node_here[n as usize]).collect(),
+                attributes: here.iter().flat_map(|&e| block.attributes_of(e as usize - first)).copied().collect(),
             });
             (elements, first) = (rest, end);
         }
@@ -99,8 +102,8 @@ mod tests {
             node_ids: (101..117).collect(),
             element_ids: vec![30, 10, 20],
             blocks: vec![
-                Block { id: 1, connectivity: vec![hex(0), hex(1)], ..Block::default() },
-                Block { id: 2, connectivity: vec![hex(2)], ..Block::default() },
+                Block { attributes: vec![0.5, 0.25], ..Block::hexahedra_of(1, [hex(0), hex(1)]) },
+                Block::hexahedra_of(2, [hex(2)]),
             ],
             node_sets: vec![NodeSet { id: 5, nodes: vec![15, 4, 0, 8], ..NodeSet::default() }],
             side_sets: vec![SideSet { id: 6, sides: vec![(2, 1), (0, 4), (1, 3)], ..SideSet::default() }],
@@ -111,8 +114,9 @@ mod tests {
     #[test]
     fn the_middle_of_three_cubes() {
         let part = row().part((4..12).collect(), vec![1]);
-        assert_eq!(part.mesh.blocks[0].connectivity, [[0, 1, 2, 3, 4, 5, 6, 7]]);
-        assert!(part.mesh.blocks[1].connectivity.is_empty());
+        assert_eq!(part.mesh.blocks[0].hexahedra(), [[0, 1, 2, 3, 4, 5, 6, 7]]);
+        assert_eq!(part.mesh.blocks[0].attributes, [0.25]);
+        assert!(part.mesh.blocks[1].is_empty());
         assert_eq!((part.mesh.node_ids[0], part.mesh.element_ids[0]), (105, 10));
         assert_eq!((&part.mesh.node_sets[0].nodes[..], &part.places.node_sets[0][..]), (&[0, 4][..], &[1, 3][..]));
         assert_eq!((&part.mesh.side_sets[0].sides[..], &part.places.side_sets[0][..]), (&[(0, 3)][..], &[2][..]));

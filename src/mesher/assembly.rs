@@ -6,15 +6,17 @@ use super::{
     body::{Body, Face, Sides},
     merge,
 };
-use crate::mesh::{Block, Mesh, check};
+use crate::mesh::{Block, Mesh, Shape, check};
 
 /// All parts of a recipe, in its order.
 #[derive(Debug, Clone, Default)]
 pub struct Assembly {
     coordinates: Vec<[f64; 3]>,
     hexes: Vec<[u32; 8]>,
-    /// Block number of each element.
+    /// Block number of each hexahedron.
     blocks: Vec<i64>,
+    /// Two-node elements, each with the number of its block.
+    bars: Vec<([u32; 2], i64)>,
     parts: Vec<Part>,
 }
 
@@ -42,6 +44,7 @@ impl Assembly {
         self.coordinates.extend(body.coordinates);
         self.hexes.extend(body.hexes.iter().map(|hex| hex.map(|node| node + nodes as u32)));
         self.blocks.resize(self.hexes.len(), block);
+        self.bars.extend(body.bars.iter().map(|bar| (bar.map(|node| node + nodes as u32), block)));
         let mut faces = body.faces;
         faces.iter_mut().flat_map(|(_, sides)| sides).for_each(|(element, _)| *element += elements as u32);
         self.parts.push(Part {
@@ -58,9 +61,12 @@ impl Assembly {
         let mut shortest = f64::INFINITY;
         for hex in &self.hexes {
             let x = hex.map(|node| self.coordinates[node as usize]);
-            for (a, b) in super::EDGES {
+            for &[a, b] in Shape::Hexahedron.edges() {
                 shortest = shortest.min(super::distance(x[a], x[b]));
             }
+        }
+        for [a, b] in self.bars.iter().map(|(bar, _)| bar.map(|node| self.coordinates[node as usize])) {
+            shortest = shortest.min(super::distance(a, b));
         }
         (super::distance(diagonal, [0.0; 3]), shortest)
     }
@@ -71,7 +77,7 @@ impl Assembly {
         let chosen = self.parts.iter().filter(|part| blocks.is_empty() || blocks.contains(&part.block));
         let ranges: Vec<_> = chosen.map(|part| part.nodes.clone()).collect();
         let becomes = merge::representatives(&self.coordinates, &ranges, tolerance);
-        self.hexes.iter_mut().flatten().for_each(|node| *node = becomes[*node as usize]);
+        self.nodes_mut().for_each(|node| *node = becomes[*node as usize]);
         becomes.iter().zip(0..).filter(|&(&becomes, node)| becomes != node).count()
     }
 
@@ -88,6 +94,18 @@ impl Assembly {
         moved
     }
 
+    /// Nodes of all elements.
+    fn nodes_mut(&mut self) -> impl Iterator<Item = &mut u32> {
+        self.hexes.iter_mut().flatten().chain(self.bars.iter_mut().flat_map(|(bar, _)| bar))
+    }
+
+    /// The first part of bars in a block that has hexahedra, if there is one.
+    pub fn mixed_part(&self) -> Option<usize> {
+        let (block, _) =
+            self.bars.iter().map(|(_, block)| (*block, ())).find(|(block, ())| self.blocks.contains(block))?;
+        self.parts.iter().position(|part| part.block == block && part.elements.is_empty())
+    }
+
     /// The first part with an element that has no positive volume, if there is one.
     pub fn flat_part(&self) -> Option<usize> {
         let flat = self.hexes.iter().position(|hex| {
@@ -101,17 +119,23 @@ impl Assembly {
     pub fn finish(mut self, title: &str) -> Assembled {
         self.drop_unused_nodes();
         let mut mesh = Mesh { title: title.to_string(), ..Mesh::default() };
-        let mut ids = self.blocks.clone();
+        let mut ids: Vec<i64> = self.blocks.iter().copied().chain(self.bars.iter().map(|(_, block)| *block)).collect();
         ids.sort_unstable();
         ids.dedup();
         let mut place = vec![0u32; self.hexes.len()];
         let mut placed = 0;
         for id in ids {
-            let mut block = Block { id, name: String::new(), connectivity: Vec::new() };
+            let mut block = Block { id, ..Block::default() };
             for element in (0..self.hexes.len()).filter(|&element| self.blocks[element] == id) {
                 place[element] = placed;
                 placed += 1;
-                block.connectivity.push(self.hexes[element]);
+                block.nodes.extend(self.hexes[element]);
+            }
+            let bars = self.bars.iter().filter(|(_, block)| *block == id);
+            let bars: Vec<u32> = bars.flat_map(|(bar, _)| *bar).collect();
+            if !bars.is_empty() {
+                block = Block { shape: Shape::Bar, nodes: bars, ..block };
+                placed += block.len() as u32;
             }
             mesh.blocks.push(block);
         }
@@ -119,18 +143,18 @@ impl Assembly {
             sides.iter_mut().for_each(|side| side.0 = place[side.0 as usize]);
         }
         mesh.node_ids = (1..=self.coordinates.len() as i64).collect();
-        mesh.element_ids = (1..=self.hexes.len() as i64).collect();
+        mesh.element_ids = (1..=mesh.element_count() as i64).collect();
         mesh.coordinates = self.coordinates;
         Assembled { mesh, faces: self.parts.into_iter().map(|part| (part.block, part.faces)).collect() }
     }
 
     fn drop_unused_nodes(&mut self) {
         let mut used = vec![false; self.coordinates.len()];
-        self.hexes.iter().flatten().for_each(|&node| used[node as usize] = true);
+        self.nodes_mut().for_each(|node| used[*node as usize] = true);
         let mut count = 0;
         let numbers: Vec<u32> = used.iter().map(|&used| (count, count += u32::from(used)).0).collect();
         let mut used = used.into_iter();
         self.coordinates.retain(|_| used.next().unwrap_or(false));
-        self.hexes.iter_mut().flatten().for_each(|node| *node = numbers[*node as usize]);
+        self.nodes_mut().for_each(|node| *node = numbers[*node as usize]);
     }
 }

@@ -1,12 +1,14 @@
-//! One meshed shape: its nodes, its hexahedra, and its faces by name.
+//! One meshed shape: its nodes, its hexahedra or bars, and its faces by name.
 
-/// The hexahedra of one shape. No two of its nodes coincide.
+/// The elements of one shape. No two of its nodes coincide.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Body {
     /// Node positions.
     pub coordinates: Vec<[f64; 3]>,
     /// Eight zero-based node indices per element, in EXODUS order.
     pub hexes: Vec<[u32; 8]>,
+    /// Two zero-based node indices per two-node element.
+    pub bars: Vec<[u32; 2]>,
     /// The faces of the shape that have a name.
     pub faces: Vec<(Face, Sides)>,
 }

@@ -10,6 +10,7 @@ pub mod recipe;
 mod assembly;
 mod cylinder;
 mod hex_box;
+mod line;
 mod merge;
 mod perturb;
 mod region;
@@ -88,6 +89,15 @@ fn check_size(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) {
 /// Shapes, then joints, then blocks, then sets.
 fn build(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) -> Option<Mesh> {
     let mut assembly = assemble(recipe, refine);
+    if let Some(part) = assembly.mixed_part() {
+        let block = recipe.parts[part].block;
+        let message = format!(
+            "{}: block {block} has solids as well; the elements of a block have one shape",
+            recipe.parts[part].place.owner
+        );
+        diagnostics.push(Diagnostic::error(message).at(recipe.parts[part].place.span, "give it a block of its own"));
+        return None;
+    }
     if let Some(part) = assembly.flat_part() {
         diagnostics.push(flat(recipe, part));
         return None;
@@ -178,10 +188,6 @@ fn perturb(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnos
         }
     }
 }
-
-/// The twelve edges of a hexahedron.
-const EDGES: [(usize, usize); 12] =
-    [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)];
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|i| a[i] - b[i]);

@@ -1,6 +1,6 @@
 //! PERTURB: interior nodes pushed off their places, for tests that a regular mesh would pass by luck.
 
-use super::{EDGES, distance, skin};
+use super::{distance, skin};
 use crate::mesh::Mesh;
 
 /// Moves the interior nodes of one block, or of all blocks.
@@ -10,19 +10,19 @@ use crate::mesh::Mesh;
 /// stay, so that the shape and the interfaces do.
 pub fn perturb(mesh: &mut Mesh, block: Option<i64>, amplitude: f64) -> usize {
     let mut reach = vec![f64::INFINITY; mesh.coordinates.len()];
-    for (_, hex) in mesh.elements() {
-        for (a, b) in EDGES.map(|(a, b)| (hex[a] as usize, hex[b] as usize)) {
+    for (shape, nodes) in mesh.shaped() {
+        for [a, b] in shape.edges().iter().map(|ends| ends.map(|corner| nodes[corner] as usize)) {
             let length = distance(mesh.coordinates[a], mesh.coordinates[b]);
             reach[a] = reach[a].min(length);
             reach[b] = reach[b].min(length);
         }
     }
-    let hexes = skin::hexes(mesh);
+    let elements = mesh.connectivity();
     for (element, side) in skin::exterior(mesh, |_| true) {
-        skin::nodes(hexes[element as usize], side).iter().for_each(|&node| reach[node as usize] = 0.0);
+        skin::nodes(&elements, element, side).iter().for_each(|&node| reach[node as usize] = 0.0);
     }
     for other in mesh.blocks.iter().filter(|other| block.is_some_and(|id| id != other.id)) {
-        other.connectivity.iter().flatten().for_each(|&node| reach[node as usize] = 0.0);
+        other.nodes.iter().for_each(|&node| reach[node as usize] = 0.0);
     }
     for (node, (x, reach)) in mesh.coordinates.iter_mut().zip(&reach).enumerate() {
         for (axis, x) in x.iter_mut().enumerate() {

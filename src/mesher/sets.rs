@@ -10,6 +10,7 @@ use super::{
 use crate::{
     deck::{Diagnostic, Diagnostics, Span},
     mesh::{Mesh, NodeSet, SideSet},
+    vector::{cross, subtract},
 };
 
 /// One command that adds to a set.
@@ -95,18 +96,18 @@ fn unite<T: Ord>(list: &mut Vec<T>, more: Vec<T>) {
 
 fn nodes(assembled: &Assembled, request: &Request, tolerance: f64) -> Vec<u32> {
     let mesh = &assembled.mesh;
-    let hexes = skin::hexes(mesh);
+    let elements = mesh.connectivity();
     let mut eligible = vec![request.block.is_none(); mesh.coordinates.len()];
     for block in mesh.blocks.iter().filter(|block| request.block == Some(block.id)) {
-        block.connectivity.iter().flatten().for_each(|&node| eligible[node as usize] = true);
+        block.nodes.iter().for_each(|&node| eligible[node as usize] = true);
     }
     let mut nodes: Vec<u32> = match &request.what {
         What::Region(region) => (0..mesh.coordinates.len() as u32)
             .filter(|&node| region.contains(mesh.coordinates[node as usize], tolerance))
             .collect(),
-        What::Face(block, face) => named(assembled, *block, *face)
-            .flat_map(|(element, side)| skin::nodes(hexes[element as usize], side))
-            .collect(),
+        What::Face(block, face) => {
+            named(assembled, *block, *face).flat_map(|(element, side)| skin::nodes(&elements, element, side)).collect()
+        }
         What::All | What::Normal { .. } => (0..mesh.coordinates.len() as u32).collect(),
     };
     nodes.retain(|&node| eligible[node as usize]);
@@ -118,16 +119,14 @@ fn sides(assembled: &Assembled, request: &Request, tolerance: f64) -> Sides {
     let mesh = &assembled.mesh;
     let at = |node: u32| mesh.coordinates[node as usize];
     let mut sides: Sides = match &request.what {
-        What::Region(region) => {
-            skin::exterior(mesh, |nodes| nodes.iter().all(|&node| region.contains(at(node), tolerance)))
-        }
+        What::Region(region) => skin::exterior(mesh, |node| region.contains(at(node), tolerance)),
         What::All => skin::exterior(mesh, |_| true),
         What::Face(block, face) => named(assembled, *block, *face).collect(),
         What::Normal { direction, cosine } => {
-            let hexes = skin::hexes(mesh);
+            let elements = mesh.connectivity();
             let mut sides = skin::exterior(mesh, |_| true);
             sides.retain(|&(element, side)| {
-                let normal = normal(skin::nodes(hexes[element as usize], side).map(at));
+                let normal = normal(skin::nodes(&elements, element, side).map(at));
                 (0..3).map(|i| normal[i] * direction[i]).sum::<f64>() >= *cosine
             });
             sides
@@ -148,10 +147,9 @@ fn named(assembled: &Assembled, block: i64, face: Face) -> impl Iterator<Item = 
 
 /// Unit normal of a quadrilateral, from its diagonals.
 fn normal(x: [[f64; 3]; 4]) -> [f64; 3] {
-    let [a, b] = [[0, 2], [1, 3]].map(|[from, to]: [usize; 2]| [0, 1, 2].map(|i| x[to][i] - x[from][i]));
-    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    let length = super::distance(cross, [0.0; 3]);
-    cross.map(|c| c / length)
+    let normal = cross(subtract(x[2], x[0]), subtract(x[3], x[1]));
+    let length = super::distance(normal, [0.0; 3]);
+    normal.map(|c| c / length)
 }
 
 /// The message for a set that would be empty, with what helps to find the slip.

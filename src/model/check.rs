@@ -121,7 +121,7 @@ fn behind_the_plane(plane: &RigidSurface, card: &Card, mesh: &Mesh, found: &mut 
 /// Whether the elements of a plane's side set are, on the mean, behind it.
 fn body_is_behind(plane: &RigidSurface, mesh: &Mesh, gap: impl Fn(u32) -> f64) -> bool {
     let Some(set) = mesh.side_set(plane.side_set) else { return false };
-    let elements: Vec<&[u32; 8]> = mesh.elements().map(|(_, nodes)| nodes).collect();
+    let elements: Vec<&[u32]> = mesh.elements().map(|(_, nodes)| nodes).collect();
     let corners = set.sides.iter().flat_map(|&(element, _)| elements[element as usize]);
     corners.map(|&node| gap(node)).sum::<f64>() < 0.0
 }
@@ -142,7 +142,7 @@ fn reference(card: &Card, what: &str, item: &Item, mesh: &Mesh, found: &mut Diag
     let (Some(id), Some(span)) = (item.value.integer(), item.span) else { return };
     // Numbers there are, each with how many members it has.
     let there: Vec<(i64, usize)> = match what {
-        "block" => mesh.blocks.iter().map(|b| (b.id, b.connectivity.len())).collect(),
+        "block" => mesh.blocks.iter().map(|b| (b.id, b.len())).collect(),
         "node set" => mesh.node_sets.iter().map(|s| (s.id, s.nodes.len())).collect(),
         _ => mesh.side_sets.iter().map(|s| (s.id, s.sides.len())).collect(),
     };

@@ -6,6 +6,7 @@ use super::{
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, spelling};
+use crate::vector::unit;
 
 pub(super) const COMMANDS: &[Setter] = &[
     ("RIGID SURFACE", rigid_surface),
@@ -243,29 +244,4 @@ fn rigid_surface(card: &Card, draft: &mut Draft) {
         normal,
         friction: card.number("friction"),
     });
-}
-
-/// The vector at length one; `None` for a zero vector. Divides by the largest component first, which neither
-/// overflows nor underflows.
-pub(super) fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = vector.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
-    if largest == 0.0 {
-        return None;
-    }
-    let scaled = vector.map(|x| x / largest);
-    let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-    Some(scaled.map(|x| x / length))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::unit;
-
-    #[test]
-    fn normals_of_any_length_become_units() {
-        assert_eq!(unit([0.0, 0.0, -2.0]), Some([0.0, 0.0, -1.0]));
-        assert_eq!(unit([3e300, 4e300, 0.0]), Some([0.6, 0.8, 0.0]));
-        assert_eq!(unit([0.0, 5e-324, 0.0]), Some([0.0, 1.0, 0.0]));
-        assert_eq!(unit([0.0; 3]), None);
-    }
 }

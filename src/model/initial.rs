@@ -2,10 +2,10 @@
 
 use super::{
     InitialVelocity,
-    contact::unit,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic};
+use crate::vector::unit;
 
 pub(super) const COMMANDS: &[Setter] = &[
     ("INITIAL VELOCITY MATERIAL", of_block),

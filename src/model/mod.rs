@@ -16,6 +16,7 @@ mod output;
 mod problem;
 mod properties;
 mod restart;
+mod section;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
@@ -52,6 +53,8 @@ pub struct Model {
     pub functions: Vec<Function>,
     /// One entry per element block.
     pub materials: Vec<BlockMaterial>,
+    /// What the deck says of the elements of blocks: sections, thicknesses.
+    pub sections: Vec<Section>,
     /// Directions of node sets held still.
     pub no_displacements: Vec<NoDisplacement>,
     /// Motions imposed on node sets.
@@ -84,6 +87,33 @@ pub struct Model {
     pub history_interval: Option<f64>,
     /// Restarts to write and to go on from.
     pub restarts: Restarts,
+}
+
+/// A command that an element brings with it, for the block that it names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Name of the command.
+    pub command: String,
+    /// Number of the element block.
+    pub block: i64,
+    /// Its other fields that are numbers, by their names.
+    pub numbers: Vec<(String, f64)>,
+    /// Its fields that are words, by their names.
+    pub words: Vec<(String, String)>,
+}
+
+impl Section {
+    /// A number by the name of its field; NaN for a field that the command does not have.
+    pub fn number(&self, field: &str) -> f64 {
+        self.numbers.iter().find(|(name, _)| name == field).map_or(f64::NAN, |(_, value)| *value)
+    }
+}
+
+impl Model {
+    /// What a command says of a block; the last one counts.
+    pub fn section(&self, command: &str, block: i64) -> Option<&Section> {
+        self.sections.iter().rfind(|section| section.command == command && section.block == block)
+    }
 }
 
 /// HISTORY: what is watched.

@@ -3,6 +3,7 @@
 use super::{
     BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
     TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
+    section,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -83,6 +84,8 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
             }
         }
     }
+    let of_elements = |card: &&Card| language().entry(&card.name).is_some_and(|entry| entry.family == section::FAMILY);
+    deck.cards.iter().filter(|card| card.complete).filter(of_elements).for_each(|card| section::take(card, &mut draft));
     material::check_unfinished(&mut draft);
     material::report_unlit(&mut draft);
     material::refuse_lawless(&mut draft);
@@ -121,6 +124,7 @@ impl Default for Model {
             hourglass: DEFAULT_HOURGLASS,
             functions: Vec::new(),
             materials: Vec::new(),
+            sections: Vec::new(),
             no_displacements: Vec::new(),
             prescribed_motions: Vec::new(),
             prescribed_forces: Vec::new(),
@@ -199,7 +203,9 @@ mod tests {
     #[test]
     fn every_command_has_one_setter_and_every_setter_a_command() {
         // EXIT means something to the reader only.
-        let built = |e: &&crate::deck::Entry| e.status == Status::Built && e.name != "EXIT";
+        // Those of elements are taken in as they are.
+        let built =
+            |e: &&crate::deck::Entry| e.status == Status::Built && e.name != "EXIT" && e.family != section::FAMILY;
         let mut commands: Vec<&str> = language().commands().filter(built).map(|e| e.name.as_str()).collect();
         let mut setters: Vec<&str> = FAMILIES.iter().flat_map(|family| family.iter().map(|(name, _)| *name)).collect();
         commands.sort_unstable();

@@ -1,9 +1,10 @@
 //! Faces of this rank's elements across which an element of another rank stands.
 
 use crate::comm::Communicator;
-use crate::mesh::HEX_SIDES;
+use crate::mesh::Shape;
+use crate::mesh::exterior::{faces, key};
 
-/// A face that may have a neighbour: its nodes in the whole mesh, ascending, with the element and its side.
+/// A face that may have a neighbour: the [`key`] of its nodes in the whole mesh, with the element and its side.
 type Face = ([u32; 4], u32, u8);
 
 /// What one rank brings to the matching of faces.
@@ -12,20 +13,18 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// The faces of `elements`, each given with its number and its nodes in the whole mesh, all of whose nodes are
-    /// `shared` with other ranks. A side that has collapsed to a line or a point is no face.
-    pub fn new(elements: impl Iterator<Item = (u32, [u32; 8])>, shared: impl Fn(u32) -> bool) -> Candidates {
-        let mut faces = Vec::new();
-        for (element, corners) in elements {
-            for (side, face) in (0..).zip(HEX_SIDES) {
-                let mut nodes = face.map(|corner| corners[corner]);
-                nodes.sort_unstable();
-                let repeated = nodes.windows(2).filter(|pair| pair[0] == pair[1]).count();
-                if repeated < 2 && nodes.iter().all(|&node| shared(node)) {
-                    faces.push((nodes, element, side));
-                }
-            }
-        }
+    /// The faces of solid `elements`, each given with its number, its shape and its nodes in the whole mesh, all of whose
+    /// nodes are `shared` with other ranks. A side that has collapsed to a line or a point is no face.
+    pub fn new<'a>(
+        elements: impl Iterator<Item = (u32, Shape, &'a [u32])>,
+        shared: impl Fn(u32) -> bool,
+    ) -> Candidates {
+        let solids = elements.filter(|(_, shape, _)| shape.dimension() == 3);
+        let all = solids.flat_map(|(element, shape, nodes)| faces(shape, nodes).map(move |face| (element, face)));
+        let mut faces: Vec<Face> = all
+            .filter(|(_, (_, nodes))| nodes.iter().all(|&node| shared(node)))
+            .filter_map(|(element, (side, nodes))| Some((key(nodes)?, element, side)))
+            .collect();
         faces.sort_unstable();
         Candidates { faces }
     }

@@ -150,7 +150,7 @@ impl FieldList {
             out.extend(&values[..field.components().len()]);
         }
         if !self.state.is_empty() {
-            let state = state_values(block, group, i);
+            let state = state_values(block, group, i, &solver.domain.nodes);
             let names = block.law.entry().state;
             // A variable that a law does not have is zero in its blocks.
             let value = |name: &String| names.iter().position(|v| v.name == *name).map_or(0.0, |k| state[k]);

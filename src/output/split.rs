@@ -88,7 +88,7 @@ impl Split {
         let members = &share.groups[0].members;
         let of_piece = |element: u32| {
             let member = members[self.elements[element as usize] as usize];
-            (element, body.element_nodes[member as usize])
+            (element, body.element_nodes.shape(member as usize), &body.element_nodes[member as usize])
         };
         let shared: Vec<u32> = share.sums.iter().map(|sum| share.nodes[sum.node as usize]).collect();
         let candidates = Candidates::new(self.piece.border_elements.iter().map(|&element| of_piece(element)), |node| {

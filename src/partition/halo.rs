@@ -7,15 +7,14 @@
 //! every copy of the node then has the bits that one rank alone would compute.
 
 use crate::comm::Peer;
+use crate::mesh::Connectivity;
 use std::ops::Range;
 
 /// One kind of contributor to nodal sums, in canonical order: elements, or faces under load.
 #[derive(Debug, Clone, Copy)]
 pub struct Contributors<'a> {
-    /// Nodes per contributor: 8 for hexahedra, 4 for their faces.
-    pub corners: usize,
-    /// Node numbers, `corners` for each contributor.
-    pub nodes: &'a [u32],
+    /// Nodes of each contributor.
+    pub nodes: &'a Connectivity,
     /// The rank that computes each contributor.
     pub ranks: &'a [u32],
 }
@@ -23,7 +22,7 @@ pub struct Contributors<'a> {
 impl<'a> Contributors<'a> {
     /// Each contributor's rank and nodes.
     fn iter(self) -> impl Iterator<Item = (u32, &'a [u32])> {
-        self.ranks.iter().copied().zip(self.nodes.chunks_exact(self.corners))
+        self.ranks.iter().copied().zip(self.nodes.iter())
     }
 }
 
@@ -75,10 +74,8 @@ pub struct Share {
 pub struct LocalGroup {
     /// Canonical numbers in the whole mesh, ascending.
     pub members: Vec<u32>,
-    /// Nodes per contributor.
-    pub corners: usize,
-    /// Local node numbers, `corners` for each contributor.
-    pub nodes: Vec<u32>,
+    /// Local node numbers of each contributor.
+    pub nodes: Connectivity,
     /// Whether the contributor touches a shared node, so that others wait for it.
     pub border: Vec<bool>,
     /// Slot of the first contributor's first corner.
@@ -142,10 +139,12 @@ impl<'a> Decomposition<'a> {
         let mut groups = Vec::new();
         for (group, members) in self.groups.iter().zip(&self.members) {
             let members = members[rank].clone();
-            let nodes: Vec<u32> =
-                (members.iter().flat_map(|member| nodes_of(group, *member))).map(|node| local.number(*node)).collect();
-            let slots = nodes.len() as u32;
-            groups.push(LocalGroup { members, corners: group.corners, nodes, border: Vec::new(), first_slot });
+            let mut nodes = Connectivity::default();
+            for member in members.iter().map(|&member| member as usize) {
+                nodes.push(group.nodes.shape(member), group.nodes[member].iter().map(|node| local.number(*node)));
+            }
+            let slots = nodes.nodes().len() as u32;
+            groups.push(LocalGroup { members, nodes, border: Vec::new(), first_slot });
             first_slot += slots;
         }
         let mut share = Share {
@@ -263,7 +262,7 @@ impl Share {
         self.sums.iter().for_each(|sum| shared[sum.node as usize] = true);
         for group in &mut self.groups {
             let touches = |nodes: &[u32]| nodes.iter().any(|node| shared[*node as usize]);
-            group.border = group.nodes.chunks_exact(group.corners).map(touches).collect();
+            group.border = group.nodes.iter().map(touches).collect();
         }
     }
 }
@@ -288,10 +287,6 @@ impl LocalNumbers {
         }
         *local - 1
     }
-}
-
-fn nodes_of<'a>(group: &Contributors<'a>, member: u32) -> &'a [u32] {
-    &group.nodes[member as usize * group.corners..][..group.corners]
 }
 
 fn members_by_rank(group: &Contributors, ranks: usize) -> Vec<Vec<u32>> {
@@ -327,7 +322,7 @@ fn collect_corners(
     (0..).zip(shared_nodes).for_each(|(i, node)| position[*node as usize] = i);
 
     let mut first = vec![0; shared_nodes.len() + 1];
-    let nodes = groups.iter().flat_map(|group| group.nodes);
+    let nodes = groups.iter().flat_map(|group| group.nodes.nodes());
     nodes.map(|node| position[*node as usize]).filter(|i| *i != UNSHARED).for_each(|i| first[i as usize + 1] += 1);
     (1..first.len()).for_each(|i| first[i] += first[i - 1]);
 
@@ -357,11 +352,12 @@ fn sharers(corners: &[Corner]) -> impl Iterator<Item = u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Shape;
     use crate::partition::rcb;
     use proptest::prelude::*;
 
     /// Elements of `n[0]` × `n[1]` × `n[2]` cells and their centroids.
-    fn box_of_hexes(n: [usize; 3]) -> (Vec<u32>, Vec<[f64; 3]>) {
+    fn box_of_hexes(n: [usize; 3]) -> (Connectivity, Vec<[f64; 3]>) {
         let node = |i: usize, j: usize, k: usize| (i + (n[0] + 1) * (j + (n[1] + 1) * k)) as u32;
         let (mut nodes, mut centroids) = (Vec::new(), Vec::new());
         for (i, j, k) in (0..n[2]).flat_map(|k| (0..n[1]).flat_map(move |j| (0..n[0]).map(move |i| (i, j, k)))) {
@@ -370,7 +366,7 @@ mod tests {
             }
             centroids.push([i as f64, j as f64, k as f64]);
         }
-        (nodes, centroids)
+        (Connectivity::of(Shape::Hexahedron, nodes), centroids)
     }
 
     /// A number per contributor and corner whose sums depend much on their order.
@@ -398,9 +394,11 @@ mod tests {
     /// All slots of a share.
     fn slots(share: &Share) -> Vec<[f64; 2]> {
         let group = |(g, group): (usize, &LocalGroup)| {
-            let corners = group.corners;
-            let of_member = move |member: u32| (0..corners).map(move |corner| contribution(g, member, corner));
-            group.members.clone().into_iter().flat_map(of_member).collect::<Vec<_>>()
+            let members = group.members.iter().zip(group.nodes.iter());
+            let of_member = move |(&member, nodes): (&u32, &[u32])| {
+                (0..nodes.len()).map(move |corner| contribution(g, member, corner)).collect::<Vec<_>>()
+            };
+            members.flat_map(of_member).collect::<Vec<_>>()
         };
         share.groups.iter().enumerate().flat_map(group).collect()
     }
@@ -408,7 +406,7 @@ mod tests {
     /// Scatter-adds in local order, as a solver does, then replaces the sums of shared nodes.
     fn local_sums(share: &Share, slots: &[[f64; 2]], peers: &[Peer]) -> Vec<[f64; 2]> {
         let mut sums = vec![[0.0; 2]; share.nodes.len()];
-        let nodes = share.groups.iter().flat_map(|group| &group.nodes);
+        let nodes = share.groups.iter().flat_map(|group| group.nodes.nodes());
         nodes.zip(slots).for_each(|(node, value)| (0..2).for_each(|i| sums[*node as usize][i] += value[i]));
         share.sum(peers, |slot| slots[slot as usize], |node, sum| sums[node as usize] = sum);
         sums
@@ -434,7 +432,7 @@ mod tests {
                 assert_eq!(sum.map(f64::to_bits), expected[node].map(f64::to_bits), "rank {rank} node {node}");
             }
         }
-        let used = |node: usize| groups.iter().any(|group| group.nodes.contains(&(node as u32)));
+        let used = |node: usize| groups.iter().any(|group| group.nodes.nodes().contains(&(node as u32)));
         assert!((0..node_count).all(|node| owners[node] == usize::from(used(node))));
     }
 
@@ -454,12 +452,12 @@ mod tests {
         let mut first_slot = 0;
         for (local, group) in share.groups.iter().zip(groups) {
             assert_eq!(local.first_slot, first_slot);
-            first_slot += local.nodes.len() as u32;
+            first_slot += local.nodes.nodes().len() as u32;
             assert!(local.members.windows(2).all(|pair| pair[0] < pair[1]));
             assert!(local.members.iter().all(|member| group.ranks[*member as usize] as usize == rank));
-            let nodes = local.members.iter().flat_map(|member| nodes_of(group, *member)).copied();
-            assert!(nodes.eq(local.nodes.iter().map(|node| share.nodes[*node as usize])));
-            for (nodes, border) in local.nodes.chunks(group.corners).zip(&local.border) {
+            let nodes = local.members.iter().flat_map(|member| &group.nodes[*member as usize]).copied();
+            assert!(nodes.eq(local.nodes.nodes().iter().map(|node| share.nodes[*node as usize])));
+            for (nodes, border) in local.nodes.iter().zip(&local.border) {
                 assert_eq!(*border, nodes.iter().any(|node| share.sums.iter().any(|sum| sum.node == *node)));
             }
         }
@@ -479,10 +477,13 @@ mod tests {
             let node_count = (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
             let owners: Vec<u32> = choices.iter().map(|choice| choice % ranks).collect();
             // Any four nodes, even repeated ones, with any owner.
-            let face_nodes: Vec<u32> = faces.as_flattened().iter().map(|i| i.index(node_count) as u32).collect();
+            let mut face_nodes = Connectivity::default();
+            for face in &faces {
+                face_nodes.push(Shape::Quadrilateral, face.iter().map(|i| i.index(node_count) as u32));
+            }
             let groups = [
-                Contributors { corners: 8, nodes: &nodes, ranks: &owners[..centroids.len()] },
-                Contributors { corners: 4, nodes: &face_nodes, ranks: &owners[64..64 + faces.len()] },
+                Contributors { nodes: &nodes, ranks: &owners[..centroids.len()] },
+                Contributors { nodes: &face_nodes, ranks: &owners[64..64 + faces.len()] },
             ];
             check(&groups, node_count, ranks as usize);
         }
@@ -494,7 +495,7 @@ mod tests {
         ) {
             let (nodes, centroids) = box_of_hexes(n);
             let owners = rcb(&centroids, &vec![1.0; centroids.len()], ranks);
-            let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+            let groups = [Contributors { nodes: &nodes, ranks: &owners }];
             check(&groups, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), ranks);
         }
     }
@@ -503,7 +504,7 @@ mod tests {
     fn a_node_of_eight_ranks_has_eight_sources_everywhere() {
         let (nodes, _) = box_of_hexes([2, 2, 2]);
         let owners: Vec<u32> = (0..8).collect();
-        let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+        let groups = [Contributors { nodes: &nodes, ranks: &owners }];
         let decomposition = Decomposition::new(&groups, 27, 8);
         for rank in 0..8 {
             let share = decomposition.share(rank);
@@ -519,7 +520,7 @@ mod tests {
     fn one_rank_shares_nothing() {
         let (nodes, centroids) = box_of_hexes([3, 2, 1]);
         let owners = vec![0; centroids.len()];
-        let groups = [Contributors { corners: 8, nodes: &nodes, ranks: &owners }];
+        let groups = [Contributors { nodes: &nodes, ranks: &owners }];
         let share = Decomposition::new(&groups, 24, 1).share(0);
         assert!(share.neighbours.is_empty() && share.sums.is_empty() && share.sources.is_empty());
         assert!(share.owned.iter().all(|owned| *owned) && share.groups[0].border.iter().all(|border| !border));

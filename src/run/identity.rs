@@ -4,7 +4,7 @@
 //! state its meaning must stay: the mesh, laws and densities of the blocks, hourglass control, and what is in contact.
 
 use crate::exodus::Restart;
-use crate::mesh::Mesh;
+use crate::mesh::{Block, Mesh};
 use crate::model::{ContactMaterials, Hourglass, Model};
 use crate::solver::{Body, state_names};
 
@@ -103,11 +103,16 @@ fn meshes(then: &Mesh, now: &Mesh) -> Vec<String> {
     }
     let mut found = Vec::new();
     for (block, other) in then.blocks.iter().zip(&now.blocks) {
-        if block.connectivity.len() != other.connectivity.len() {
-            let counts = [block, other].map(|block| block.connectivity.len());
+        if block.shape != other.shape {
+            let [then, now] = [block, other].map(|block| block.shape.names()[1]);
+            found.push(format!("the elements of block {} were {then}, they are {now}", block.id));
+        } else if block.len() != other.len() {
+            let counts = [block, other].map(Block::len);
             found.push(format!("block {} had {} elements, it has {}", block.id, counts[0], counts[1]));
-        } else if block.connectivity != other.connectivity {
+        } else if block.nodes != other.nodes {
             found.push(format!("elements of block {} have other nodes than they had", block.id));
+        } else if block.attributes != other.attributes {
+            found.push(format!("elements of block {} have other attributes than they had", block.id));
         }
     }
     let moved = then.coordinates.iter().zip(&now.coordinates).position(|(a, b)| a != b);

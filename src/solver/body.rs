@@ -3,11 +3,12 @@
 //! The canonical order depends on mesh and model only, never on the decomposition. Every sum over elements at a
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
-use crate::mesh::check::hexahedron_volume;
-use crate::mesh::{HEX_SIDES, Mesh, shape};
+use crate::mesh::{Connectivity, Mesh, Shape};
 use crate::model::Model;
 use crate::partition::{Contributors, rcb, space_filling_order};
 use crate::solver::contact::{self, Overlap};
+use crate::solver::elements::{Element, Sample};
+use crate::vector::add;
 use std::sync::Arc;
 
 /// A mesh with masses and its canonical order. What the surface needs when it changes is shared, not copied, by ranks.
@@ -17,11 +18,13 @@ pub struct Body {
     /// Index of the mesh block of each element, in canonical order.
     pub element_block: Arc<Vec<u32>>,
     /// Nodes of each element, in canonical order.
-    pub element_nodes: Arc<Vec<[u32; 8]>>,
+    pub element_nodes: Arc<Connectivity>,
     /// Element masses, in canonical order.
     pub element_mass: Vec<f64>,
-    /// For each mesh block the least share of a corner's eighth that a node has; see [`shape::least_share`].
-    pub least_share: Vec<f64>,
+    /// What computes the elements of each mesh block.
+    pub elements: Vec<Element>,
+    /// File position of the first element of each mesh block.
+    first: Vec<u32>,
     /// Lumped nodal masses, in file order.
     pub node_mass: Vec<f64>,
     /// Initial positions, in file order; those of the mesh unless contact surfaces overlapped there.
@@ -54,26 +57,26 @@ pub struct NoMaterial {
 }
 
 /// Mean of an element's corners.
-pub fn centroid(corners: &[[f64; 3]; 8]) -> [f64; 3] {
-    let sum = corners.iter().fold([0.0; 3], |s, c| [s[0] + c[0], s[1] + c[1], s[2] + c[2]]);
-    sum.map(|s| s / 8.0)
+pub fn centroid(corners: &[[f64; 3]]) -> [f64; 3] {
+    let sum = corners.iter().fold([0.0; 3], |sum, corner| add(sum, *corner));
+    sum.map(|s| s / corners.len() as f64)
 }
 
 /// Which rank computes which element and which loaded face.
 pub struct Cut {
     element_ranks: Vec<u32>,
     face_ranks: Vec<u32>,
-    face_nodes: Vec<u32>,
+    face_nodes: Connectivity,
 }
 
 impl Body {
     /// Cuts the body for so many ranks by recursive coordinate bisection of the elements' centroids.
     pub fn cut(&self, ranks: usize) -> Cut {
-        let centroids: Vec<_> = self.element_nodes.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
+        let centroids: Vec<_> = self.element_nodes.iter().map(|nodes| self.centroid(nodes)).collect();
         let element_ranks = rcb(&centroids, &vec![1.0; centroids.len()], ranks);
         Cut {
             face_ranks: self.faces.iter().map(|face| element_ranks[face.element as usize]).collect(),
-            face_nodes: self.faces.iter().flat_map(|face| face.nodes).collect(),
+            face_nodes: Connectivity::of(Shape::Quadrilateral, self.faces.iter().flat_map(|face| face.nodes).collect()),
             element_ranks,
         }
     }
@@ -81,8 +84,8 @@ impl Body {
     /// Everything that contributes forces to nodes, in canonical order: elements, then loaded faces.
     pub fn contributors<'a>(&'a self, cut: &'a Cut) -> [Contributors<'a>; 2] {
         [
-            Contributors { corners: 8, nodes: self.element_nodes.as_flattened(), ranks: &cut.element_ranks },
-            Contributors { corners: 4, nodes: &cut.face_nodes, ranks: &cut.face_ranks },
+            Contributors { nodes: &self.element_nodes, ranks: &cut.element_ranks },
+            Contributors { nodes: &cut.face_nodes, ranks: &cut.face_ranks },
         ]
     }
 
@@ -98,7 +101,8 @@ impl Body {
             element_block: Arc::default(),
             element_nodes: Arc::default(),
             element_mass: Vec::with_capacity(mesh.element_count()),
-            least_share: vec![1.0; mesh.blocks.len()],
+            elements: Vec::new(),
+            first: Vec::new(),
             node_mass: vec![0.0; mesh.coordinates.len()],
             positions: Arc::new(mesh.coordinates.clone()),
             faces: Vec::new(),
@@ -108,7 +112,7 @@ impl Body {
         body.take_elements(mesh, model);
         body.overlap = contact::remove_overlap(mesh, model, &mut body);
         if body.overlap.nodes > 0 {
-            body.weigh(model);
+            body.weigh(mesh, model);
         }
         body.take_faces(mesh, model);
         Ok(body)
@@ -123,47 +127,65 @@ impl Body {
         masses
     }
 
-    /// Corner positions of an element given by its nodes.
-    pub fn corners(&self, nodes: &[u32; 8]) -> [[f64; 3]; 8] {
+    /// Mean of the corners of an element given by its nodes.
+    pub fn centroid(&self, nodes: &[u32]) -> [f64; 3] {
+        let sum = nodes.iter().fold([0.0; 3], |sum, &node| add(sum, self.positions[node as usize]));
+        sum.map(|s| s / nodes.len() as f64)
+    }
+
+    /// Positions of nodes.
+    pub fn corners<const N: usize>(&self, nodes: &[u32; N]) -> [[f64; 3]; N] {
         nodes.map(|n| self.positions[n as usize])
     }
 
     fn take_elements(&mut self, mesh: &Mesh, model: &Model) {
         let count = mesh.element_count();
         let (mut order, mut blocks) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut corners = Vec::with_capacity(count);
+        let mut elements = Connectivity::default();
         let mut first = 0u32;
         for (index, block) in mesh.blocks.iter().enumerate() {
-            let centroids: Vec<_> = block.connectivity.iter().map(|nodes| centroid(&self.corners(nodes))).collect();
+            self.first.push(first);
+            let nodes: Vec<&[u32]> = block.elements().collect();
+            let centroids: Vec<_> = nodes.iter().map(|nodes| self.centroid(nodes)).collect();
             for place in space_filling_order(&centroids) {
                 order.push(first + place);
                 blocks.push(index as u32);
-                corners.push(block.connectivity[place as usize]);
+                elements.push(block.shape, nodes[place as usize].iter().copied());
             }
-            first += block.connectivity.len() as u32;
+            first += block.len() as u32;
         }
         (self.element_order, self.element_block) = (Arc::new(order), Arc::new(blocks));
-        self.element_nodes = Arc::new(corners);
-        self.weigh(model);
+        self.element_nodes = Arc::new(elements);
+        self.weigh(mesh, model);
     }
 
     /// Masses of elements and nodes from the positions as they are.
-    fn weigh(&mut self, model: &Model) {
+    fn weigh(&mut self, mesh: &Mesh, model: &Model) {
         self.node_mass.fill(0.0);
-        self.least_share.fill(1.0);
         self.element_mass.clear();
+        let of_block = |block| Element::of_block(block, model).expect("`model::check` has seen to it");
+        self.elements = mesh.blocks.iter().map(of_block).collect();
+        let (mut corners, mut shares) = (Vec::new(), Vec::new());
         for element in 0..self.element_nodes.len() {
-            let nodes = self.element_nodes[element];
+            let nodes = &self.element_nodes[element];
             let block = self.element_block[element] as usize;
-            let corners = self.corners(&nodes);
-            let mass = model.materials[self.block_material[block]].density * hexahedron_volume(&corners);
+            corners.clear();
+            corners.extend(nodes.iter().map(|&node| self.positions[node as usize]));
+            shares.resize(nodes.len(), 0.0);
+            let attributes = mesh.blocks[block].attributes_of(self.place_in_block(element));
+            let sample = Sample { nodes, corners: &corners, attributes };
+            let density = model.materials[self.block_material[block]].density;
+            let mass = self.elements[block].weigh(&sample, density, &mut shares);
             self.element_mass.push(mass);
-            let shares = shape::mass_shares(&nodes, &corners);
-            for (node, share) in nodes.into_iter().zip(shares) {
+            for (&node, share) in nodes.iter().zip(&shares) {
                 self.node_mass[node as usize] += mass * share;
             }
-            self.least_share[block] = self.least_share[block].min(shape::least_share(&nodes, &shares));
         }
+    }
+
+    /// Place of an element in its block of the mesh, by its canonical number.
+    pub fn place_in_block(&self, element: usize) -> usize {
+        (self.element_order[element] - self.first[self.element_block[element] as usize]) as usize
     }
 
     fn take_faces(&mut self, mesh: &Mesh, model: &Model) {
@@ -181,8 +203,8 @@ impl Body {
             sides.dedup();
             for (element, side) in sides {
                 let element = canonical[element as usize];
-                let corners = self.element_nodes[element as usize];
-                let nodes = HEX_SIDES[side as usize].map(|corner| corners[corner]);
+                let shape = self.element_nodes.shape(element as usize);
+                let Some(nodes) = shape.face(&self.element_nodes[element as usize], side) else { continue };
                 self.faces.push(LoadedFace { element, nodes, pressure: pressure as u32 });
             }
         }

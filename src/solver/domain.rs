@@ -3,16 +3,15 @@
 use super::body::{Body, LoadedFace};
 use super::constraints::{Constraint, Motion};
 use super::contact::Contact;
-use super::elements::{ElementBlock, Group, NewElement};
+use super::elements::{ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
-use super::loads::{self, NodeForce, PressureFace};
+use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
-use super::silent::{self, Dashpot};
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
-use crate::mesh::Mesh;
+use crate::mesh::{Block, Mesh};
 use crate::model::{InitialVelocity, Model};
 use crate::partition::Share;
 
@@ -30,14 +29,12 @@ pub struct Domain {
     pub element_canonical: Vec<u32>,
     /// Names of the state variables that the laws of the whole model store, ascending; the same on all ranks.
     pub law_states: Vec<&'static str>,
+    /// Names of what the elements of the whole model store beside that, in the elements' order; the same on all ranks.
+    pub element_rows: Vec<&'static str>,
     /// Faces under pressure.
-    pub pressure_faces: Vec<PressureFace>,
-    /// Forces on nodes.
-    pub node_forces: Vec<NodeForce>,
-    /// Gravity.
-    pub gravity: loads::BodyForce,
-    /// Dashpots at the nodes of silent boundaries.
-    pub silent: Vec<Dashpot>,
+    pub pressure_faces: PressureFaces,
+    /// All other loads, in the order in which they act.
+    pub loads: Vec<Box<dyn Load>>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
@@ -72,6 +69,17 @@ fn law_states(model: &Model) -> Vec<&'static str> {
     names
 }
 
+/// Names of all that the elements of a body store, each once, in the order in which its blocks come.
+fn element_rows(body: &Body) -> Vec<&'static str> {
+    let mut names: Vec<&str> = Vec::new();
+    for row in body.elements.iter().flat_map(|element| element.entry().rows) {
+        if !names.contains(&row.name) {
+            names.push(row.name);
+        }
+    }
+    names
+}
+
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
@@ -85,10 +93,9 @@ impl Domain {
             element_file,
             element_canonical: elements.clone(),
             law_states: law_states(model),
+            element_rows: element_rows(body),
             pressure_faces: pressure_faces(model, body, share, &local),
-            node_forces: Vec::new(),
-            gravity: loads::BodyForce { gravities: model.gravities.clone(), ..Default::default() },
-            silent: silent::dashpots(mesh, model, body, &local),
+            loads: Vec::new(),
             constraints: Vec::new(),
             carried_work: Vec::new(),
             contact: None,
@@ -96,11 +103,8 @@ impl Domain {
             exchange: Exchange::new(share),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
-        if !model.gravities.is_empty() {
-            domain.gravity.work = vec![0.0; domain.nodes.len()];
-        }
+        domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, &local);
-        domain.set_forces(mesh, model, &local);
         domain.contact =
             Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
@@ -132,25 +136,6 @@ impl Domain {
             }
         }
         taken
-    }
-
-    fn set_forces(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
-        for load in &model.prescribed_forces {
-            // A node that its set names twice gets the force once.
-            let mut nodes: Vec<u32> = nodes_of_set(mesh, load.node_set, local).collect();
-            nodes.sort_unstable();
-            nodes.dedup();
-            for node in nodes {
-                self.node_forces.push(NodeForce {
-                    node,
-                    axis: load.direction.axis(),
-                    function: load.function,
-                    scale: load.scale,
-                    force: 0.0,
-                    work: 0.0,
-                });
-            }
-        }
     }
 
     fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
@@ -208,7 +193,7 @@ pub(super) fn local_numbers(nodes: usize, used: &[u32]) -> Vec<u32> {
     local
 }
 
-fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+pub(super) fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
     let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
     nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT)
 }
@@ -216,9 +201,8 @@ fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> impl Iterator
 /// Local nodes of a block, each once, ascending.
 fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     let Some(index) = mesh.block_index(block) else { return Vec::new() };
-    let connectivity = &mesh.blocks[index].connectivity;
     let mut nodes: Vec<u32> =
-        connectivity.iter().flatten().map(|&n| local[n as usize]).filter(|&n| n != ABSENT).collect();
+        mesh.blocks[index].nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT).collect();
     nodes.sort_unstable();
     nodes.dedup();
     nodes
@@ -250,17 +234,19 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
         let state_names = state_names(&material.law);
         let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
         let group = |places: Vec<u32>| {
-            let new: Vec<NewElement> = places.into_iter().map(|place| new_element(place, body, share, local)).collect();
-            Group::new(&new, &material.law)
+            let mesh_block = &mesh.blocks[index];
+            let new: Vec<NewElement> =
+                places.into_iter().map(|place| new_element(place, mesh_block, body, share, local)).collect();
+            ElementBlock::group(&body.elements[index], &material.law, material.density, &new)
         };
         ElementBlock {
             index,
             id: mesh.blocks[index].id,
             density: material.density,
             law: material.law.clone(),
-            least_share: body.least_share[index],
-            hourglass: model.hourglass,
+            element: body.elements[index].clone(),
             state_names,
+            keeps_steps: Erosion::watches_steps(model, mesh.blocks[index].id),
             border: group(border),
             interior: group(interior),
         }
@@ -268,18 +254,19 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
     .collect()
 }
 
-fn new_element(place: u32, body: &Body, share: &Share, local: &[u32]) -> NewElement {
+fn new_element(place: u32, block: &Block, body: &Body, share: &Share, local: &[u32]) -> NewElement {
     let element = share.groups[0].members[place as usize] as usize;
-    let nodes = body.element_nodes[element];
+    let nodes = &body.element_nodes[element];
     NewElement {
         place,
-        nodes: nodes.map(|n| local[n as usize]),
-        corners: body.corners(&nodes),
+        nodes: nodes.iter().map(|&n| local[n as usize]).collect(),
+        corners: nodes.iter().map(|&n| body.positions[n as usize]).collect(),
         mass: body.element_mass[element],
+        attributes: block.attributes_of(body.place_in_block(element)).to_vec(),
     }
 }
 
-fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> Vec<PressureFace> {
+fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> PressureFaces {
     let face = |face: &LoadedFace| {
         let load = &model.pressures[face.pressure as usize];
         PressureFace {
@@ -292,5 +279,5 @@ fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> V
             work: 0.0,
         }
     };
-    share.groups[1].members.iter().map(|&f| face(&body.faces[f as usize])).collect()
+    PressureFaces(share.groups[1].members.iter().map(|&f| face(&body.faces[f as usize])).collect())
 }

@@ -8,14 +8,12 @@ mod state;
 
 use super::Body;
 use super::domain::ABSENT;
-use super::elements::fields::{field_values, frame, positions, state_values, stress, volume};
-use super::elements::geometry::{corners, gradient, modes};
-use super::elements::hex8::rows;
-use super::elements::{ElementBlock, Group};
+use super::elements::fields::{field_values, state_values};
+use super::elements::{Element, ElementBlock, Energies, Group};
 use super::nodes::{Nodes, dot};
 use crate::comm::{Communicator, numbers_of_others};
-use crate::lanes::{CHUNK, Row};
-use crate::mesh::{Mesh, UNIT_CUBE};
+use crate::lanes::Row;
+use crate::mesh::{Connectivity, Mesh, UNIT_CUBE};
 use crate::model::{Death, DeathVariable, Model};
 use delete::Deletions;
 use std::sync::Arc;
@@ -26,9 +24,11 @@ const STAND_IN: f64 = 1e3;
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
     rules: Vec<Death>,
+    /// Factor of the deck on stable steps.
+    step_scale: f64,
     deletions: Deletions,
     element_order: Arc<Vec<u32>>,
-    element_nodes: Arc<Vec<[u32; 8]>>,
+    element_nodes: Arc<Connectivity>,
     /// Local number of each node of the mesh.
     local: Vec<u32>,
     /// Whether a node of the mesh goes on when it has lost its elements: if any block around it wants that.
@@ -51,7 +51,7 @@ impl Erosion {
             return None;
         }
         let mut left = vec![0; nodes.len()];
-        for &node in body.element_nodes.iter().flatten().filter(|&&node| local[node as usize] != ABSENT) {
+        for &node in body.element_nodes.nodes().iter().filter(|&&node| local[node as usize] != ABSENT) {
             left[local[node as usize] as usize] += 1;
         }
         let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -68,6 +68,7 @@ impl Erosion {
         let deletions = deletions(mesh, model, body);
         Some(Erosion {
             rules: model.deaths.clone(),
+            step_scale: model.time_step.scale,
             element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),
             local: local.to_vec(),
@@ -79,6 +80,11 @@ impl Erosion {
             energy: Vec::new(),
             gone: 0,
         })
+    }
+
+    /// Whether a rule for a block watches the time steps of its elements.
+    pub fn watches_steps(model: &Model, block: i64) -> bool {
+        model.deaths.iter().any(|rule| rule.block == block && rule.variable == DeathVariable::TimeStep)
     }
 
     /// Takes away what fails and what is deleted now, and returns the canonical numbers of what went on all ranks,
@@ -95,19 +101,21 @@ impl Erosion {
         let mut dead: Vec<u32> = Vec::new();
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
-            let mass = self.stand_in_mass(block);
+            let stand_in = self.stand_in(block);
             for border in [true, false] {
                 let group = if border { &block.border } else { &block.interior };
                 let failed = if deleted.contains(&block.id) {
                     (0..group.len()).filter(|&i| group.is_alive(i)).collect()
                 } else {
-                    failing(&rules, block, group, nodes)
+                    self.failing(&rules, block, group, nodes)
                 };
-                let group = if border { &mut block.border } else { &mut block.interior };
+                let ElementBlock { border: at_border, interior, element, .. } = block;
+                let group = if border { at_border } else { interior };
                 for i in failed {
                     dead.push(canonical[group.places[i] as usize]);
-                    self.energy.push(stored_energy(group, i) + last_half_step(group, i, nodes, time_step));
-                    group.retire(i, self.stand_in, mass);
+                    let last = element.last_half_step(group, i, nodes, time_step);
+                    self.energy.push(stored_energy(element, group, i) + last);
+                    stand_in.take_over(group, i);
                 }
             }
         }
@@ -123,7 +131,7 @@ impl Erosion {
     /// Counts the elements that nodes lose, and drops free nodes where that is asked for.
     fn release(&mut self, dead: &[u32], nodes: &mut Nodes) {
         for &element in dead {
-            for node in self.element_nodes[element as usize] {
+            for &node in &self.element_nodes[element as usize] {
                 let here = self.local[node as usize];
                 if here == ABSENT {
                     continue;
@@ -136,9 +144,12 @@ impl Erosion {
         }
     }
 
-    /// Mass of the stand-in of a block's elements.
-    fn stand_in_mass(&self, block: &ElementBlock) -> f64 {
-        block.density * self.edge * self.edge * self.edge
+    /// The stand-in of a block's elements.
+    fn stand_in(&self, block: &ElementBlock) -> StandIn {
+        let own = block.element.entry().rows.len();
+        let mut numbers = vec![0.0; own + block.state_names.len()];
+        let mass = block.element.stand_in(block.density, self.edge, &mut numbers[..own]);
+        StandIn { nodes: [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| self.stand_in + corner), mass, numbers }
     }
 
     /// Whether a node of the mesh goes on when it has lost its elements.
@@ -154,6 +165,19 @@ impl Erosion {
     /// Local number of each node of the mesh.
     pub fn local(&self) -> &[u32] {
         &self.local
+    }
+}
+
+/// What takes the lane of an element that is gone.
+struct StandIn {
+    nodes: [u32; 8],
+    mass: f64,
+    numbers: Vec<f64>,
+}
+
+impl StandIn {
+    fn take_over(&self, group: &mut Group, i: usize) {
+        group.retire(i, &self.nodes, self.mass, &self.numbers);
     }
 }
 
@@ -186,113 +210,60 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
     own
 }
 
-/// Elements that have passed the value of a rule, ascending. NaN has passed every value.
-fn failing(rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
-    let mut failed = Vec::new();
-    for rule in rules {
-        let value = watched(rule, block, group, nodes);
-        let passed = |value: f64| {
-            if rule.is_maximum { value.is_nan() || value > rule.value } else { value.is_nan() || value <= rule.value }
-        };
-        failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && passed(value(i))));
+/// Watching.
+impl Erosion {
+    /// Elements that have passed the value of a rule, ascending. NaN has passed every value.
+    fn failing(&self, rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
+        let mut failed = Vec::new();
+        for rule in rules {
+            let value = self.watched(rule, block, group, nodes);
+            let passed = |value: f64| {
+                let beyond = if rule.is_maximum { value > rule.value } else { value <= rule.value };
+                value.is_nan() || beyond
+            };
+            let known_and_passed = |i: usize| value(i).is_some_and(passed);
+            failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && known_and_passed(i)));
+        }
+        failed.sort_unstable();
+        failed.dedup();
+        failed
     }
-    failed.sort_unstable();
-    failed.dedup();
-    failed
-}
 
-/// The variable of a rule as a function of the element.
-fn watched<'a>(
-    rule: &'a Death,
-    block: &'a ElementBlock,
-    group: &'a Group,
-    nodes: &'a Nodes,
-) -> Box<dyn Fn(usize) -> f64 + 'a> {
-    match &rule.variable {
-        DeathVariable::Volume => Box::new(|i| volume(group, i, nodes) * block.density / group.element_mass(i)),
-        DeathVariable::TimeStep => Box::new(|i| stable_step(block, group, i, nodes)),
-        DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
-            Some(row) => Box::new(move |i| group.value(i, rows::LAW + row)),
-            None => Box::new(|i| state(block, group, i, name)),
-        },
-        DeathVariable::Field(field, component) => {
-            Box::new(|i| field_values(*field, block, group, i, nodes, 0)[*component])
+    /// The variable of a rule as a function of the element, where it is known. The time step is what the element let the run
+    /// take at the last state, as the log prints it; before the first step it is not known.
+    fn watched<'a>(
+        &self,
+        rule: &'a Death,
+        block: &'a ElementBlock,
+        group: &'a Group,
+        nodes: &'a Nodes,
+    ) -> Box<dyn Fn(usize) -> Option<f64> + 'a> {
+        let scale = self.step_scale;
+        match &rule.variable {
+            DeathVariable::Volume => {
+                Box::new(|i| Some(block.element.volume(group, i, nodes) * block.density / group.element_mass(i)))
+            }
+            DeathVariable::TimeStep => Box::new(move |i| group.stable_step(i).map(|step| scale * step)),
+            DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
+                Some(row) => Box::new(move |i| Some(group.value(i, block.first_of_law() + row))),
+                None => Box::new(|i| Some(state(block, group, i, (nodes, name)))),
+            },
+            DeathVariable::Field(field, component) => {
+                Box::new(|i| Some(field_values(*field, block, group, i, nodes, 0)[*component]))
+            }
         }
     }
-}
-
-/// The bound of Flanagan and Belytschko (1984) with the elastic moduli, √(M V/2(λ+2μ) B:B), as the element itself has it.
-fn stable_step(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> f64 {
-    let x = positions(group, i, nodes);
-    let operator = gradient(&[0, 1, 2].map(|axis| modes(&x.map(|corner| corner[axis] - x[0][axis]))));
-    let square = operator.square4608() / 4608.0;
-    let volume = operator.volume192 / 192.0;
-    let light = group.element_mass(i) * block.least_share;
-    (light * volume / (2.0 * block.law.moduli().dilatational() * square)).max(0.0).sqrt()
 }
 
 /// A state variable of an element's law, by name; zero where the law has none of that name.
-fn state(block: &ElementBlock, group: &Group, i: usize, name: &str) -> f64 {
+fn state(block: &ElementBlock, group: &Group, i: usize, (nodes, name): (&Nodes, &str)) -> f64 {
     let place = block.law.entry().state.iter().position(|variable| variable.name == name);
-    place.map_or(0.0, |place| state_values(block, group, i)[place])
+    place.map_or(0.0, |place| state_values(block, group, i, nodes)[place])
 }
 
-fn stored_energy(group: &Group, i: usize) -> f64 {
-    group.value(i, rows::INTERNAL_ENERGY)
-        + group.value(i, rows::HOURGLASS_ENERGY)
-        + group.value(i, rows::VISCOUS_ENERGY)
-}
-
-/// Work that the element's last forces have done since the last state: they acted for half of the step that led here,
-/// and no new forces come to be averaged with them. Stress and bulk viscosity; hourglass forces are left out.
-fn last_half_step(group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
-    let total = stress(group, i).add_diagonal(group.value(i, rows::VISCOUS_STRESS)).rotate(&frame(group, i)).matrix();
-    let v = group.nodes(i).map(|node| nodes.velocity(node));
-    let before = positions(group, i, nodes);
-    let operator = gradient(&[0, 1, 2].map(|axis| {
-        modes(
-            &[0, 1, 2, 3, 4, 5, 6, 7]
-                .map(|n: usize| (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])),
-        )
-    }));
-    let mut work = 0.0;
-    for j in 0..3 {
-        let g = operator.g24[j];
-        let b = corners(&[g[0], g[1], g[2], g[3], g[4], g[5], 0.0]);
-        for n in 0..8 {
-            work += (0..3).map(|k| total[k][j] * v[n][k]).sum::<f64>() * b[n] / 192.0;
-        }
-    }
-    let work = 0.5 * time_step * work;
-    // An element that dies inverted may have moved beyond all measure.
-    if work.is_finite() { work } else { 0.0 }
-}
-
-impl Group {
-    /// Whether the `i`-th element is still there.
-    pub fn is_alive(&self, i: usize) -> bool {
-        self.gone.is_empty() || !self.gone[i]
-    }
-
-    /// Gives the lane of the `i`-th element to the stand-in, and with it the lanes that copy the last element.
-    fn retire(&mut self, i: usize, stand_in: u32, mass: f64) {
-        if self.gone.is_empty() {
-            self.gone = vec![false; self.len()];
-        }
-        self.gone[i] = true;
-        let copies = if i + 1 == self.len() { self.len()..self.connectivity.len() * CHUNK } else { 0..0 };
-        for slot in std::iter::once(i).chain(copies) {
-            let (chunk, lane) = (slot / CHUNK, slot % CHUNK);
-            for corner in 0..8 {
-                self.connectivity[chunk][corner][lane] = stand_in + corner as u32;
-            }
-            self.mass[chunk].0[lane] = mass;
-            let state = &mut self.state[chunk * self.stride..(chunk + 1) * self.stride];
-            state.iter_mut().for_each(|row| row.0[lane] = 0.0);
-            for component in 0..3 {
-                state[rows::STRETCH + component].0[lane] = 1.0;
-            }
-            state[rows::FRAME].0[lane] = 1.0;
-        }
-    }
+/// All energy that an element has stored.
+fn stored_energy(element: &Element, group: &Group, i: usize) -> f64 {
+    let Energies { internal, hourglass, viscous } = &element.entry().energies;
+    let others = [hourglass, viscous].into_iter().flatten();
+    others.fold(group.value(i, *internal), |sum, &row| sum + group.value(i, row))
 }

@@ -5,15 +5,16 @@
 
 use crate::comm::{Communicator, Peer};
 use crate::lanes::Force;
-use crate::partition::{Share, Source};
+use crate::mesh::Connectivity;
+use crate::partition::{LocalGroup, Share, Source};
 
 /// Buffers and plan of the exchange.
 pub struct Exchange {
-    /// Contributions kept apart, to be subtracted from the nodes: eight per border element in canonical order, then
-    /// four per loaded face.
+    /// Contributions kept apart, to be subtracted from the nodes: one per corner of the border elements in canonical order,
+    /// then one per corner of the loaded faces.
     pub slots: Vec<Force>,
-    /// Number of border elements.
-    pub border_elements: usize,
+    /// Place of the first corner of the first loaded face among them.
+    pub first_face: usize,
     peers: Vec<Peer>,
     /// The share's plan of messages and sums, its slots numbered as in `slots`.
     plan: Share,
@@ -23,7 +24,7 @@ impl Exchange {
     /// From a rank's share of the body: its elements and its loaded faces.
     pub fn new(share: &Share) -> Exchange {
         let compact = CompactSlots::new(share);
-        let faces: usize = share.groups[1..].iter().map(|faces| faces.nodes.len()).sum();
+        let faces: usize = share.groups[1..].iter().map(|faces| faces.nodes.nodes().len()).sum();
         let mut plan = Share { groups: Vec::new(), nodes: Vec::new(), owned: Vec::new(), ..share.clone() };
         for slot in plan.neighbours.iter_mut().flat_map(|neighbour| &mut neighbour.send) {
             *slot = compact.slot(*slot);
@@ -34,8 +35,8 @@ impl Exchange {
             }
         }
         Exchange {
-            slots: vec![Force::default(); 8 * compact.border_elements + faces],
-            border_elements: compact.border_elements,
+            slots: vec![Force::default(); compact.kept as usize + faces],
+            first_face: compact.kept as usize,
             peers: share.peers(3),
             plan,
         }
@@ -67,34 +68,35 @@ fn negative(force: &Force) -> [f64; 3] {
 }
 
 /// Numbers of the slots that are really kept: those of border elements and of loaded faces.
-struct CompactSlots {
-    border_elements: usize,
-    elements: usize,
-    /// Border elements before each local element.
-    before: Vec<u32>,
+struct CompactSlots<'a> {
+    elements: &'a Connectivity,
+    /// The first kept slot of each local element that is at the border.
+    first: Vec<u32>,
+    /// Slots of border elements.
+    kept: u32,
 }
 
-impl CompactSlots {
-    fn new(share: &Share) -> CompactSlots {
-        let border = &share.groups[0].border;
-        let mut count = 0u32;
-        let before = border
-            .iter()
-            .map(|&border| {
-                let before = count;
-                count += u32::from(border);
-                before
+impl CompactSlots<'_> {
+    fn new(share: &Share) -> CompactSlots<'_> {
+        let LocalGroup { nodes: elements, border, .. } = &share.groups[0];
+        let mut kept = 0u32;
+        let first = (border.iter().zip(elements.iter()))
+            .map(|(&border, nodes)| {
+                let first = kept;
+                kept += if border { nodes.len() as u32 } else { 0 };
+                first
             })
             .collect();
-        CompactSlots { border_elements: count as usize, elements: border.len(), before }
+        CompactSlots { elements, first, kept }
     }
 
     fn slot(&self, slot: u32) -> u32 {
-        let all = 8 * self.elements as u32;
+        let all = self.elements.nodes().len() as u32;
         if slot < all {
-            8 * self.before[slot as usize / 8] + slot % 8
+            let (element, corner) = self.elements.corner(slot as usize);
+            self.first[element] + corner as u32
         } else {
-            8 * self.border_elements as u32 + (slot - all)
+            self.kept + (slot - all)
         }
     }
 }

@@ -13,10 +13,9 @@ mod erosion;
 mod exchange;
 mod function;
 mod health;
-mod loads;
+pub mod loads;
 pub mod nodes;
 mod remembered;
-mod silent;
 mod state;
 mod stop;
 mod totals;
@@ -94,6 +93,12 @@ impl Request {
     }
 }
 
+/// Why blocks of a mesh cannot be computed as the model has them, each with the number of the block.
+pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
+    mesh.blocks.iter().filter_map(unfit).collect()
+}
+
 impl Solver {
     /// One rank's share of the problem in its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Solver {
@@ -126,12 +131,9 @@ impl Solver {
         }
     }
 
-    /// Chooses the instruction set of the element kernels; results do not depend on it. The processor must have it:
-    /// a wider one than [`InstructionSet::detect`] finds is ignored.
+    /// Chooses the instruction set of the element kernels; results do not depend on it.
     pub fn use_instructions(&mut self, instructions: InstructionSet) {
-        if instructions <= InstructionSet::widest() {
-            self.pass.instructions = instructions;
-        }
+        self.pass.instructions = instructions;
     }
 
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
@@ -244,11 +246,11 @@ impl Solver {
 
     /// Takes failed elements away, and lets the surface grow inwards.
     fn erode(&mut self, comm: &mut dyn Communicator) {
-        let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, .. } = &mut self.domain;
+        let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, loads, .. } = &mut self.domain;
         let Some(erosion) = erosion else { return };
         self.clock.start();
         if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
-            pressure_faces.iter_mut().for_each(|face| face.gone |= dead.binary_search(&face.element).is_ok());
+            loads::all(pressure_faces, loads).for_each(|load| load.lose(&dead, false));
             if let Some(contact) = contact {
                 comm.enter(Traffic::ContactSearch);
                 contact.erode(&dead, erosion, nodes, comm);
@@ -262,8 +264,8 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &mut exchange.slots[..];
         for block in blocks {
-            let (own, rest) = slots.split_at_mut(8 * block.border.len());
-            found = found.and(elements::run(block, &nodes.rows, Sink::Apart(own), &self.pass));
+            let (own, rest) = slots.split_at_mut(block.border.corner_count());
+            found = found.and(block.run(&nodes.rows, Sink::Apart(own), &self.pass));
             slots = rest;
         }
         found
@@ -274,9 +276,9 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &exchange.slots[..];
         for block in blocks {
-            let (border, rest) = slots.split_at(8 * block.border.len());
+            let (border, rest) = slots.split_at(block.border.corner_count());
             let sink = Sink::Nodes { forces: &mut nodes.forces, border };
-            found = found.and(elements::run(block, &nodes.rows, sink, &self.pass));
+            found = found.and(block.run(&nodes.rows, sink, &self.pass));
             slots = rest;
         }
         found
@@ -284,8 +286,8 @@ impl Solver {
 
     fn loaded_faces(&mut self) {
         let Domain { pressure_faces, nodes, exchange, .. } = &mut self.domain;
-        let slots = exchange.slots[8 * exchange.border_elements..].chunks_exact_mut(4);
-        for (face, slots) in pressure_faces.iter_mut().zip(slots) {
+        let slots = exchange.slots[exchange.first_face..].chunks_exact_mut(4);
+        for (face, slots) in pressure_faces.0.iter_mut().zip(slots) {
             face.evaluate(nodes, &self.functions, self.time);
             slots.copy_from_slice(&face.slots());
         }
@@ -293,7 +295,7 @@ impl Solver {
 
     fn add_faces(&mut self) {
         let Domain { pressure_faces, nodes, .. } = &mut self.domain;
-        for face in pressure_faces.iter() {
+        for face in &pressure_faces.0 {
             for (&node, force) in face.nodes.iter().zip(face.force) {
                 for (sum, f) in nodes.forces[node as usize].0.iter_mut().zip(force) {
                     *sum += f;
@@ -329,12 +331,8 @@ impl Solver {
     fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, node_forces, gravity, silent, contact, constraints, .. } = &mut self.domain;
-        gravity.apply(nodes, &self.functions, self.time);
-        for load in node_forces {
-            load.apply(nodes, &self.functions, self.time);
-        }
-        silent.iter_mut().for_each(|dashpot| dashpot.apply(nodes, step.kick));
+        let Domain { nodes, loads, contact, constraints, .. } = &mut self.domain;
+        loads.iter_mut().for_each(|load| load.apply(nodes, &self.functions, &step));
         self.clock.stop(Section::Assembly);
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
@@ -350,11 +348,8 @@ impl Solver {
     fn book_work(&mut self) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, node_forces, gravity, silent, contact, constraints, pressure_faces, .. } = &mut self.domain;
-        gravity.book(nodes, half_step);
-        pressure_faces.iter_mut().for_each(|face| face.book(nodes, half_step));
-        node_forces.iter_mut().for_each(|load| load.book(nodes, half_step));
-        silent.iter_mut().for_each(|dashpot| dashpot.book(nodes, half_step));
+        let Domain { nodes, loads, contact, constraints, pressure_faces, .. } = &mut self.domain;
+        loads::all(pressure_faces, loads).for_each(|load| load.book(nodes, half_step));
         contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
         self.clock.stop(Section::Integration);

@@ -2,6 +2,8 @@
 
 use crate::lanes::{Force, Row};
 
+pub use crate::vector::{add, cross, dot, scaled, subtract};
+
 /// The nodes that a rank's elements use.
 #[derive(Default)]
 pub struct Nodes {
@@ -15,31 +17,6 @@ pub struct Nodes {
     pub file: Vec<u32>,
     /// Whether this rank answers for the node: one rank does, of those that share it.
     pub owned: Vec<bool>,
-}
-
-/// a · b
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// s a
-pub fn scaled(a: [f64; 3], s: f64) -> [f64; 3] {
-    [a[0] * s, a[1] * s, a[2] * s]
-}
-
-/// a + b
-pub fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-/// a − b
-pub fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// a × b
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 impl Nodes {

@@ -7,11 +7,11 @@
 mod elements;
 mod works;
 
+use super::loads::{self, LOADS, Places};
 use super::nodes::Nodes;
 use super::{Domain, Solver};
 use crate::comm::Communicator;
 use crate::restart::{Archive, Loader, Snapshot, TIME};
-use works::Works;
 
 impl Solver {
     /// Visits the state between two steps. All ranks call it.
@@ -72,11 +72,10 @@ impl Domain {
             blocks,
             element_file,
             element_canonical,
+            element_rows,
             law_states,
             pressure_faces,
-            node_forces,
-            gravity,
-            silent,
+            loads,
             constraints,
             carried_work,
             contact,
@@ -90,17 +89,21 @@ impl Domain {
         if let Some(erosion) = erosion {
             dead = erosion.visit_state(archive, blocks, element_file, element_canonical);
         }
-        elements::visit(archive, blocks, law_states, element_file.len());
+        elements::visit(archive, blocks, [element_rows, law_states], element_file.len());
         archive.heap("CARRIEDW", carried_work);
-        let works = Works::new(nodes, [element_file, element_canonical]);
-        let left = [
-            works.faces(archive, pressure_faces, &dead),
-            works.forces(archive, node_forces),
-            works.constraints(archive, constraints),
-            works.dashpots(archive, silent),
-            works.gravity(archive, gravity),
-        ];
-        carried_work.extend(left.concat());
+        let places = Places { nodes, elements: [element_file, element_canonical] };
+        carried_work.extend(works::of_constraints(archive, constraints, &places));
+        for entry in LOADS {
+            let mut all = loads::all(pressure_faces, loads);
+            let found = all.find(|load| load.entry().works == entry.works);
+            carried_work.extend(match found {
+                Some(load) => works::of_load(archive, load, &places),
+                None => works::of_none(archive, entry.works, entry.key, &places),
+            });
+        }
+        if archive.loading() {
+            loads::all(pressure_faces, loads).for_each(|load| load.lose(&dead, true));
+        }
         if let Some(contact) = contact {
             contact.visit_state(archive, &dead, erosion.as_ref(), nodes);
         }

@@ -7,7 +7,8 @@
 //! differences balance exactly for constant steps. Work is booked in the same manner.
 
 use super::domain::Domain;
-use super::elements::hex8::rows;
+use super::elements::Energies;
+use super::loads::{self, Places};
 use crate::comm::{Communicator, ExactSum};
 
 /// Sums over the whole body at one state. The same bits on every rank and any number of ranks.
@@ -147,33 +148,30 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
 }
 
 fn add_elements(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
-    for group in domain.blocks.iter().flat_map(|block| block.groups()) {
-        for i in 0..group.len() {
-            sums[1].add(group.value(i, rows::INTERNAL_ENERGY));
-            sums[2].add(group.value(i, rows::HOURGLASS_ENERGY));
-            sums[3].add(group.value(i, rows::VISCOUS_ENERGY));
+    for block in &domain.blocks {
+        let Energies { internal, hourglass, viscous } = &block.element.entry().energies;
+        for group in block.groups() {
+            for i in 0..group.len() {
+                sums[1].add(group.value(i, *internal));
+                hourglass.iter().for_each(|&row| sums[2].add(group.value(i, row)));
+                viscous.iter().for_each(|&row| sums[3].add(group.value(i, row)));
+            }
         }
     }
 }
 
-fn add_work(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
-    let owned = |node: u32| domain.nodes.owned[node as usize];
-    for face in &domain.pressure_faces {
-        sums[5].add(face.work);
+fn add_work(domain: &mut Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+    let Domain { nodes, pressure_faces, loads, constraints, element_file, element_canonical, .. } = domain;
+    let places = Places { nodes, elements: [element_file, element_canonical] };
+    for load in loads::all(pressure_faces, loads) {
+        load.accounts(&places, &mut |account| {
+            if account.own {
+                sums[5].add(*account.work);
+            }
+        });
     }
-    for load in domain.node_forces.iter().filter(|load| owned(load.node)) {
-        sums[5].add(load.work);
-    }
-    for constraint in domain.constraints.iter().filter(|constraint| owned(constraint.node)) {
+    for constraint in constraints.iter().filter(|constraint| nodes.owned[constraint.node as usize]) {
         sums[5].add(constraint.work);
-    }
-    for dashpot in domain.silent.iter().filter(|dashpot| owned(dashpot.node)) {
-        sums[5].add(dashpot.work);
-    }
-    for (work, owned) in domain.gravity.work.iter().zip(&domain.nodes.owned) {
-        if *owned {
-            sums[5].add(*work);
-        }
     }
     domain.carried_work.iter().for_each(|work| sums[5].add(*work));
     for [normal, friction] in domain.contact.iter().flat_map(|contact| contact.works()) {

@@ -65,8 +65,39 @@ impl Layout {
 
     /// Where the body is drawn.
     pub fn body(&self) -> Rectangle {
-        let [left, top, right, bottom] = [130.0, 128.0, 215.0, 60.0].map(|margin| f64::from(margin * self.unit));
-        Rectangle { left, top, right: f64::from(self.width) - right, bottom: f64::from(self.height) - bottom }
+        let [left, _, right, bottom] = [130.0, 128.0, 215.0, 60.0].map(|margin| f64::from(margin * self.unit));
+        let (width, height) = (f64::from(self.width), f64::from(self.height));
+        let right = width - right.max(f64::from(self.beside()));
+        let bottom = bottom.max(f64::from(1.8 * self.letters(12.5)));
+        let top = f64::from(self.below_caption()).max(f64::from(128.0 * self.unit));
+        // On the smallest pictures the triad stands in the body's corner rather than beside it.
+        let left = left.min(0.15 * width);
+        Rectangle { left, top, right: right.max(left + 1.0), bottom: (height - bottom).max(top + 1.0) }
+    }
+
+    /// A size of letters as drawn: below nine pixels nobody can read them, however small the picture is.
+    fn letters(&self, size: f32) -> f32 {
+        (size * self.unit).max(9.0)
+    }
+
+    /// Baselines of the caption's lines: as planned, or as far apart as their letters need.
+    fn caption(&self) -> [f32; 3] {
+        let mut last = 0.0f32;
+        CAPTION.map(|(baseline, size, _)| {
+            last = (baseline * self.unit).max(last + 1.3 * self.letters(size));
+            last
+        })
+    }
+
+    fn below_caption(&self) -> f32 {
+        self.caption()[2] + 0.6 * self.letters(CAPTION[2].1)
+    }
+
+    /// Width from the left edge of the colour bar to the right edge of the picture.
+    fn beside(&self) -> f32 {
+        let mark = (BAR.3 + 11.0) * self.unit + 6.2 * self.letters(15.5);
+        // "min −1.234E+05" is the longest text there.
+        (BAR.0 * self.unit).max(mark).max(9.0 * self.letters(14.5))
     }
 }
 
@@ -84,6 +115,20 @@ pub fn annotate(picture: &mut Pixmap, layout: &Layout, notes: &Notes, axes: &Axe
     sheet.triad(axes);
 }
 
+/// Writes a text in the middle of a place, shortened to a width.
+pub fn label(picture: &mut Pixmap, layout: &Layout, text: &str, [x, y]: [f64; 2], width: f64) {
+    let sheet = Sheet { picture, layout, typeface: Typeface::new() };
+    let style = sheet.style(15.0, false, INK);
+    let text = sheet.typeface.fit(text, width as f32, style);
+    sheet.typeface.draw(sheet.picture, &text, [x as f32, y as f32], Align::Centre, style);
+}
+
+/// Pixels per pixel of a picture of 1200 by 900 below which there is no room for the axes.
+const SMALLEST_TRIAD: f32 = 0.33;
+
+/// Lines of the caption: baseline, size of letters, bold.
+const CAPTION: [(f32, f32, bool); 3] = [(52.0, 23.0, true), (84.0, 17.5, false), (110.0, 14.5, false)];
+
 /// Left edge, upper and lower end of the colour bar, and its width: pixels of a picture of 1200 by 900, the first from
 /// the right edge, the lower end from the lower edge.
 const BAR: (f32, f32, f32, f32) = (165.0, 200.0, 200.0, 24.0);
@@ -97,8 +142,7 @@ struct Sheet<'a> {
 
 impl Sheet<'_> {
     fn style(&self, size: f32, bold: bool, colour: Rgb) -> Style {
-        // Below nine pixels nobody can read a letter, however small the picture is.
-        Style { size: (size * self.layout.unit).max(9.0), bold, colour }
+        Style { size: self.layout.letters(size), bold, colour }
     }
 
     fn write(&mut self, text: &str, at: [f32; 2], align: Align, style: Style) {
@@ -108,26 +152,29 @@ impl Sheet<'_> {
     fn caption(&mut self, notes: &Notes) {
         let unit = self.layout.unit;
         let (left, room) = (36.0 * unit, self.layout.width - 72.0 * unit);
-        let lines = [
-            (&notes.title, 52.0, self.style(23.0, true, INK)),
-            (&notes.subtitle, 84.0, self.style(17.5, false, INK)),
-            (&notes.remarks, 110.0, self.style(14.5, false, FAINT)),
-        ];
-        for (text, baseline, style) in lines {
+        let texts = [&notes.title, &notes.subtitle, &notes.remarks];
+        for ((text, baseline), (_, size, bold)) in texts.into_iter().zip(self.layout.caption()).zip(CAPTION) {
+            let style = self.style(size, bold, if size < 15.0 { FAINT } else { INK });
             let text = self.typeface.fit(text, room, style);
-            self.write(&text, [left, baseline * unit], Align::Left, style);
+            self.write(&text, [left, baseline], Align::Left, style);
         }
         let style = self.style(12.5, false, FAINT);
         let origin = self.typeface.fit(&notes.origin, 0.6 * room, style);
-        self.write(&origin, [self.layout.width - left, self.layout.height - 24.0 * unit], Align::Right, style);
+        let baseline = self.layout.height - (24.0 * unit).max(4.0);
+        self.write(&origin, [self.layout.width - left, baseline], Align::Right, style);
     }
 
     /// Left, top, right and bottom of the colour bar on whole pixels.
     fn bar_place(&self) -> [f32; 4] {
-        let (right, top, bottom, width) = BAR;
-        let unit = self.layout.unit;
-        let left = self.layout.width - right * unit;
-        [left, top * unit, left + width * unit, self.layout.height - bottom * unit].map(f32::round)
+        let (_, top, bottom, width) = BAR;
+        let layout = self.layout;
+        let unit = layout.unit;
+        let left = layout.width - layout.beside();
+        // Label and largest value above it, least value, gaps and the origin below it.
+        let above = layout.below_caption() + 1.3 * layout.letters(18.0) + 1.5 * layout.letters(14.5);
+        let below = 3.4 * layout.letters(14.5) + 1.5 * layout.letters(12.5);
+        let (top, bottom) = ((top * unit).max(above), layout.height - (bottom * unit).max(below));
+        [left, top, left + width * unit, bottom.max(top + 1.0)].map(f32::round)
     }
 
     fn bar(&mut self, label: &str, (low, high): (f64, f64), map: &ColourMap) {
@@ -140,9 +187,11 @@ impl Sheet<'_> {
         self.frame([left, top, right, bottom]);
         let style = self.style(18.0, true, INK);
         let label = self.typeface.fit(label, self.layout.width - left - 12.0 * unit, style);
-        self.write(&label, [left, top - 40.0 * unit], Align::Left, style);
+        let value = self.layout.letters(14.5);
+        self.write(&label, [left, top - (40.0 * unit).max(1.7 * value)], Align::Left, style);
         let style = self.style(15.5, false, INK);
-        for (value, text) in ticks(low, high, 7) {
+        let wanted = (((bottom - top) / (2.0 * style.size)) as usize).clamp(1, 7);
+        for (value, text) in ticks(low, high, wanted) {
             let y = bottom - ((value - low) / (high - low)) as f32 * (bottom - top);
             self.line([right, y], [right + 6.0 * unit, y], 1.2 * unit, INK);
             self.write(&text, [right + 11.0 * unit, y + 0.36 * style.size], Align::Left, style);
@@ -155,11 +204,14 @@ impl Sheet<'_> {
         let unit = self.layout.unit;
         let style = self.style(14.5, false, FAINT);
         if let Some((low, high)) = extremes {
-            self.write(&format!("max {}", number(high)), [left, top - 14.0 * unit], Align::Left, style);
-            self.write(&format!("min {}", number(low)), [left, bottom + 26.0 * unit], Align::Left, style);
+            let room = self.layout.width - left - 2.0;
+            let [high, low] = [("max", high), ("min", low)]
+                .map(|(what, value)| self.typeface.fit(&format!("{what} {}", number(value)), room, style));
+            self.write(&high, [left, top - (14.0 * unit).max(0.4 * style.size)], Align::Left, style);
+            self.write(&low, [left, bottom + (26.0 * unit).max(1.3 * style.size)], Align::Left, style);
         }
         if gaps {
-            let y = bottom + 44.0 * unit;
+            let y = bottom + (44.0 * unit).max(1.9 * style.size);
             self.swatch([left, y], NO_VALUE, "no value", style);
         }
     }
@@ -190,7 +242,11 @@ impl Sheet<'_> {
 
     /// The directions of x, y and z; those that point at the viewer are drawn last.
     fn triad(&mut self, axes: &Axes) {
-        let unit = self.layout.unit;
+        if self.layout.unit < SMALLEST_TRIAD {
+            return;
+        }
+        // Its names need their room, however small the picture is.
+        let unit = self.layout.unit.max(1.5 * SMALLEST_TRIAD);
         let origin = [88.0 * unit, self.layout.height - 88.0 * unit];
         let style = self.style(15.0, true, INK);
         let mut arms: Vec<(usize, [f64; 3])> =

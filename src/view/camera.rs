@@ -54,6 +54,11 @@ impl Bounds {
     /// The box around nothing.
     pub const EMPTY: Bounds = Bounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
+    /// Width and height as the eye sees them.
+    pub fn size(&self) -> [f64; 2] {
+        [0, 1].map(|axis| (self.high[axis] - self.low[axis]).max(0.0))
+    }
+
     /// Lets the box hold a turned point.
     pub fn include(&mut self, point: [f64; 3]) {
         self.low = [0, 1, 2].map(|axis| self.low[axis].min(point[axis]));

@@ -28,6 +28,11 @@ const HUE: [f64; 2] = [295.0, 106.0];
 const CHROMA: [f64; 2] = [0.2018, 0.1897];
 const LEAST_CHROMA: (f64, f64) = (0.105, 0.44);
 const STEPS: usize = 512;
+/// Hues of negative and positive values, which also colour-blind eyes tell apart; lightness (OKLab) at zero and at the
+/// ends; largest chroma.
+const SIGNED_HUE: [f64; 2] = [255.0, 35.0];
+const SIGNED_LIGHTNESS: [f64; 2] = [0.95, 0.45];
+const SIGNED_CHROMA: f64 = 0.135;
 
 /// A table of colours between the smallest and the largest value.
 pub struct ColourMap {
@@ -35,9 +40,17 @@ pub struct ColourMap {
 }
 
 impl ColourMap {
-    /// Computes the table.
-    pub fn new() -> Self {
+    /// For values of one sign: lightness rises from the smallest to the largest.
+    pub fn sequential() -> Self {
         ColourMap { table: (0..STEPS).map(|i| colour(i as f64 / (STEPS - 1) as f64)).collect() }
+    }
+
+    /// For values of both signs between these ends: white at zero, blue below, red above, and equally strong at equal
+    /// distances from zero.
+    pub fn diverging((low, high): (f64, f64)) -> Self {
+        let most = low.abs().max(high.abs());
+        let value = |i: usize| (low + (high - low) * i as f64 / (STEPS - 1) as f64) / most;
+        ColourMap { table: (0..STEPS).map(|i| signed(value(i))).collect() }
     }
 
     /// The colour at `fraction` of the range, 0 to 1; what lies outside gets the colour of the end.
@@ -57,6 +70,16 @@ fn colour(fraction: f64) -> Rgb {
     let (least, place) = LEAST_CHROMA;
     let (end, side) = if fraction < place { (CHROMA[0], place) } else { (CHROMA[1], 1.0 - place) };
     let chroma = least + (end - least) * ((fraction - place) / side).powi(2);
+    linear_rgb([lightness, chroma * hue.cos(), chroma * hue.sin()]).map(|channel| gamma(channel) as f32)
+}
+
+/// The colour of a value between -1 and 1.
+fn signed(value: f64) -> Rgb {
+    let strength = value.abs().min(1.0);
+    let hue = (if value < 0.0 { SIGNED_HUE[0] } else { SIGNED_HUE[1] }).to_radians();
+    let lightness = SIGNED_LIGHTNESS[0] + strength * (SIGNED_LIGHTNESS[1] - SIGNED_LIGHTNESS[0]);
+    // Full chroma some way before the end, where darkness takes over.
+    let chroma = SIGNED_CHROMA * (1.25 * strength.powf(0.9)).min(1.0);
     linear_rgb([lightness, chroma * hue.cos(), chroma * hue.sin()]).map(|channel| gamma(channel) as f32)
 }
 
@@ -91,7 +114,7 @@ mod tests {
 
     #[test]
     fn lightness_rises_steadily() {
-        let map = ColourMap::new();
+        let map = ColourMap::sequential();
         let lightness: Vec<f64> = (0..=16).map(|i| cie_lightness(map.at(i as f32 / 16.0))).collect();
         let mean = (lightness[16] - lightness[0]) / 16.0;
         for pair in lightness.windows(2) {
@@ -102,13 +125,23 @@ mod tests {
 
     #[test]
     fn all_colours_can_be_shown() {
-        let map = ColourMap::new();
-        assert!((0..=1000).flat_map(|i| map.at(i as f32 / 1000.0)).all(|c| (0.0..=1.0).contains(&c)));
+        for map in [ColourMap::sequential(), ColourMap::diverging((-1.0, 1.0)), ColourMap::diverging((-0.2, 3.0))] {
+            assert!((0..=1000).flat_map(|i| map.at(i as f32 / 1000.0)).all(|c| (0.0..=1.0).contains(&c)));
+        }
+    }
+
+    #[test]
+    fn signed_values_are_white_at_zero_and_equally_light_on_both_sides() {
+        let map = ColourMap::diverging((-1.0, 3.0));
+        assert!(map.at(0.25).iter().all(|c| *c > 0.9), "{:?}", map.at(0.25));
+        let (below, above) = (cie_lightness(map.at(0.0)), cie_lightness(map.at(0.5)));
+        assert!((below - above).abs() < 6.0, "{below} {above}");
+        assert!(map.at(0.0)[2] > map.at(0.0)[0] && map.at(1.0)[0] > map.at(1.0)[2]);
     }
 
     #[test]
     fn values_outside_the_range_get_the_colour_of_the_end() {
-        let map = ColourMap::new();
+        let map = ColourMap::sequential();
         assert_eq!(map.at(-3.0), map.at(0.0));
         assert_eq!(map.at(7.0), map.at(1.0));
         assert_eq!(map.at(f32::NAN), NO_VALUE);

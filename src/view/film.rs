@@ -8,6 +8,7 @@ use gif::{Encoder, Frame, Repeat};
 use tiny_skia::Pixmap;
 
 use super::camera::{Axes, Bounds};
+use super::colour::ColourMap;
 use super::palette::Palette;
 use super::subject::Subject;
 use super::{Studio, Summary, ViewError, ViewOptions, bounds, png, write};
@@ -34,9 +35,10 @@ pub fn draw_many(
     let last = subject.times().len().checked_sub(1).ok_or_else(|| ViewError::NoStates { path: results.to_owned() })?;
     let mut states: Vec<usize> = (0..last).step_by(every.get()).collect();
     states.push(last);
-    let (bounds, extremes) = survey(&subject, &states, &Axes::new(options.from))?;
+    let (bounds, extremes) =
+        survey(&subject, &states.iter().copied().map(Some).collect::<Vec<_>>(), &Axes::new(options.from))?;
     let studio = Studio::new(&subject, options, bounds, extremes);
-    let mut reel = Reel::new(picture, options.size)?;
+    let mut reel = Reel::new(picture, options.size, &studio.map)?;
     let mut summaries = Vec::with_capacity(states.len());
     for state in states {
         let shot = subject.shot(Some(state))?;
@@ -47,13 +49,17 @@ pub fn draw_many(
     Ok(summaries)
 }
 
-type Extremes = Option<(f64, f64)>;
+pub(super) type Extremes = Option<(f64, f64)>;
 
 /// The box around all states, and the smallest and largest value in them.
-fn survey(subject: &Subject, states: &[usize], axes: &Axes) -> Result<(Bounds, Extremes), ViewError> {
+pub(super) fn survey(
+    subject: &Subject,
+    states: &[Option<usize>],
+    axes: &Axes,
+) -> Result<(Bounds, Extremes), ViewError> {
     let (mut all, mut extremes): (Bounds, Extremes) = (Bounds::EMPTY, None);
     for &state in states {
-        let scene = subject.shot(Some(state))?.scene;
+        let scene = subject.shot(state)?.scene;
         all.join(bounds(&scene, axes));
         extremes = match (extremes, scene.extremes()) {
             (Some((low, high)), Some((l, h))) => Some((low.min(l), high.max(h))),
@@ -70,13 +76,13 @@ enum Reel {
 }
 
 impl Reel {
-    fn new(path: &Path, (width, height): (u32, u32)) -> Result<Self, ViewError> {
+    fn new(path: &Path, (width, height): (u32, u32), map: &ColourMap) -> Result<Self, ViewError> {
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gif")) {
             return Ok(Reel::Numbered(path.to_owned()));
         }
         let failed = |error: gif::EncodingError| refused(path, &error);
         // Sizes were checked: they are far below what 16 bits hold.
-        let palette = Palette::new();
+        let palette = Palette::new(map);
         let mut encoder = Encoder::new(Vec::new(), width as u16, height as u16, &palette.bytes()).map_err(failed)?;
         encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
         Ok(Reel::Gif(path.to_owned(), encoder, palette))

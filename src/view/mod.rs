@@ -1,10 +1,12 @@
 //! Pictures of results: the deformed outer surface of the body, coloured by a variable, as a PNG; many states as
 //! numbered PNGs or one moving GIF.
 //!
-//! Data flows one way: a results file and [`ViewOptions`] become a `scene` (`subject`, `skin`, `field`); a
-//! `camera` and a `raster` turn it into pixels; `annotate` writes around it what it shows.
+//! Data flows one way: a results file and [`ViewOptions`] become a `scene` (`subject`, `skin`, `section`, `field`); a
+//! `camera` and a `raster` turn it into pixels; `arrows` are drawn on it; `annotate` writes around it what it shows. `film`
+//! and `row` show many states.
 
 mod annotate;
+mod arrows;
 mod camera;
 mod colour;
 mod error;
@@ -15,8 +17,9 @@ pub(crate) mod numbers;
 mod options;
 mod palette;
 mod raster;
+mod row;
 mod scene;
-mod skin;
+mod section;
 mod subject;
 pub(crate) mod text;
 
@@ -24,7 +27,8 @@ use std::path::{Path, PathBuf};
 
 pub use error::ViewError;
 pub use film::draw_many;
-pub use options::{Direction, StateChoice, ViewOptions};
+pub use options::{Direction, MapChoice, StateChoice, ViewOptions};
+pub use row::draw_row;
 
 use annotate::{Key, Layout, Notes, annotate};
 use camera::{Axes, Bounds, Camera};
@@ -35,6 +39,9 @@ use raster::Paint;
 use scene::{Scene, Values};
 use subject::{Shot, Subject};
 use tiny_skia::{Color, Pixmap};
+
+/// Share of the larger side of zero below which the smaller one does not make a field signed.
+const TRACE: f64 = 0.05;
 
 /// What a picture shows, for the line that is printed about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,72 +87,112 @@ struct Studio<'a> {
     camera: Camera,
     map: ColourMap,
     range: (f64, f64),
+    /// Length of the longest vector that arrows show.
+    longest: f64,
 }
 
 impl<'a> Studio<'a> {
     fn new(subject: &'a Subject, options: &'a ViewOptions, bounds: Bounds, extremes: Option<(f64, f64)>) -> Self {
         let layout = Layout::new(options.size);
         let camera = Camera::fit(Axes::new(options.from), bounds, layout.body());
-        let range = options.range.unwrap_or_else(|| spread(extremes.unwrap_or((0.0, 0.0))));
-        Studio { subject, options, layout, camera, map: ColourMap::new(), range }
+        let signed = is_signed(options, options.range.or(extremes));
+        let found = || match (spread(extremes.unwrap_or((0.0, 0.0))), signed) {
+            ((low, high), true) => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
+            (range, false) => range,
+        };
+        let range = options.range.unwrap_or_else(found);
+        let map = if signed { ColourMap::diverging(range) } else { ColourMap::sequential() };
+        Studio { subject, options, layout, camera, map, range, longest: 0.0 }
     }
 
-    fn picture(&self, shot: &Shot, state: Option<usize>) -> Result<Pixmap, ViewError> {
+    /// White paper of the size asked for.
+    fn paper(&self) -> Result<Pixmap, ViewError> {
         let (width, height) = self.options.size;
-        let too_large = || ViewError::option("size", format!("{width}x{height}"), "a picture that fits into memory");
-        let mut picture = Pixmap::new(width, height).ok_or_else(too_large)?;
+        let mut picture = Pixmap::new(width, height).ok_or_else(|| too_large(self.options.size))?;
         picture.fill(Color::WHITE);
-        let paint = Paint {
-            camera: &self.camera,
-            map: &self.map,
-            range: self.range,
-            pen: Pen { mesh: self.options.edges, scale: self.layout.unit().max(0.7) },
-        };
-        raster::paint(&mut picture, &shot.scene, &paint);
-        annotate(&mut picture, &self.layout, &self.notes(shot, state), self.camera.axes(), &self.map);
         Ok(picture)
     }
 
-    fn notes(&self, shot: &Shot, state: Option<usize>) -> Notes {
+    /// Paints the body and its arrows.
+    fn paint(&self, picture: &mut Pixmap, shot: &Shot) {
+        let unit = self.layout.unit();
+        let pen = Pen { mesh: self.options.edges, scale: unit.max(0.7) };
+        let paint = Paint { camera: &self.camera, map: &self.map, range: self.range, pen };
+        raster::paint(picture, &shot.scene, &paint);
+        arrows::draw(picture, &shot.scene, &self.camera, self.most(shot), unit.max(0.5));
+    }
+
+    /// The longest vector of a scene, or of all of them.
+    fn most(&self, shot: &Shot) -> f64 {
+        if self.longest > 0.0 { self.longest } else { arrows::longest(&shot.scene) }
+    }
+
+    fn picture(&self, shot: &Shot, state: Option<usize>) -> Result<Pixmap, ViewError> {
+        let mut picture = self.paper()?;
+        self.paint(&mut picture, shot);
+        annotate(&mut picture, &self.layout, &self.notes(&[(shot, state)]), self.camera.axes(), &self.map);
+        Ok(picture)
+    }
+
+    /// What is written around one or several states.
+    fn notes(&self, shown: &[(&Shot, Option<usize>)]) -> Notes {
         let subject = self.subject;
         let field = subject.field.as_ref();
         let place = |place| if place == Place::Nodes { "at nodes" } else { "in elements" };
         let mut said: Vec<String> = field.iter().map(|f| format!("{} {}", f.label, place(f.place))).collect();
-        said.push(match state {
-            Some(state) => format!("time {}", numbers::number(subject.times()[state])),
-            None => "mesh before the run".to_owned(),
-        });
-        said.extend(state.map(|state| format!("state {} of {}", state + 1, subject.times().len())));
+        match shown {
+            [(_, Some(state))] => {
+                said.push(format!("time {}", numbers::number(subject.times()[*state])));
+                said.push(format!("state {} of {}", state + 1, subject.times().len()));
+            }
+            [(_, None)] => said.push("mesh before the run".to_owned()),
+            several => said.push(format!("{} states by their times", several.len())),
+        }
         let key = match field {
             Some(field) => {
-                let (label, extremes) = (field.label.clone(), shot.scene.extremes());
-                Key::Bar { label, range: self.range, extremes, gaps: has_gaps(&shot.scene) }
+                let all = shown.iter().filter_map(|(shot, _)| shot.scene.extremes());
+                let extremes = all.reduce(|(low, high), (l, h)| (low.min(l), high.max(h)));
+                let gaps = shown.iter().any(|(shot, _)| has_gaps(&shot.scene));
+                Key::Bar { label: field.label.clone(), range: self.range, extremes, gaps }
             }
             None => Key::Blocks(subject.blocks()),
         };
         let title = if subject.title().is_empty() { file_name(subject.path()) } else { subject.title().to_owned() };
         let origin = format!("urto {} · {}", env!("CARGO_PKG_VERSION"), file_name(subject.path()));
-        Notes { title, subtitle: said.join("  ·  "), remarks: self.remarks(shot, state), origin, key }
+        Notes { title, subtitle: said.join("  ·  "), remarks: self.remarks(shown), origin, key }
     }
 
     /// What the picture does to the body, so that nobody takes it for the body itself.
-    fn remarks(&self, shot: &Shot, state: Option<usize>) -> String {
+    fn remarks(&self, shown: &[(&Shot, Option<usize>)]) -> String {
         let options = self.options;
         let mut remarks = Vec::new();
-        if options.magnify != 1.0 && state.is_some() {
+        if let (Some(stem), Some((shot, Some(_)))) = (&options.arrows, shown.first()) {
+            remarks.push(format!("longest arrow: |{}| = {}", stem.to_uppercase(), numbers::number(self.most(shot))));
+        }
+        if options.magnify != 1.0 && shown.iter().any(|(_, state)| state.is_some()) {
             remarks.push(format!("displacements × {}", options.magnify));
         }
-        let planes: Vec<&str> =
-            ["x", "y", "z"].into_iter().zip(options.mirror).filter_map(|(a, on)| on.then_some(a)).collect();
+        let plane = |axis: usize, place: f64| format!("{} = {place}", ["x", "y", "z"][axis]);
+        let planes: Vec<String> =
+            options.mirror.iter().enumerate().filter_map(|(axis, place)| Some(plane(axis, (*place)?))).collect();
         if !planes.is_empty() {
-            remarks.push(format!("mirrored in {} = 0", planes.join(" = 0, ")));
+            remarks.push(format!("mirrored in {}", planes.join(", ")));
+        }
+        if !options.cuts.is_empty() {
+            let cuts: Vec<String> = options.cuts.iter().map(|&(axis, place)| plane(axis, place)).collect();
+            remarks.push(format!("cut at {}", cuts.join(", ")));
         }
         if !options.blocks.is_empty() {
             let ids: Vec<String> = options.blocks.iter().map(i64::to_string).collect();
             remarks.push(format!("block {} only", ids.join(", ")));
         }
-        if shot.dropped > 0 {
-            remarks.push(format!("{} faces without finite coordinates are not drawn", shot.dropped));
+        if !options.hide.is_empty() {
+            let ids: Vec<String> = options.hide.iter().map(i64::to_string).collect();
+            remarks.push(format!("without block {}", ids.join(", ")));
+        }
+        let dropped: usize = shown.iter().map(|(shot, _)| shot.dropped).sum();
+        if dropped > 0 {
+            remarks.push(format!("{dropped} faces without finite coordinates are not drawn"));
         }
         remarks.join("  ·  ")
     }
@@ -170,6 +217,21 @@ fn bounds(scene: &Scene, axes: &Axes) -> Bounds {
         bounds.include(axes.turn(scene.positions[node]));
     }
     bounds
+}
+
+/// Whether values between these ends are to be seen as of both signs: where the smaller side is not a mere trace.
+fn is_signed(options: &ViewOptions, ends: Option<(f64, f64)>) -> bool {
+    match (options.map, ends) {
+        (MapChoice::Diverging, _) => true,
+        (MapChoice::Suited, Some((low, high))) => {
+            low < 0.0 && high > 0.0 && low.abs().min(high) >= TRACE * low.abs().max(high)
+        }
+        _ => false,
+    }
+}
+
+fn too_large((width, height): (u32, u32)) -> ViewError {
+    ViewError::option("size", format!("{width}x{height}"), "a picture that fits into memory")
 }
 
 /// A range for a colour bar: the extremes, opened a little if the value is the same everywhere.

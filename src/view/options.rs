@@ -18,14 +18,34 @@ pub struct ViewOptions {
     pub size: (u32, u32),
     /// Displacements are drawn this many times as large as they are.
     pub magnify: f64,
-    /// The body is repeated behind the planes x = 0, y = 0, z = 0, as quarter models need.
-    pub mirror: [bool; 3],
+    /// The body is repeated behind planes across x, y, z at these places, as quarter models need.
+    pub mirror: [Option<f64>; 3],
     /// Values at the two ends of the colour bar; without it those of the surface drawn.
     pub range: Option<(f64, f64)>,
     /// Element edges are drawn.
     pub edges: bool,
     /// Numbers of the blocks that are drawn; without any, all are.
     pub blocks: Vec<i64>,
+    /// Numbers of blocks that are not drawn.
+    pub hide: Vec<i64>,
+    /// Planes across an axis (0 to 2) at a place; what is between them and the eye is taken off.
+    pub cuts: Vec<(usize, f64)>,
+    /// Which colours mean which values.
+    pub map: MapChoice,
+    /// Stem of a nodal vector that is drawn as arrows.
+    pub arrows: Option<String>,
+}
+
+/// Which colours mean which values.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum MapChoice {
+    /// By the values: those of both signs diverge from zero, others rise.
+    #[default]
+    Suited,
+    /// From dark to light.
+    Sequential,
+    /// From zero both ways.
+    Diverging,
 }
 
 impl Default for ViewOptions {
@@ -36,10 +56,14 @@ impl Default for ViewOptions {
             from: Direction::ISOMETRIC,
             size: (1200, 900),
             magnify: 1.0,
-            mirror: [false; 3],
+            mirror: [None; 3],
             range: None,
             edges: true,
             blocks: Vec::new(),
+            hide: Vec::new(),
+            cuts: Vec::new(),
+            map: MapChoice::default(),
+            arrows: None,
         }
     }
 }

@@ -9,7 +9,8 @@ use tiny_skia::Pixmap;
 use super::camera::Camera;
 use super::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
 use super::lines::{Line, Pen};
-use super::scene::{Scene, Values, dot};
+use super::scene::{Scene, Values};
+use crate::vector::dot;
 
 /// Samples per pixel in each direction.
 const SAMPLES: usize = 4;
@@ -261,7 +262,8 @@ mod tests {
         let corner = |x: f64, y: f64, z: f64| [[x, y, z], [x + 10.0, y, z], [x + 10.0, y + 10.0, z], [x, y + 10.0, z]];
         let positions = squares.iter().flat_map(|&(x, y, z)| corner(x, y, z)).collect();
         let quads = (0..squares.len() as u32).map(|i| [4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3]).collect();
-        let scene = Scene { positions, quads, values: Values::Faces((0..squares.len()).map(|i| i as f64).collect()) };
+        let values = Values::Faces((0..squares.len()).map(|i| i as f64).collect());
+        let scene = Scene { positions, quads, values, seams: Vec::new(), vectors: Vec::new() };
         let mut bounds = Bounds::EMPTY;
         bounds.include([0.0, 0.0, 0.0]);
         bounds.include([20.0, 20.0, 0.0]);
@@ -269,7 +271,7 @@ mod tests {
         let camera = Camera::fit(Axes::new("top".parse().unwrap()), bounds, rectangle);
         let mut picture = Pixmap::new(20, 20).unwrap();
         picture.fill(tiny_skia::Color::WHITE);
-        let map = ColourMap::new();
+        let map = ColourMap::sequential();
         paint(
             &mut picture,
             &scene,
@@ -286,7 +288,7 @@ mod tests {
     /// The colour of a face seen squarely.
     fn squarely(fraction: f32) -> [u8; 3] {
         let shade = shade([0.0, 0.0, 1.0]);
-        ColourMap::new().at(fraction).map(|c| (255.0 * shade * c + 0.5) as u8)
+        ColourMap::sequential().at(fraction).map(|c| (255.0 * shade * c + 0.5) as u8)
     }
 
     #[test]

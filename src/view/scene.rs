@@ -1,5 +1,7 @@
 //! What a picture shows, free of files and mechanics: faces in space and what colours them.
 
+use crate::vector::{cross, dot, subtract};
+
 /// Coordinates beyond this are the wreck of a calculation; faces that reach there are not drawn.
 const FARTHEST: f64 = 1e100;
 /// Nodes this near a mirror plane, relative to the size of the body, lie in it.
@@ -16,6 +18,10 @@ pub struct Scene {
     pub quads: Vec<[u32; 4]>,
     /// What colours the faces.
     pub values: Values,
+    /// Edges between faces that are parts of one polygon, lower node first, ascending: they are not drawn.
+    pub seams: Vec<[u32; 2]>,
+    /// A vector per node, if any are drawn.
+    pub vectors: Vec<[f64; 3]>,
 }
 
 /// What colours the faces of a scene.
@@ -64,13 +70,13 @@ impl Scene {
         keep.iter().filter(|keep| !**keep).count()
     }
 
-    /// Adds the scene's reflection in the plane through the origin across `axis`.
+    /// Adds the scene's reflection in the plane across `axis` at `place`.
     ///
     /// Nodes in the plane are shared, so that no seam is seen, and faces in it vanish: they are inside now. The
     /// reflected values are negated if a reflection changes their sign (`odd`).
-    pub fn mirror(&mut self, axis: usize, odd: bool) {
-        let size = self.drawn_nodes().map(|node| self.positions[node][axis].abs()).fold(0.0, f64::max);
-        let in_plane = |position: &[f64; 3]| position[axis].abs() <= IN_PLANE * size;
+    pub fn mirror(&mut self, axis: usize, place: f64, odd: bool) {
+        let size = self.drawn_nodes().map(|node| (self.positions[node][axis] - place).abs()).fold(0.0, f64::max);
+        let in_plane = |position: &[f64; 3]| (position[axis] - place).abs() <= IN_PLANE * size;
         let inside = |quad: &[u32; 4]| quad.iter().all(|&node| in_plane(&self.positions[node as usize]));
         let keep: Vec<bool> = self.quads.iter().map(|quad| !inside(quad)).collect();
         let mut twin = Vec::with_capacity(self.positions.len());
@@ -80,7 +86,7 @@ impl Scene {
             twin.push(if in_plane(position) { node } else { reflected.len() } as u32);
             if !in_plane(position) {
                 let mut image = *position;
-                image[axis] = -image[axis];
+                image[axis] = 2.0 * place - image[axis];
                 reflected.push(image);
                 sources.push(node);
             }
@@ -88,6 +94,80 @@ impl Scene {
         self.retain(&keep);
         self.positions = reflected;
         self.append_images(&twin, &sources, if odd { -1.0 } else { 1.0 });
+        let twins = |ends: &[u32; 2]| ends.map(|node| twin[node as usize]);
+        let seams: Vec<[u32; 2]> = self.seams.iter().map(twins).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        self.seams.extend(seams);
+        self.seams.sort_unstable();
+        if !self.vectors.is_empty() {
+            let images = sources.iter().map(|&node| self.vectors[node]);
+            let turned = images
+                .map(|mut v: [f64; 3]| {
+                    v[axis] = -v[axis];
+                    v
+                })
+                .collect::<Vec<_>>();
+            self.vectors.extend(turned);
+        }
+    }
+
+    /// Turns the scene into its reflection.
+    pub fn reflect(&mut self, axis: usize, place: f64, odd: bool) {
+        self.positions.iter_mut().for_each(|x| x[axis] = 2.0 * place - x[axis]);
+        self.vectors.iter_mut().for_each(|v| v[axis] = -v[axis]);
+        self.quads.iter_mut().for_each(|quad| quad.reverse());
+        let sign = if odd { -1.0 } else { 1.0 };
+        match &mut self.values {
+            Values::Nodes(values) | Values::Faces(values) => values.iter_mut().for_each(|value| *value *= sign),
+            Values::Blocks(_) => {}
+        }
+    }
+
+    /// Takes in another scene that meets this one in the plane across `axis` at `place`. Where both have nodes there, they
+    /// become one, and faces of either in the plane vanish, unless one of the scenes is empty.
+    pub fn join(&mut self, mut other: Scene, axis: usize, place: f64) {
+        if self.quads.is_empty() {
+            *self = other;
+            return;
+        }
+        if other.quads.is_empty() {
+            return;
+        }
+        let size = self.drawn_nodes().map(|node| (self.positions[node][axis] - place).abs()).fold(0.0, f64::max);
+        for scene in [&mut *self, &mut other] {
+            let in_plane = |node: u32| (scene.positions[node as usize][axis] - place).abs() <= IN_PLANE * size;
+            let keep: Vec<bool> = scene.quads.iter().map(|quad| !quad.iter().all(|&node| in_plane(node))).collect();
+            scene.retain(&keep);
+        }
+        let near = |position: &[f64; 3]| (position[axis] - place).abs() <= IN_PLANE * size;
+        // Both come from the same body, so that what meets has the same bits across the other axes.
+        let key = |position: &[f64; 3]| [(axis + 1) % 3, (axis + 2) % 3].map(|other| position[other].to_bits());
+        let drawn: std::collections::BTreeSet<usize> = self.drawn_nodes().collect();
+        let known: std::collections::HashMap<[u64; 2], u32> = drawn
+            .into_iter()
+            .filter(|&node| near(&self.positions[node]))
+            .map(|node| (key(&self.positions[node]), node as u32))
+            .collect();
+        let first = self.positions.len() as u32;
+        let place_of: Vec<u32> = other
+            .positions
+            .iter()
+            .zip(first..)
+            .map(|(position, new)| known.get(&key(position)).copied().filter(|_| near(position)).unwrap_or(new))
+            .collect();
+        let moved = |node: u32| place_of[node as usize];
+        self.positions.append(&mut other.positions);
+        self.vectors.append(&mut other.vectors);
+        self.quads.extend(other.quads.into_iter().map(|quad| quad.map(moved)));
+        let seams = other.seams.into_iter().map(|ends| ends.map(moved)).map(|[a, b]| [a.min(b), a.max(b)]);
+        self.seams.extend(seams);
+        self.seams.sort_unstable();
+        match (&mut self.values, other.values) {
+            (Values::Nodes(own), Values::Nodes(values)) | (Values::Faces(own), Values::Faces(values)) => {
+                own.extend(values)
+            }
+            (Values::Blocks(own), Values::Blocks(blocks)) => own.extend(blocks),
+            _ => {}
+        }
     }
 
     /// Appends every face's image: nodes replaced by their twins, turned round so that outside stays outside.
@@ -131,9 +211,7 @@ impl Scene {
     /// The unit normal of a face, from its diagonals; zero if it has no area.
     pub fn normal(&self, quad: &[u32; 4]) -> [f64; 3] {
         let [a, b, c, d] = quad.map(|node| self.positions[node as usize]);
-        let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-        let (u, v) = (minus(c, a), minus(d, b));
-        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let n = cross(subtract(c, a), subtract(d, b));
         let length = dot(n, n).sqrt();
         if length > 0.0 { n.map(|x| x / length) } else { n }
     }
@@ -149,7 +227,9 @@ impl Scene {
         }
         places.sort_unstable();
         for shared in places.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let seam = self.seams.binary_search(&[shared[0].0, shared[0].1]).is_ok();
             let kind = match shared {
+                _ if seam => Edge::None,
                 [one, other] => joint(normals[one.2], normals[other.2], toward_eye),
                 _ => Edge::Outline,
             };
@@ -172,11 +252,6 @@ fn joint(one: [f64; 3], other: [f64; 3], toward_eye: [f64; 3]) -> Edge {
     }
 }
 
-/// The scalar product.
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,13 +260,14 @@ mod tests {
     fn corner() -> Scene {
         let positions = (0..8).map(|i| [f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)]).collect();
         let quads = vec![[0, 4, 6, 2], [0, 1, 5, 4], [0, 2, 3, 1]];
-        Scene { positions, quads, values: Values::Nodes((0..8).map(f64::from).collect()) }
+        let values = Values::Nodes((0..8).map(f64::from).collect());
+        Scene { positions, quads, values, seams: Vec::new(), vectors: Vec::new() }
     }
 
     #[test]
     fn a_reflection_shares_the_nodes_of_its_plane_and_drops_the_faces_there() {
         let mut scene = corner();
-        scene.mirror(0, true);
+        scene.mirror(0, 0.0, true);
         assert_eq!(scene.quads.len(), 4);
         assert_eq!(scene.positions.len(), 8 + 4);
         // Face y = 0 turned round: nodes 4, 5', 1', 0, of which 1 and 5 are the first and third of the new ones.
@@ -206,7 +282,7 @@ mod tests {
     fn faces_at_right_angles_meet_in_an_outline_and_flat_ones_do_not() {
         let mut scene = corner();
         assert!(scene.edges([-0.6, -0.6, -0.5]).iter().flatten().all(|&edge| edge == Edge::Outline));
-        scene.mirror(0, false);
+        scene.mirror(0, 0.0, false);
         let edges = scene.edges([-0.1, -0.9, -0.5]);
         assert_eq!(edges[0], [Edge::Outline, Edge::Outline, Edge::Outline, Edge::Mesh]);
     }

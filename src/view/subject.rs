@@ -3,12 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use super::ViewError;
+use super::camera::Axes;
 use super::field::{Field, Names, Place};
 use super::options::{StateChoice, ViewOptions};
-use super::scene::{Scene, Values, dot};
-use super::skin::{Face, outer_faces};
+use super::scene::{Scene, Values};
+use super::section::{Between, Cutting, Plane};
 use crate::exodus::{Results, ResultsError};
-use crate::mesh::{Block, Mesh};
+use crate::mesh::exterior::{SIDES, exterior};
+use crate::mesh::{Block, Mesh, Shape};
+use crate::vector::dot;
+
+/// A face of the outer surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Position of its element in the mesh.
+    pub element: usize,
+    /// Its four nodes, counter-clockwise seen from outside; a triangle has a node twice.
+    pub nodes: [u32; 4],
+}
 
 /// Element variables that tell which elements have gone, with the value that says so; these are not drawn.
 const FATES: [(&str, f64); 2] = [("DEATH", 1.0), ("STATUS", 0.0)];
@@ -24,6 +36,8 @@ pub struct Subject<'a> {
     /// The variable that colours the picture; `None` colours by block.
     pub field: Option<Field>,
     displacement: Option<Vec<String>>,
+    /// The vector drawn as arrows, by its components.
+    arrows: Option<Vec<String>>,
     /// Positions, in the whole mesh, of the elements of the blocks shown.
     elements: Vec<usize>,
     /// The surface of the blocks shown, if elements cannot die.
@@ -48,10 +62,11 @@ impl<'a> Subject<'a> {
         let names = Names { nodal: results.nodal_names(), element: results.element_names() };
         let field = if mesh_alone(options, results.times()) { None } else { choose_field(path, options, &names)? };
         let displacement = names.displacement();
+        let arrows = choose_arrows(path, options, &names)?;
         let mesh = results.mesh()?;
-        let elements = shown_elements(path, &mesh, &options.blocks)?;
-        let mut subject =
-            Subject { path: path.to_owned(), options, field, displacement, elements, skin: None, results, mesh };
+        let elements = shown_elements(path, &mesh, options)?;
+        let (path, skin) = (path.to_owned(), None);
+        let mut subject = Subject { path, options, field, displacement, arrows, elements, skin, results, mesh };
         if !subject.mortal() {
             subject.skin = Some(subject.surface_of(&subject.elements));
         }
@@ -75,8 +90,7 @@ impl<'a> Subject<'a> {
 
     /// Positions and names of the blocks shown.
     pub fn blocks(&self) -> Vec<(usize, String)> {
-        let shown = |id: i64| self.options.blocks.is_empty() || self.options.blocks.contains(&id);
-        let blocks = self.mesh.blocks.iter().enumerate().filter(|(_, block)| shown(block.id));
+        let blocks = self.mesh.blocks.iter().enumerate().filter(|(_, block)| is_shown(self.options, block.id));
         let name = |block: &Block| format!("block {} {}", block.id, block.name).trim_end().to_owned();
         blocks.map(|(position, block)| (position, name(block))).collect()
     }
@@ -112,20 +126,40 @@ impl<'a> Subject<'a> {
     /// # Errors
     /// When values cannot be read, or nothing is left to be seen.
     pub fn shot(&self, state: Option<usize>) -> Result<Shot, ViewError> {
-        let skin = match (&self.skin, state) {
-            (Some(skin), _) => skin.clone(),
-            (None, None) => self.surface_of(&self.elements),
-            (None, Some(state)) => self.surface_of(&self.alive(state)?),
+        let alive = match state {
+            Some(state) if self.mortal() => Some(self.alive(state)?),
+            _ => None,
         };
-        let quads = skin.iter().map(|face| face.nodes).collect();
-        let mut scene = Scene { positions: self.positions(state)?, quads, values: self.values(&skin, state)? };
-        let dropped = scene.drop_unusable_faces();
-        if scene.quads.is_empty() {
-            let reason = if dropped > 0 { "no face has finite coordinates" } else { "no element is left" };
-            return Err(ViewError::Nothing { path: self.path.clone(), reason });
+        let elements = alive.as_deref().unwrap_or(&self.elements);
+        let skin = match &self.skin {
+            Some(skin) => skin.clone(),
+            None => self.surface_of(elements),
+        };
+        let (mut scene, mut dropped) = (None::<Scene>, 0);
+        for Image { planes, flips } in self.images() {
+            let Cut { positions, skin, made, seams } =
+                self.cut(&planes, self.positions(state)?, skin.clone(), elements);
+            let quads = skin.iter().map(|face| face.nodes).collect();
+            let values = self.values(&skin, &made, state)?;
+            let mut copy = Scene { positions, quads, values, seams, vectors: self.vectors(&made, state)? };
+            dropped += copy.drop_unusable_faces();
+            flips.iter().for_each(|&(axis, place)| copy.reflect(axis, place, self.is_odd(axis)));
+            match (&mut scene, flips.last()) {
+                (Some(scene), Some(&(axis, place))) => scene.join(copy, axis, place),
+                _ => scene = Some(copy),
+            }
         }
-        for axis in (0..3).filter(|&axis| self.options.mirror[axis]) {
-            scene.mirror(axis, self.field.as_ref().is_some_and(|field| field.odd[axis]));
+        let nothing = |reason| ViewError::Nothing { path: self.path.clone(), reason };
+        let mut scene = scene.ok_or_else(|| nothing("no element is left"))?;
+        if scene.quads.is_empty() {
+            return Err(nothing(match dropped {
+                0 if !self.options.cuts.is_empty() => "the cut has taken off all of it",
+                0 => "no element is left",
+                _ => "no face has finite coordinates",
+            }));
+        }
+        for (axis, place) in self.mirrors().filter(|(axis, _)| !self.cuts_across(*axis)) {
+            scene.mirror(axis, place, self.is_odd(axis));
         }
         Ok(Shot { scene, dropped })
     }
@@ -148,15 +182,81 @@ impl<'a> Subject<'a> {
         Ok(self.elements.iter().copied().filter(|&element| values[element] != gone).collect())
     }
 
-    /// The surface of some elements, its faces naming elements by their position in the mesh.
-    fn surface_of(&self, elements: &[usize]) -> Vec<Face> {
-        let all: Vec<&[u32; 8]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
-        let nodes: Vec<&[u32; 8]> = elements.iter().map(|&element| all[element]).collect();
-        let mut faces = outer_faces(&nodes, self.mesh.coordinates.len());
-        for face in &mut faces {
-            face.element = elements[face.element];
+    /// Whether a reflection across an axis changes the sign of the values.
+    fn is_odd(&self, axis: usize) -> bool {
+        self.field.as_ref().is_some_and(|field| field.odd[axis])
+    }
+
+    /// Axes with a mirror plane, and where that is.
+    fn mirrors(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.options.mirror.iter().enumerate().filter_map(|(axis, place)| Some((axis, (*place)?)))
+    }
+
+    fn cuts_across(&self, axis: usize) -> bool {
+        self.options.cuts.iter().any(|(cut, _)| *cut == axis)
+    }
+
+    /// The body and its images across the axes that have a cut too: the plane goes through each at another place.
+    fn images(&self) -> Vec<Image> {
+        let mut images = vec![Image { planes: self.planes(), flips: Vec::new() }];
+        for (axis, place) in self.mirrors().filter(|(axis, _)| self.cuts_across(*axis)) {
+            let turned = |image: &Image| Image {
+                planes: image.planes.iter().map(|plane| plane.reflected(axis, place)).collect(),
+                flips: [&image.flips[..], &[(axis, place)]].concat(),
+            };
+            let more: Vec<Image> = images.iter().map(turned).collect();
+            images.extend(more);
         }
-        faces
+        images
+    }
+
+    /// The planes asked for; what is on the eye's side of each goes.
+    fn planes(&self) -> Vec<Plane> {
+        let toward = Axes::new(self.options.from).toward;
+        let plane = |&(axis, at): &(usize, f64)| Plane { axis, at, below: toward[axis] >= 0.0 };
+        self.options.cuts.iter().map(plane).collect()
+    }
+
+    /// The surface cut open, if that is asked for: what stands between a plane and the eye is taken off.
+    fn cut(&self, planes: &[Plane], positions: Vec<[f64; 3]>, skin: Vec<Face>, elements: &[usize]) -> Cut {
+        if planes.is_empty() {
+            return Cut { positions, skin, made: Vec::new(), seams: Vec::new() };
+        }
+        let all: Vec<&[u32]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
+        // Only solids have an inside.
+        let solid = |&element: &usize| Some((element, <&[u32; 8]>::try_from(all[element]).ok()?));
+        let elements: Vec<(usize, &[u32; 8])> = elements.iter().filter_map(solid).collect();
+        let mut cutting = Cutting::new(positions, &skin);
+        cutting.cut(planes, &elements);
+        let skin = cutting.faces();
+        Cut { positions: cutting.positions, skin, made: cutting.made, seams: cutting.seams }
+    }
+
+    /// The vector at each node and each point made; nothing where no arrows are drawn.
+    fn vectors(&self, made: &[Between], state: Option<usize>) -> Result<Vec<[f64; 3]>, ViewError> {
+        let (Some(names), Some(state)) = (&self.arrows, state) else { return Ok(Vec::new()) };
+        let read = |name: &String| {
+            self.read(Place::Nodes, name, state).map(|mut values| {
+                extend(&mut values, made);
+                values
+            })
+        };
+        let parts = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let count = parts.first().map_or(0, Vec::len);
+        Ok((0..count).map(|node| [0, 1, 2].map(|axis| parts[axis][node])).collect())
+    }
+
+    /// The surface of some elements.
+    fn surface_of(&self, elements: &[usize]) -> Vec<Face> {
+        let all: Vec<(Shape, &[u32])> = self.mesh.shaped().collect();
+        let shown = elements.iter().map(|&element| all[element]);
+        let numbers = exterior(shown, self.mesh.coordinates.len(), |_| true);
+        let face = |number: u32| {
+            let element = elements[number as usize / SIDES];
+            let (shape, nodes) = all[element];
+            Some(Face { element, nodes: shape.face(nodes, (number as usize % SIDES) as u8)? })
+        };
+        numbers.into_iter().filter_map(face).collect()
     }
 
     /// Node positions with the displacement, as many times as asked for.
@@ -185,21 +285,47 @@ impl<'a> Subject<'a> {
         Err(ResultsError::Unusable { path: self.path.clone(), what }.into())
     }
 
-    fn values(&self, skin: &[Face], state: Option<usize>) -> Result<Values, ViewError> {
+    fn values(&self, skin: &[Face], made: &[Between], state: Option<usize>) -> Result<Values, ViewError> {
         let (Some(field), Some(state)) = (&self.field, state) else {
             let block_of: Vec<usize> = self.mesh.elements().map(|(block, _)| block).collect();
             return Ok(Values::Blocks(skin.iter().map(|face| block_of[face.element]).collect()));
         };
         let read = |name: &String| self.read(field.place, name, state);
         let components = field.names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let values = match components.as_slice() {
+        let mut values: Vec<f64> = match components.as_slice() {
             [x, y, z] => (0..x.len()).map(|i| dot([x[i], y[i], z[i]], [x[i], y[i], z[i]]).sqrt()).collect(),
             _ => components.into_iter().next().unwrap_or_default(),
         };
         Ok(match field.place {
-            Place::Nodes => Values::Nodes(values),
+            Place::Nodes => {
+                extend(&mut values, made);
+                Values::Nodes(values)
+            }
             Place::Elements => Values::Faces(skin.iter().map(|face| values[face.element]).collect()),
         })
+    }
+}
+
+/// The body seen in some mirrors, and the planes that it is cut by before it is.
+struct Image {
+    planes: Vec<Plane>,
+    /// Axes and places of the mirrors.
+    flips: Vec<(usize, f64)>,
+}
+
+/// A surface that may have been cut.
+struct Cut {
+    positions: Vec<[f64; 3]>,
+    skin: Vec<Face>,
+    made: Vec<Between>,
+    seams: Vec<[u32; 2]>,
+}
+
+/// Gives the points made their values, between those of their ends.
+fn extend(values: &mut Vec<f64>, made: &[Between]) {
+    for Between { ends: [a, b], part } in made {
+        let (from, to) = (values[*a as usize], values[*b as usize]);
+        values.push(from + part * (to - from));
     }
 }
 
@@ -221,11 +347,29 @@ fn choose_field(path: &Path, options: &ViewOptions, names: &Names) -> Result<Opt
     }
 }
 
-fn shown_elements(path: &Path, mesh: &Mesh, blocks: &[i64]) -> Result<Vec<usize>, ViewError> {
-    if let Some(&id) = blocks.iter().find(|&&id| mesh.block_index(id).is_none()) {
+fn choose_arrows(path: &Path, options: &ViewOptions, names: &Names) -> Result<Option<Vec<String>>, ViewError> {
+    let Some(name) = &options.arrows else { return Ok(None) };
+    let vectors = Names { nodal: names.nodal, element: &[] };
+    match vectors.find(name).filter(|field| field.names.len() == 3) {
+        Some(field) => Ok(Some(field.names)),
+        None => {
+            let known = vectors.known().into_iter().filter(|n| vectors.find(n).is_some_and(|f| f.names.len() == 3));
+            let (path, near, known) = (path.to_owned(), vectors.nearest(name), known.collect());
+            Err(ViewError::NoVariable { path, name: name.clone(), near, known })
+        }
+    }
+}
+
+fn is_shown(options: &ViewOptions, id: i64) -> bool {
+    (options.blocks.is_empty() || options.blocks.contains(&id)) && !options.hide.contains(&id)
+}
+
+fn shown_elements(path: &Path, mesh: &Mesh, options: &ViewOptions) -> Result<Vec<usize>, ViewError> {
+    let mut named = options.blocks.iter().chain(&options.hide);
+    if let Some(&id) = named.find(|&&id| mesh.block_index(id).is_none()) {
         let known = mesh.blocks.iter().map(|block| block.id.to_string()).collect();
         return Err(ViewError::NoBlock { path: path.to_owned(), id, known });
     }
-    let shown = |block: usize| blocks.is_empty() || blocks.contains(&mesh.blocks[block].id);
+    let shown = |block: usize| is_shown(options, mesh.blocks[block].id);
     Ok(mesh.elements().enumerate().filter(|(_, (block, _))| shown(*block)).map(|(element, _)| element).collect())
 }

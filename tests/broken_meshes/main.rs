@@ -266,7 +266,7 @@ fn wedges_and_pyramids_are_read_as_collapsed_hexahedra() {
         raw.integers("side_ss1")[1] = side;
         raw.write(&path);
         let mesh = read_mesh(&path).unwrap_or_else(|e| panic!("{element_type}: {e}"));
-        assert_eq!(mesh.blocks[1].connectivity, [corners], "{element_type}");
+        assert_eq!(mesh.blocks[1].hexahedra(), [corners], "{element_type}");
         assert_eq!(mesh.side_sets[0].sides, [(0, 4), (2, hex_side)], "{element_type}");
     }
 }

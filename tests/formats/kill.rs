@@ -32,7 +32,7 @@ fn large_mesh() -> Mesh {
         node_ids: (1..).take(coordinates.len()).collect(),
         element_ids: (1..).take(connectivity.len()).collect(),
         coordinates,
-        blocks: vec![Block { id: 1, name: String::new(), connectivity }],
+        blocks: vec![Block::hexahedra_of(1, connectivity)],
         qa: two_block_mesh().qa,
         ..Mesh::default()
     }

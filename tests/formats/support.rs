@@ -17,8 +17,8 @@ pub fn two_block_mesh() -> Mesh {
         element_ids: vec![7, 5, 9],
         coordinates,
         blocks: vec![
-            Block { id: 10, name: "bar".into(), connectivity: vec![element(0), element(1)] },
-            Block { id: 4, name: String::new(), connectivity: vec![element(2)] },
+            Block { name: "bar".into(), ..Block::hexahedra_of(10, [element(0), element(1)]) },
+            Block::hexahedra_of(4, [element(2)]),
         ],
         node_sets: vec![NodeSet { id: 1, name: "foot".into(), nodes: vec![0, 1, 2, 3] }],
         side_sets: vec![SideSet { id: 200, name: "ends".into(), sides: vec![(0, 4), (2, 5)] }],

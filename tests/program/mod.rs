@@ -125,8 +125,7 @@ pub fn box_mesh(n: [usize; 3], size: [f64; 3], two_blocks: bool) -> Mesh {
         [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
     };
     let split = if two_blocks { cells.len() / n[2] * (n[2] / 2) } else { cells.len() };
-    let block =
-        |id, cells: &[[usize; 3]]| Block { id, connectivity: cells.iter().map(hex).collect(), ..Block::default() };
+    let block = |id, cells: &[[usize; 3]]| Block::hexahedra_of(id, cells.iter().map(hex));
     let mut blocks = vec![block(1, &cells[..split])];
     if two_blocks {
         blocks.push(block(2, &cells[split..]));

@@ -6,7 +6,7 @@ use urto::mesh::Mesh;
 /// Nodes of a block, ascending.
 pub fn nodes_of(mesh: &Mesh, block: i64) -> Vec<usize> {
     let block = mesh.blocks.iter().find(|known| known.id == block).expect("a block of the mesh");
-    let mut nodes: Vec<usize> = block.connectivity.iter().flatten().map(|&node| node as usize).collect();
+    let mut nodes: Vec<usize> = block.nodes.iter().map(|&node| node as usize).collect();
     nodes.sort_unstable();
     nodes.dedup();
     nodes

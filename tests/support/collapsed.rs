@@ -44,7 +44,8 @@ fn cut(mesh: &Mesh, cells: impl Fn([u32; 8], &mut dyn FnMut(&[u32]) -> u32) -> V
         coordinates.len() as u32 - 1
     };
     for block in &mut made.blocks {
-        block.connectivity = block.connectivity.iter().flat_map(|hex| cells(*hex, &mut add)).collect();
+        let cut: Vec<[u32; 8]> = block.hexahedra().iter().flat_map(|hex| cells(*hex, &mut add)).collect();
+        block.nodes = cut.into_flattened();
     }
     made.node_ids = (1..=made.coordinates.len() as i64).collect();
     made.element_ids = (1..=made.element_count() as i64).collect();

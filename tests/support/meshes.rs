@@ -62,7 +62,7 @@ pub fn nodes_where(mesh: &Mesh, on: impl Fn([f64; 3]) -> bool) -> Vec<u32> {
 /// A side set of all element faces with all four nodes where `on` holds.
 pub fn add_side_set(mesh: &mut Mesh, id: i64, on: impl Fn([f64; 3]) -> bool) {
     let mut sides = Vec::new();
-    for (element, (_, nodes)) in mesh.elements().enumerate() {
+    for (element, nodes) in mesh.hexahedra().enumerate() {
         for (side, corners) in HEX_SIDES.iter().enumerate() {
             if corners.iter().all(|&c| on(mesh.coordinates[nodes[c] as usize])) {
                 sides.push((element as u32, side as u8));
@@ -78,7 +78,7 @@ fn of_one_block(coordinates: Vec<[f64; 3]>, connectivity: Vec<[u32; 8]>) -> Mesh
         node_ids: (1..=coordinates.len() as i64).collect(),
         element_ids: (1..=connectivity.len() as i64).collect(),
         coordinates,
-        blocks: vec![Block { id: 1, name: String::new(), connectivity }],
+        blocks: vec![Block::hexahedra_of(1, connectivity)],
         ..Mesh::default()
     }
 }

@@ -12,7 +12,10 @@ pub fn nodal_masses(mesh: &Mesh, model: &Model) -> Vec<f64> {
         let id = mesh.blocks[block].id;
         let material =
             model.materials.iter().find(|material| material.block == id).expect("every block has a material");
-        let mass = material.density * hexahedron_volume(&nodes.map(|n| mesh.coordinates[n as usize]));
+        let mass = material.density
+            * hexahedron_volume(
+                &[0, 1, 2, 3, 4, 5, 6, 7].map(|corner: usize| mesh.coordinates[nodes[corner] as usize]),
+            );
         nodes.iter().for_each(|&n| masses[n as usize] += mass / 8.0);
     }
     masses

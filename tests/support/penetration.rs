@@ -52,7 +52,7 @@ pub struct Inside {
 impl Skin {
     /// Finds bodies and outer faces.
     pub fn new(mesh: &Mesh) -> Skin {
-        let elements: Vec<[u32; 8]> = mesh.elements().map(|(_, nodes)| *nodes).collect();
+        let elements: Vec<[u32; 8]> = mesh.hexahedra().copied().collect();
         let body = bodies(&elements, mesh.coordinates.len());
         let mut sides: Vec<([u32; 4], u32, [u32; 4])> = Vec::new();
         for (element, corners) in elements.iter().enumerate() {

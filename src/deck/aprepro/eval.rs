@@ -1,6 +1,8 @@
 //! The value of an expression's tree, and the names that have values.
 
+use crate::deck::definitions::Definitions;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::{
     Fault, Value,
@@ -19,6 +21,8 @@ const LONGEST: usize = 100_000;
 #[derive(Debug, Clone)]
 pub(super) struct Names {
     values: BTreeMap<String, Value>,
+    /// Values from the command line, which stand for those of assignments.
+    given: Option<Arc<Definitions>>,
     /// Whether `E` is still the base of logarithms.
     own_e: bool,
     /// Where that was used first.
@@ -32,7 +36,7 @@ impl Names {
         let mut values: BTreeMap<String, Value> = constants.collect();
         values.insert("_FORMAT".into(), Value::Text(FORMAT.into()));
         values.insert("_C_".into(), Value::Text("$".into()));
-        Names { values, own_e: true, used_e: None }
+        Names { values, given: None, own_e: true, used_e: None }
     }
 
     /// Gives a name a value.
@@ -43,7 +47,23 @@ impl Names {
 
     /// The value of a name.
     pub fn get(&self, name: &str) -> Option<&Value> {
+        if let Some(given) = &self.given {
+            given.take(name);
+        }
         self.values.get(name)
+    }
+
+    /// Takes values from the command line: names have them from the start, and keep them when they are assigned to.
+    pub fn give(&mut self, given: &Arc<Definitions>) {
+        for (name, value) in given.values() {
+            self.set(name, value.into());
+        }
+        self.given = Some(given.clone());
+    }
+
+    /// The value that stands for that of any assignment to a name.
+    fn instead(&self, name: &str) -> Option<Value> {
+        self.given.as_ref()?.take(name).map(Value::from)
     }
 
     /// A number as it is printed, or what is wrong with the format.
@@ -112,7 +132,7 @@ impl Names {
         if name == "E" && self.own_e {
             self.used_e.get_or_insert(span);
         }
-        match self.values.get(name) {
+        match self.get(name) {
             Some(Value::Unknown) => Err(Fault::Consequence),
             Some(value) => Ok(value.clone()),
             None => {
@@ -179,7 +199,11 @@ impl Names {
 
     fn assign(&mut self, name: &str, operator: Option<&str>, value: &Node, span: Span) -> Result<Value, Fault> {
         let outcome = match operator {
-            None => self.value(value),
+            None => match (self.value(value), self.instead(name)) {
+                // What is wrong with the expression is told all the same.
+                (Ok(_), Some(given)) => Ok(given),
+                (outcome, _) => outcome,
+            },
             Some(sign) => {
                 let place = Span { start: span.start, end: span.start + name.len() };
                 self.named(name, place).and_then(|old| self.binary(sign, old, place, value))

@@ -18,6 +18,7 @@ mod lexer;
 mod run;
 
 use super::{
+    definitions::Given,
     diagnostic::Diagnostic,
     source::{Source, Span},
 };
@@ -60,6 +61,15 @@ pub(super) enum Value {
     Text(String),
     /// The value of something with a mistake, which has been reported.
     Unknown,
+}
+
+impl From<&Given> for Value {
+    fn from(given: &Given) -> Value {
+        match given {
+            Given::Number(number) => Value::Number(*number),
+            Given::Text(text) => Value::Text(text.clone()),
+        }
+    }
 }
 
 /// Why an expression has no value.
@@ -116,6 +126,26 @@ mod tests {
         assert_eq!(text(deck), "1\n18");
         let given = evaluate(Source::new("t.i", deck).with_value("ranks", 4));
         assert_eq!(given.source.text(), "72");
+    }
+
+    #[test]
+    fn values_from_outside_stand_for_those_of_assignments() {
+        let evaluated = |deck: &str| {
+            let texts = ["n=7", "name=b"].map(str::to_string);
+            let given = std::sync::Arc::new(crate::deck::Definitions::parse(&texts).expect("definitions"));
+            let found = evaluate(Source::new("t.i", deck).with_definitions(&given));
+            (found.source.text().to_string(), given.unused())
+        };
+        let used = |deck: &str| {
+            let (text, unused) = evaluated(deck);
+            assert!(unused.is_empty(), "{unused:?}");
+            text
+        };
+        assert_eq!(used("{n = 4} {2 * n} {name = 'a'}"), "7 14 b");
+        assert_eq!(used("{{n = 4}}{n++} {n} {name}"), "7 8 b");
+        assert_eq!(used("{ifndef(n)}\n{n = 4}\n{endif}\n{n}{name}"), "7b");
+        assert_eq!(evaluated("{n = 4} {m = 2}"), ("7 2".into(), vec!["name".into()]));
+        assert_eq!(evaluated("no braces").1.len(), 2);
     }
 
     #[test]

@@ -36,6 +36,9 @@ pub(super) fn run(deck: Source) -> Evaluated {
     let identity = Path::new(&name).canonicalize().unwrap_or_else(|_| PathBuf::from(&name));
     let mut names = Names::new();
     deck.names().iter().for_each(|(name, value)| names.set(name, Value::Number(f64::from(*value))));
+    if let Some(given) = deck.definitions() {
+        names.give(given);
+    }
     let mut run = Run {
         names,
         text: String::new(),

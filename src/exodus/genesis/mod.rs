@@ -13,9 +13,8 @@ use records::{Broken, Records};
 
 use super::error::MeshError;
 use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
-use crate::mesh::HEX_SIDES;
+use crate::mesh::Kind;
 use crate::mesh::check::{Problem, Problems, counted};
-use crate::mesh::shape::Shape;
 
 /// What record 2 counts.
 struct Counts {
@@ -197,13 +196,13 @@ fn side_sets(
 /// The one-based side of an element that has these nodes, in any order.
 fn side(blocks: &[BlockTable], set: i64, element: i64, nodes: &[i64], problems: &mut Problems) -> i64 {
     // An element that does not exist, or of a kind that is refused, is reported where that is looked at.
-    let Some((shape, own)) = element_nodes(blocks, element) else { return 1 };
+    let Some((kind, own)) = element_nodes(blocks, element) else { return 1 };
     let wanted: BTreeSet<i64> = nodes.iter().copied().collect();
-    let corners = shape.corners().map(|node| own[node]);
-    let is = |&side: &u8| {
-        HEX_SIDES[side as usize].map(|corner| corners[corner]).into_iter().collect::<BTreeSet<_>>() == wanted
-    };
-    if let Some(side) = shape.sides().iter().position(is) {
+    let places: Vec<u32> = (0..own.len() as u32).collect();
+    let corners: Vec<i64> = kind.expand(&places).map(|node| own[node as usize]).collect();
+    let sides = kind.shape().sides();
+    let is = |&side: &u8| sides[side as usize].iter().map(|&corner| corners[corner]).collect::<BTreeSet<_>>() == wanted;
+    if let Some(side) = kind.sides().iter().position(is) {
         return side as i64 + 1;
     }
     problems.add(|| {
@@ -214,13 +213,13 @@ fn side(blocks: &[BlockTable], set: i64, element: i64, nodes: &[i64], problems: 
     1
 }
 
-/// Shape and nodes of an element by its one-based place in the file.
-fn element_nodes(blocks: &[BlockTable], element: i64) -> Option<(Shape, &[i64])> {
+/// What an element is and its nodes, by its one-based place in the file.
+fn element_nodes(blocks: &[BlockTable], element: i64) -> Option<(Kind, &[i64])> {
     let mut place = usize::try_from(element).ok()?.checked_sub(1)?;
     for block in blocks {
         let size = block.connectivity.len() / block.nodes_per_element.max(1);
         if place < size {
-            return Some((block.shape()?, block.connectivity.chunks_exact(block.nodes_per_element).nth(place)?));
+            return Some((block.kind()?, block.connectivity.chunks_exact(block.nodes_per_element).nth(place)?));
         }
         place -= size;
     }

@@ -17,10 +17,11 @@ pub struct Gathering {
 impl Gathering {
     /// A mesh of these sizes, with the names and numbers that any part has.
     pub fn new(sizes: &Sizes, like: &Mesh) -> Gathering {
-        let blocks = like.blocks.iter().zip(&sizes.blocks).map(|(block, &size)| Block {
+        let blocks = like.blocks.iter().map(|block| Block {
             id: block.id,
             name: block.name.clone(),
-            connectivity: vec![[MISSING; 8]; size],
+            // The shape is known from the first part that has elements of the block.
+            ..Block::default()
         });
         let node_sets = like.node_sets.iter().zip(&sizes.node_sets).map(|(set, &size)| NodeSet {
             id: set.id,
@@ -78,12 +79,25 @@ impl Gathering {
         let mut places = part.places.elements.iter();
         let mut first = 0;
         for ((whole, block), &size) in self.mesh.blocks.iter_mut().zip(&part.mesh.blocks).zip(&self.sizes.blocks) {
-            for (nodes, &place) in block.connectivity.iter().zip(&mut places) {
-                let slot = (place as usize).checked_sub(first).and_then(|place| whole.connectivity.get_mut(place));
-                let Some(slot) = slot.filter(|slot| slot[0] == MISSING) else {
+            let corners = block.shape.corners();
+            if whole.is_empty() && !block.is_empty() {
+                whole.shape = block.shape;
+                whole.nodes = vec![MISSING; size * corners];
+                whole.attributes = vec![0.0; size * block.attributes_of(0).len()];
+            }
+            if whole.shape != block.shape && !block.is_empty() {
+                return Err(format!("its block {} is not of {}", block.id, whole.shape.names()[1]));
+            }
+            for (here, (nodes, &place)) in block.elements().zip(&mut places).enumerate() {
+                let place_there = (place as usize).checked_sub(first).filter(|&there| there < size);
+                let there = place_there.filter(|there| whole.nodes[there * corners] == MISSING);
+                let Some(there) = there else {
                     return Err(format!("its element at place {} of the whole is given twice or astray", place + 1));
                 };
-                *slot = nodes.map(|node| part.places.nodes[node as usize]);
+                let slots = whole.nodes[there * corners..].iter_mut().zip(nodes);
+                slots.for_each(|(slot, &node)| *slot = part.places.nodes[node as usize]);
+                let own = block.attributes_of(here);
+                whole.attributes.iter_mut().skip(there * own.len()).zip(own).for_each(|(slot, own)| *slot = *own);
             }
             first += size;
         }
@@ -100,8 +114,13 @@ impl Gathering {
         if let Some(place) = self.node_seen.iter().position(|seen| !seen) {
             return told("node", place);
         }
-        if let Some(place) = self.mesh.elements().position(|(_, nodes)| nodes[0] == MISSING) {
-            return told("element", place);
+        let mut first = 0;
+        for (block, size) in self.mesh.blocks.iter().zip(&self.sizes.blocks) {
+            let missing = if block.is_empty() { (*size > 0).then_some(0) } else { None };
+            if let Some(place) = missing.or_else(|| block.elements().position(|nodes| nodes[0] == MISSING)) {
+                return told("element", first + place);
+            }
+            first += size;
         }
         for set in &self.mesh.node_sets {
             if let Some(place) = set.nodes.iter().position(|&node| node == MISSING) {

@@ -56,7 +56,7 @@ impl Sizes {
     pub fn of(mesh: &Mesh) -> Sizes {
         Sizes {
             nodes: mesh.coordinates.len(),
-            blocks: mesh.blocks.iter().map(|block| block.connectivity.len()).collect(),
+            blocks: mesh.blocks.iter().map(|block| block.len()).collect(),
             node_sets: mesh.node_sets.iter().map(|set| set.nodes.len()).collect(),
             side_sets: mesh.side_sets.iter().map(|set| set.sides.len()).collect(),
         }

@@ -9,6 +9,7 @@ use crate::{
         body::{Extent, Shape},
         cylinder::Cylinder,
         hex_box::Hexahedron,
+        line::Line,
         spacing::Spacing,
         sphere::{Sphere, SphereShell},
         tube::Tube,
@@ -22,6 +23,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TUBE", tube),
     ("SPHERE", sphere),
     ("SPHERE SHELL", sphere_shell),
+    ("LINE", line),
 ];
 
 fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
@@ -58,6 +60,15 @@ fn hexahedron(card: &Card, draft: &mut Draft) {
                 .help("four around the bottom, counter-clockwise seen from the top, then the four above them"),
         ),
     }
+}
+
+fn line(card: &Card, draft: &mut Draft) {
+    let ends = [card.vector(["x", "y", "z"]), card.vector(["x2", "y2", "z2"])];
+    if ends[0] == ends[1] {
+        let message = "LINE: it begins where it ends";
+        return draft.report(Diagnostic::error(message).at(card.record, "the two ends must be apart"));
+    }
+    add(card, draft, Line { ends, cells: count(card, "n") });
 }
 
 fn cylinder(card: &Card, draft: &mut Draft) {

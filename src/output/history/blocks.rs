@@ -5,11 +5,9 @@
 
 use super::summed;
 use crate::comm::{Communicator, ExactSum};
-use crate::mesh::shape::mass_shares;
 use crate::mesh::{Block, Mesh};
 use crate::solver::Solver;
-use crate::solver::elements::Group;
-use crate::solver::elements::hex8::rows;
+use crate::solver::elements::{ElementBlock, Energies, Group, Sample};
 use crate::solver::nodes::{add, cross, scaled, subtract};
 use nalgebra::{Matrix3, Vector3};
 
@@ -93,7 +91,7 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
         let own = &mut sums[SUMS * place..SUMS * (place + 1)];
         for group in block.groups() {
             for i in (0..group.len()).filter(|&i| group.is_alive(i)) {
-                own.iter_mut().zip(element(solver, group, i)).for_each(|(sum, part)| sum.add(part));
+                own.iter_mut().zip(element(solver, block, group, i)).for_each(|(sum, part)| sum.add(part));
             }
         }
     }
@@ -101,12 +99,16 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
 }
 
 /// An element's part of the sums. Places are measured from the origin of the mesh.
-fn element(solver: &Solver, group: &Group, i: usize) -> [f64; SUMS] {
+fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f64; SUMS] {
     let nodes = &solver.domain.nodes;
-    let corners = group.nodes(i);
-    let shares = mass_shares(&corners, &corners.map(|node| nodes.initial[node as usize]));
+    let own: Vec<u32> = group.nodes(i).collect();
+    let corners: Vec<[f64; 3]> = own.iter().map(|&node| nodes.initial[node as usize]).collect();
+    let mut shares = vec![0.0; own.len()];
+    let sample = Sample { nodes: &own, corners: &corners, attributes: &[] };
+    // The mass itself is known.
+    block.element.clone().weigh(&sample, 1.0, &mut shares);
     let mut sums = [0.0; SUMS];
-    for (node, share) in corners.into_iter().zip(shares) {
+    for (node, share) in own.into_iter().zip(shares) {
         let mass = share * group.element_mass(i);
         let (x, velocity) = (nodes.position(node), solver.velocity_now(node));
         let momentum = scaled(velocity, mass);
@@ -123,9 +125,11 @@ fn element(solver: &Solver, group: &Group, i: usize) -> [f64; SUMS] {
         let [before, after] = solver.velocities_around(node);
         sums[19] += 0.5 * mass * (0..3).map(|a| before[a] * after[a]).sum::<f64>();
     }
-    sums[20] = group.value(i, rows::INTERNAL_ENERGY);
-    sums[21] = group.value(i, rows::HOURGLASS_ENERGY);
-    sums[22] = group.value(i, rows::VISCOUS_ENERGY);
+    let Energies { internal, hourglass, viscous } = block.element.entry().energies;
+    let energies = [Some(internal), hourglass, viscous];
+    for (sum, row) in sums[20..].iter_mut().zip(energies) {
+        *sum = row.map_or(0.0, |row| group.value(i, row));
+    }
     sums
 }
 

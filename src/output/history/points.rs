@@ -90,15 +90,17 @@ impl Points {
             self.points.iter().map(|point| (point.block, point.element, point.element_id)).collect();
         elements.sort_unstable();
         elements.dedup();
-        let corners: Vec<[u32; 8]> = whole.elements().map(|(_, nodes)| *nodes).collect();
-        let mut used: Vec<u32> = elements.iter().flat_map(|e| corners[e.1 as usize]).collect();
+        let all = whole.connectivity();
+        let mut used: Vec<u32> = elements.iter().flat_map(|e| &all[e.1 as usize]).copied().collect();
         used.sort_unstable();
         used.dedup();
         let place = |node: u32| used.binary_search(&node).unwrap_or(0) as u32;
         let blocks = elements.chunk_by(|a, b| a.0 == b.0).map(|group| Block {
             id: whole.blocks[group[0].0].id,
             name: whole.blocks[group[0].0].name.clone(),
-            connectivity: group.iter().map(|e| corners[e.1 as usize].map(place)).collect(),
+            shape: whole.blocks[group[0].0].shape,
+            nodes: group.iter().flat_map(|e| &all[e.1 as usize]).map(|&node| place(node)).collect(),
+            attributes: Vec::new(),
         });
         Mesh {
             title: whole.title.clone(),
@@ -144,10 +146,12 @@ impl Point {
         let place = solver.domain.element_file.iter().position(|&file| file == self.element)? as u32;
         let (block, group, i) = find(solver, place)?;
         let mut values = vec![0.0; 6];
-        for node in group.nodes(i) {
+        let nodes = group.nodes(i);
+        let count = nodes.len() as f64;
+        for node in nodes {
             let (x, initial) = (solver.domain.nodes.position(node), solver.domain.nodes.initial[node as usize]);
             let motion = [nodes::subtract(x, initial), solver.velocity_now(node)].concat();
-            values.iter_mut().zip(motion).for_each(|(value, part)| *value += part / 8.0);
+            values.iter_mut().zip(motion).for_each(|(value, part)| *value += part / count);
         }
         if group.is_alive(i) {
             self.fields.element_point(solver, block, group, i, rank, &mut values);

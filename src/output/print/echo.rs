@@ -4,6 +4,7 @@ use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
 use crate::solver::contact::Overlap;
+use crate::solver::loads::LOADS;
 use std::fmt::Write;
 
 /// What the front part needs to know.
@@ -190,14 +191,6 @@ fn conditions(model: &Model) -> String {
             number(m.scale)
         )
     });
-    let forces = model.prescribed_forces.iter().map(|f| {
-        format!("{:>13}{:>11}{:>10}{:>13}", f.node_set, axis(f.direction), function(f.function), number(f.scale))
-    });
-    let pressures = model
-        .pressures
-        .iter()
-        .map(|p| format!("{:>13}{:>10}{:>13}", p.side_set, function(p.function), number(p.scale)));
-    let silent = model.silent_boundaries.iter().map(|side_set| format!("{side_set:>13}"));
     let points = model.material_points.iter().enumerate().map(|(i, &x)| format!("{:>13}{}", i + 1, vector(x)));
     let velocities = model.initial_velocities.iter().map(|v| match *v {
         InitialVelocity::Material { block, velocity } => format!("MATERIAL {block:>8}{}", vector(velocity)),
@@ -217,17 +210,20 @@ fn conditions(model: &Model) -> String {
         .rigid_surfaces
         .iter()
         .map(|r| format!("{:>8}{}{}{:>12}", r.side_set, vector(r.point), vector(r.normal), number(r.friction)));
-    let gravity = model.gravities.iter().map(|g| {
-        let name = g.function.map_or("NONE".to_string(), |f| function(f).to_string());
-        format!("{}{name:>10}", vector(g.acceleration))
+    let loads = LOADS.iter().map(|load| {
+        let (title, columns, lines) = (load.echo)(model);
+        table(title, columns, lines)
+    });
+    let sections = model.sections.iter().map(|section| {
+        let words = section.words.iter().map(|(_, word)| format!("{word:>13}"));
+        let numbers = section.numbers.iter().map(|(_, value)| format!("{:>13}", number(*value)));
+        format!("{:>8}  {:<22}{}", section.block, section.command, words.chain(numbers).collect::<String>())
     });
     [
+        table("SECTIONS OF ELEMENTS", "   BLOCK  COMMAND", sections.collect()),
         table("NO DISPLACEMENT BOUNDARY CONDITIONS", "NODE SET FLAG    DIRECTION", still.collect()),
         table("PRESCRIBED MOTIONS", "KIND              NODE SET  DIRECTION  FUNCTION        SCALE", motions.collect()),
-        table("PRESCRIBED FORCES", "     NODE SET  DIRECTION  FUNCTION        SCALE", forces.collect()),
-        table("PRESSURES", "     SIDE SET  FUNCTION        SCALE", pressures.collect()),
-        table("GRAVITY", "            X            Y            Z  FUNCTION", gravity.collect()),
-        table("SILENT BOUNDARIES", "     SIDE SET", silent.collect()),
+        loads.collect(),
         table("INITIAL VELOCITIES", "                            X            Y            Z", velocities.collect()),
         table(
             "RIGID SURFACES",

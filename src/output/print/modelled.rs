@@ -1,6 +1,7 @@
 //! What a model makes the code do, and which command asked for it.
 
-use crate::mesh::shape::{Shape, kind};
+use crate::mesh::Shape;
+use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
 use crate::model::{Hourglass, Model, MotionKind};
 
@@ -43,15 +44,19 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
 
 /// How many elements of which shapes a block has.
 fn elements(block: &Block) -> String {
+    if block.shape != Shape::Hexahedron {
+        let [one, several] = block.shape.names();
+        return format!("{} {}", block.len(), if block.len() == 1 { one } else { several });
+    }
     let mut out = Vec::new();
     for (shape, name) in [
-        (Shape::Hexahedron, "hexahedra"),
-        (Shape::Wedge, "wedges"),
-        (Shape::Pyramid, "pyramids"),
-        (Shape::Tetrahedron, "tetrahedra"),
+        (Form::Hexahedron, "hexahedra"),
+        (Form::Wedge, "wedges"),
+        (Form::Pyramid, "pyramids"),
+        (Form::Tetrahedron, "tetrahedra"),
     ] {
-        let count = block.connectivity.iter().filter(|nodes| kind(nodes) == shape).count();
-        if count > 0 || block.connectivity.is_empty() && shape == Shape::Hexahedron {
+        let count = block.hexahedra().iter().filter(|nodes| form(nodes) == shape).count();
+        if count > 0 || block.is_empty() && shape == Form::Hexahedron {
             out.push(format!("{count} {name}"));
         }
     }

@@ -13,7 +13,7 @@
 
 use super::enforce::{Constraint, State};
 use crate::comm::ExactSum;
-use crate::solver::nodes::{dot, subtract};
+use crate::vector::{dot, subtract};
 
 /// Farthest way along the ray. Passes that begin with less than the last forces end below what is needed, and everything that is
 /// pressed would creep into each other; the ray makes up for it on the whole.

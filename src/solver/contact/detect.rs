@@ -9,7 +9,7 @@ use super::carried::Carried;
 use super::face::{self, Stand};
 use super::faces::Faces;
 use super::points::Points;
-use crate::solver::nodes::{add, dot, scaled, subtract};
+use crate::vector::{add, dot, scaled, subtract};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;

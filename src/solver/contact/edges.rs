@@ -14,7 +14,7 @@ use super::faces::Faces;
 use super::points::Points;
 use super::search::Box3;
 use super::setup::Pairing;
-use crate::solver::nodes::{add, cross, dot, scaled, subtract};
+use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;

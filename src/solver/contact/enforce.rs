@@ -20,7 +20,7 @@ use super::certificate::{Bank, Granted, Sums, Target, Terms, sunk, tangential};
 use super::points::Points;
 use crate::model::Friction;
 use crate::solver::constraints::StepTimes;
-use crate::solver::nodes::{add, dot, scaled, subtract};
+use crate::vector::{add, dot, scaled, subtract};
 
 /// Part of the last step's force with which the passes begin. Where they end early, force follows overlap with the lag
 /// of this filter: a point on a spring of any stiffness that passes can make would gain energy from 1/2 on (the roots of
@@ -155,9 +155,6 @@ pub struct Outcome {
     /// Farthest that a constraint would move along its normal in the step without contact, a length.
     pub motion: f64,
 }
-
-static SETTLED_ENV: std::sync::LazyLock<f64> =
-    std::sync::LazyLock::new(|| std::env::var("URTO_SETTLED").ok().and_then(|v| v.parse().ok()).unwrap_or(0.01));
 
 /// Numbers of which all ranks learn the largest in a pass: how much it moved, whether anybody wants it, and of the overlaps
 /// that motion has made so far the deepest in face sizes, the deepest, and the farthest motion of the step.
@@ -430,7 +427,7 @@ impl Enforcer {
         self.states.clear();
         let granted = ledger.granted();
         for c in constraints {
-            let Carried { sunk, push, drag } = c.carried;
+            let Carried { push, drag, .. } = c.carried;
             (c.carried.push, c.carried.drag) = (BEGINNING * push, scaled(drag, BEGINNING));
             let mut state = State { own: true, ..Default::default() };
             let (mut inverse, mut isotropic) = (0.0, 0.0);

@@ -3,7 +3,8 @@
 use super::face::area_normal;
 use super::points::Points;
 use super::surface::{back_nodes, face_nodes};
-use crate::solver::nodes::{dot, subtract};
+use crate::mesh::Connectivity;
+use crate::vector::{dot, subtract};
 
 /// Faces that points may touch, in ascending order of their numbers.
 #[derive(Debug, Clone, Default)]
@@ -30,7 +31,7 @@ impl Faces {
     /// gives the point of a node of the mesh.
     pub fn new(
         numbers: &[u32],
-        (elements, blocks, positions): (&[[u32; 8]], &[u32], &[[f64; 3]]),
+        (elements, blocks, positions): (&Connectivity, &[u32], &[[f64; 3]]),
         point: impl Fn(u32) -> u32,
         points: usize,
     ) -> Faces {
@@ -47,7 +48,8 @@ impl Faces {
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());
             faces.depth.push(if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 });
-            faces.element.push(elements[element].map(&point));
+            let nodes: [u32; 8] = elements[element].try_into().unwrap_or_default();
+            faces.element.push(nodes.map(&point));
         }
         faces.connect(points);
         faces

@@ -8,7 +8,7 @@ use super::face::area_normal;
 use super::faces::Faces;
 use super::neighbourhood::Found;
 use super::points::Points;
-use crate::solver::nodes::{dot, subtract};
+use crate::vector::{dot, subtract};
 
 /// Points and faces that may touch.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,7 +13,7 @@ use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
-use crate::solver::nodes::{add, cross, dot, scaled, subtract};
+use crate::vector::{add, cross, dot, scaled, subtract};
 use std::sync::Arc;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
@@ -176,7 +176,10 @@ fn left(body: &Body, layout: &Layout) -> Left {
     blocks.dedup();
     let all = 0..body.element_nodes.len() as u32;
     let elements: Vec<u32> = all.filter(|&e| blocks.binary_search(&body.element_block[e as usize]).is_ok()).collect();
-    let corners = |element: u32| body.element_nodes[element as usize].map(|node| body.positions[node as usize]);
+    let corners = |element: u32| -> [[f64; 3]; 8] {
+        let nodes: [u32; 8] = body.element_nodes[element as usize].try_into().unwrap_or_default();
+        body.corners(&nodes)
+    };
     let boxes: Vec<Box3> = elements.iter().map(|&element| Box3::around(&corners(element))).collect();
     let at = |point: usize| body.positions[layout.nodes[point] as usize];
     let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };

@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::enforce::{Constraint, MEMBERS, Origin};
 use super::points::Points;
 use crate::model::{Friction, RigidSurface};
-use crate::solver::nodes::{dot, subtract};
+use crate::vector::{dot, subtract};
 
 /// One point that a plane watches.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
 use super::bounds::{Bounds, Outside};
-use crate::lanes::InstructionSet;
+use crate::lanes::{InstructionSet, Vectors};
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.
 pub type Four = [f64; 4];
@@ -143,10 +143,10 @@ impl Points {
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
     pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
-        match self.instructions {
-            // SAFETY: `InstructionSet::detect` returns these only on processors that have AVX2, which AVX-512 includes.
+        match self.instructions.vectors() {
+            // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.set_all_avx2(motions, homes) },
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.set_all_avx2(motions, homes) },
             _ => self.set_each(motions, homes),
         }
     }

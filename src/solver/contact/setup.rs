@@ -5,7 +5,7 @@ use super::faces::Faces;
 use super::locate::{Interface, Rule};
 use super::search::Box3;
 use super::surface::{Surface, face_nodes};
-use crate::mesh::Mesh;
+use crate::mesh::{Connectivity, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
 use crate::solver::Body;
 use std::sync::Arc;
@@ -140,7 +140,7 @@ fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
 /// What layouts are made of, and made of again when elements go.
 pub struct Skin {
     element_order: Arc<Vec<u32>>,
-    element_nodes: Arc<Vec<[u32; 8]>>,
+    element_nodes: Arc<Connectivity>,
     element_block: Arc<Vec<u32>>,
     positions: Arc<Vec<[f64; 3]>>,
     /// Whether CONTACT MATERIAL names a block.
@@ -204,7 +204,7 @@ impl Skin {
         let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
-        let body = (&self.element_nodes[..], &self.element_block[..], &self.positions[..]);
+        let body = (&*self.element_nodes, &self.element_block[..], &self.positions[..]);
         layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));
         let faces = &layout.faces;
         let block = |point: u32| faces.around(point).first().map_or(0, |&face| faces.block[face as usize]);

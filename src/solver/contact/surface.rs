@@ -1,80 +1,35 @@
 //! The outside of the body: faces that belong to one element only, and how it grows inwards as elements go.
 //!
-//! Faces are found by the face id of Attaway et al. (1996), eq. 14: two elements share a face when its smallest node
-//! and the node diagonal to it are the same. A face with a repeated node, a triangle, has no such diagonal and is
-//! known by its sorted nodes instead. A face's number is 6 × its element + its side and never changes.
+//! A face's number is 6 × its element + its side and never changes; see [`crate::mesh::exterior`].
 
-use crate::mesh::HEX_SIDES;
-
-/// Opposite of a face on the outside.
-pub const EXTERIOR: u32 = u32::MAX;
-/// Opposite of a face whose element is gone.
-pub const GONE: u32 = u32::MAX - 1;
+use crate::mesh::exterior::{self, EXTERIOR, NONE as GONE};
+use crate::mesh::{Connectivity, HEX_SIDES};
 
 /// All faces of a body of hexahedra and who is across.
 #[derive(Debug, Clone, Default)]
 pub struct Surface {
-    /// Per face number: the face across, [`EXTERIOR`] or [`GONE`].
+    /// Per face number: the face across, [`EXTERIOR`], or [`GONE`] with the element or if the face is of no interest.
     opposite: Vec<u32>,
 }
 
 /// What is on a face.
-pub fn face_nodes(elements: &[[u32; 8]], face: u32) -> [u32; 4] {
+pub fn face_nodes(elements: &Connectivity, face: u32) -> [u32; 4] {
     let element = &elements[face as usize / 6];
     HEX_SIDES[face as usize % 6].map(|corner| element[corner])
 }
 
 /// Nodes of the side across the element from a face.
-pub fn back_nodes(elements: &[[u32; 8]], face: u32) -> [u32; 4] {
+pub fn back_nodes(elements: &Connectivity, face: u32) -> [u32; 4] {
     const BACK: [u32; 6] = [2, 3, 0, 1, 5, 4];
     face_nodes(elements, face - face % 6 + BACK[face as usize % 6])
-}
-
-/// The same number for the same face of two elements: eq. 14 in 64 bits, and for a triangle its sorted nodes.
-/// `None` where a side has collapsed to a line or a point and is no face.
-fn key(nodes: [u32; 4], node_count: u64) -> Option<u128> {
-    let mut sorted = nodes;
-    sorted.sort_unstable();
-    let repeated = sorted.windows(2).filter(|pair| pair[0] == pair[1]).count();
-    match repeated {
-        0 => {
-            let smallest = (0..4).min_by_key(|&i| nodes[i]).unwrap_or(0);
-            let (least, diagonal) = (u64::from(nodes[smallest]), u64::from(nodes[(smallest + 2) % 4]));
-            Some(u128::from(diagonal + least * node_count))
-        }
-        1 => {
-            let mut distinct = sorted.to_vec();
-            distinct.dedup();
-            let [a, b, c] = [0, 1, 2].map(|i| u128::from(distinct[i]));
-            // Beyond any quadrilateral's 64 bits.
-            Some((1 << 127) | (a << 64) | (b << 32) | c)
-        }
-        _ => None,
-    }
 }
 
 impl Surface {
     /// Pairs up the faces of elements given by their nodes. Only faces all of whose nodes are `wanted` are looked
     /// at; the others count as gone. Both elements at a face name the same nodes, so a face is wanted on both sides
     /// or on neither.
-    pub fn new(elements: &[[u32; 8]], node_count: usize, wanted: impl Fn(u32) -> bool) -> Surface {
-        let mut opposite = vec![GONE; 6 * elements.len()];
-        let mut keys: Vec<(u128, u32)> = Vec::new();
-        for face in 0..6 * elements.len() as u32 {
-            let nodes = face_nodes(elements, face);
-            if nodes.iter().all(|&node| wanted(node))
-                && let Some(key) = key(nodes, node_count as u64)
-            {
-                keys.push((key, face));
-            }
-        }
-        keys.sort_unstable();
-        for same in keys.chunk_by(|a, b| a.0 == b.0) {
-            for (i, &(_, face)) in same.iter().enumerate() {
-                // Three elements at a face are no body; the face is inside all the same.
-                opposite[face as usize] = if same.len() == 1 { EXTERIOR } else { same[(i + 1) % same.len()].1 };
-            }
-        }
+    pub fn new(elements: &Connectivity, node_count: usize, wanted: impl Fn(u32) -> bool) -> Surface {
+        let opposite = exterior::across(elements.shaped(), node_count, wanted);
         Surface { opposite }
     }
 
@@ -103,17 +58,19 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Shape;
 
     /// n³ unit cubes; element (i, j, k) is number i + n (j + n k).
-    fn cubes(n: u32) -> Vec<[u32; 8]> {
+    fn cubes(n: u32) -> Connectivity {
         let m = n + 1;
         let at = |i, j, k| i + m * (j + m * k);
         let corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)];
-        (0..n * n * n).map(|e| corners.map(|(a, b, c)| at(e % n + a, e / n % n + b, e / (n * n) + c))).collect()
+        let cube = |e| corners.map(|(a, b, c)| at(e % n + a, e / n % n + b, e / (n * n) + c));
+        Connectivity::of(Shape::Hexahedron, (0..n * n * n).flat_map(cube).collect())
     }
 
     /// Numbers of exterior faces and of the nodes on them.
-    fn counts(surface: &Surface, elements: &[[u32; 8]]) -> [usize; 2] {
+    fn counts(surface: &Surface, elements: &Connectivity) -> [usize; 2] {
         let mut nodes: Vec<u32> = surface.exterior().flat_map(|face| face_nodes(elements, face)).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -142,7 +99,8 @@ mod tests {
         let mut surface = Surface::new(&elements, 343, |_| true);
         (0..216).rev().filter(|&e| dead(e)).for_each(|e| surface.delete(e));
         let left: Vec<u32> = (0..216).filter(|&e| !dead(e)).collect();
-        let rest: Vec<[u32; 8]> = left.iter().map(|&e| elements[e as usize]).collect();
+        let rest = left.iter().flat_map(|&e| &elements[e as usize]).copied().collect();
+        let rest = Connectivity::of(Shape::Hexahedron, rest);
         let built: Vec<u32> =
             Surface::new(&rest, 343, |_| true).exterior().map(|face| 6 * left[face as usize / 6] + face % 6).collect();
         assert_eq!(surface.exterior().collect::<Vec<_>>(), built);
@@ -151,7 +109,8 @@ mod tests {
     #[test]
     fn a_wedge_on_a_wedge_shares_its_triangle() {
         // Two triangular prisms, one above the other, as hexahedra with repeated nodes.
-        let wedges = [[0, 1, 2, 2, 3, 4, 5, 5], [3, 4, 5, 5, 6, 7, 8, 8]];
+        let wedges = vec![0, 1, 2, 2, 3, 4, 5, 5, 3, 4, 5, 5, 6, 7, 8, 8];
+        let wedges = Connectivity::of(Shape::Hexahedron, wedges);
         let surface = Surface::new(&wedges, 9, |_| true);
         // Each has two triangles and three quadrilaterals; the shared triangle is inside.
         assert_eq!(surface.exterior().count(), 8);

@@ -1,14 +1,11 @@
 //! Storage of one element block on one rank: chunks of eight elements, each quantity a row of eight numbers.
 
-use super::hex8::rows;
-use super::kinematics::rotation_matrix;
+use super::Element;
+use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use crate::lanes::{CHUNK, Row};
-use crate::material::{Law, Start};
-use crate::mesh::check::hexahedron_volume;
-use crate::model::Hourglass;
-use crate::solver::body::centroid;
+use crate::material::Law;
 use crate::solver::domain::state_names;
-use crate::solver::nodes::{add, cross, dot, scaled, subtract};
+use crate::solver::nodes::Nodes;
 
 /// The elements of one material on one rank.
 pub struct ElementBlock {
@@ -20,16 +17,16 @@ pub struct ElementBlock {
     pub density: f64,
     /// Constitutive law.
     pub law: Law,
-    /// The least part of an eighth of its mass that any node has of an element: 1 but where corners coincide.
-    pub least_share: f64,
-    /// Hourglass control.
-    pub hourglass: Hourglass,
+    /// What the elements are.
+    pub element: Element,
     /// Names of the law's stored state variables, in row order.
     pub state_names: &'static [&'static str],
     /// Elements with a node that other ranks share; computed first, so that their forces travel while the rest works.
     pub border: Group,
     /// All others.
     pub interior: Group,
+    /// Whether the stable step of each element is kept.
+    pub keeps_steps: bool,
 }
 
 /// Some elements of a block in canonical order, in chunks. The last chunk is filled up with copies of its last
@@ -38,16 +35,21 @@ pub struct ElementBlock {
 pub struct Group {
     /// Place of each element in the rank's canonical order, ascending.
     pub places: Vec<u32>,
-    /// Local nodes, `[chunk][corner][lane]`.
-    pub connectivity: Vec<[[u32; CHUNK]; 8]>,
+    /// Nodes per element.
+    pub corners: usize,
+    /// Local nodes of eight elements, `corners` such rows per chunk.
+    pub connectivity: Vec<[u32; CHUNK]>,
     /// Element masses, one row per chunk.
     pub mass: Vec<Row>,
-    /// State, `stride` rows per chunk; see [`rows`].
+    /// What the elements store, `stride` rows per chunk: their own numbers, then those of their law.
     pub state: Vec<Row>,
     /// Rows per chunk.
     pub stride: usize,
     /// Which elements have been taken away; empty while none have.
     pub gone: Vec<bool>,
+    /// The largest stable step of each element in the last pass, one row per chunk; empty unless somebody wants to know,
+    /// and before the first pass.
+    pub steps: Vec<Row>,
 }
 
 /// An element as a group takes it in.
@@ -55,56 +57,82 @@ pub struct NewElement {
     /// Place in the rank's canonical order.
     pub place: u32,
     /// Local nodes.
-    pub nodes: [u32; 8],
+    pub nodes: Vec<u32>,
     /// Corner positions.
-    pub corners: [[f64; 3]; 8],
+    pub corners: Vec<[f64; 3]>,
     /// Mass.
     pub mass: f64,
+    /// Attributes in the mesh, if any.
+    pub attributes: Vec<f64>,
 }
 
 impl Group {
-    /// Elements at rest, unstressed, with frames along their own axes, and what their law stores.
-    pub fn new(elements: &[NewElement], law: &Law) -> Group {
-        let stride = rows::LAW + state_names(law).len();
+    /// Elements at rest. `start` fills in the numbers that an element stores, of which there are `stride`.
+    pub fn new(
+        elements: &[NewElement],
+        corners: usize,
+        stride: usize,
+        start: impl Fn(&NewElement, &mut [f64]),
+    ) -> Group {
         let chunks = elements.len().div_ceil(CHUNK);
         let mut group = Group {
             places: elements.iter().map(|e| e.place).collect(),
-            connectivity: vec![[[0; CHUNK]; 8]; chunks],
+            corners,
+            connectivity: vec![[0; CHUNK]; chunks * corners],
             mass: vec![Row::default(); chunks],
             state: vec![Row::default(); chunks * stride],
             stride,
             gone: Vec::new(),
+            steps: Vec::new(),
         };
+        let mut numbers = vec![0.0; stride];
         for slot in 0..chunks * CHUNK {
-            let (chunk, lane) = (slot / CHUNK, slot % CHUNK);
             let element = &elements[slot.min(elements.len() - 1)];
-            for corner in 0..8 {
-                group.connectivity[chunk][corner][lane] = element.nodes[corner];
-            }
-            group.mass[chunk].0[lane] = element.mass;
-            let state = &mut group.state[chunk * stride..(chunk + 1) * stride];
-            for component in 0..3 {
-                state[rows::STRETCH + component].0[lane] = 1.0;
-            }
-            let axes = own_axes(&element.corners);
-            for (row, value) in state[rows::FRAME..].iter_mut().zip(axes) {
-                row.0[lane] = value;
-            }
-            let start = Start {
-                centre: centroid(&element.corners),
-                volume: hexahedron_volume(&element.corners),
-                frame: rotation_matrix(&axes),
-            };
-            for (row, value) in state[rows::LAW..].iter_mut().zip(law.start(&start)) {
-                row.0[lane] = value;
-            }
+            numbers.fill(0.0);
+            start(element, &mut numbers);
+            group.set(slot, &element.nodes, element.mass, &numbers);
         }
         group
+    }
+
+    /// Gives a lane nodes, mass and state.
+    fn set(&mut self, slot: usize, nodes: &[u32], mass: f64, numbers: &[f64]) {
+        let (chunk, lane) = (slot / CHUNK, slot % CHUNK);
+        for (row, node) in self.connectivity[chunk * self.corners..].iter_mut().zip(&nodes[..self.corners]) {
+            row[lane] = *node;
+        }
+        self.mass[chunk].0[lane] = mass;
+        for (row, number) in self.state[chunk * self.stride..].iter_mut().zip(numbers) {
+            row.0[lane] = *number;
+        }
+    }
+
+    /// Whether the `i`-th element is still there.
+    pub fn is_alive(&self, i: usize) -> bool {
+        self.gone.is_empty() || !self.gone[i]
+    }
+
+    /// Gives the lane of the `i`-th element to a stand-in, and with it the lanes that copy the last element.
+    pub fn retire(&mut self, i: usize, stand_in: &[u32], mass: f64, numbers: &[f64]) {
+        if self.gone.is_empty() {
+            self.gone = vec![false; self.len()];
+        }
+        self.gone[i] = true;
+        let lanes = self.mass.len() * CHUNK;
+        let copies = if i + 1 == self.len() { self.len()..lanes } else { 0..0 };
+        for slot in std::iter::once(i).chain(copies) {
+            self.set(slot, stand_in, mass, numbers);
+        }
     }
 
     /// Number of elements.
     pub fn len(&self) -> usize {
         self.places.len()
+    }
+
+    /// Number of corners of all elements.
+    pub fn corner_count(&self) -> usize {
+        self.corners * self.len()
     }
 
     /// Whether there are none.
@@ -122,9 +150,35 @@ impl Group {
         std::array::from_fn(|k| self.value(i, first + k))
     }
 
+    /// Local node at a corner of the `i`-th element.
+    #[inline(always)]
+    pub fn node(&self, i: usize, corner: usize) -> u32 {
+        self.connectivity[i / CHUNK * self.corners + corner][i % CHUNK]
+    }
+
     /// Local nodes of the `i`-th element.
-    pub fn nodes(&self, i: usize) -> [u32; 8] {
-        std::array::from_fn(|corner| self.connectivity[i / CHUNK][corner][i % CHUNK])
+    pub fn nodes(&self, i: usize) -> impl ExactSizeIterator<Item = u32> + '_ {
+        (0..self.corners).map(move |corner| self.node(i, corner))
+    }
+
+    /// The same as an array, if it has as many.
+    pub fn all_nodes<const N: usize>(&self, i: usize) -> Option<[u32; N]> {
+        (self.corners == N).then(|| std::array::from_fn(|corner| self.node(i, corner)))
+    }
+
+    /// Positions of the nodes of the `i`-th element, which has as many.
+    pub fn positions<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
+        std::array::from_fn(|corner| nodes.position(self.node(i, corner)))
+    }
+
+    /// Velocities of the nodes of the `i`-th element, which has as many.
+    pub fn velocities<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
+        std::array::from_fn(|corner| nodes.velocity(self.node(i, corner)))
+    }
+
+    /// The largest stable step of the `i`-th element in the last pass, if it was kept.
+    pub fn stable_step(&self, i: usize) -> Option<f64> {
+        self.steps.get(i / CHUNK).map(|row| row.0[i % CHUNK])
     }
 
     /// Mass of the `i`-th element.
@@ -138,40 +192,31 @@ impl ElementBlock {
     pub fn groups(&self) -> [&Group; 2] {
         [&self.border, &self.interior]
     }
-}
 
-/// `a` at length one, or `None` when it has no direction.
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(a, a).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| scaled(a, 1.0 / length))
-}
+    /// A group of elements of this block's kind.
+    pub fn group(element: &Element, law: &Law, density: f64, elements: &[NewElement]) -> Group {
+        let entry = element.entry();
+        let stride = entry.rows.len() + state_names(law).len();
+        Group::new(elements, entry.shape.corners(), stride, |new, numbers| {
+            let (own, of_law) = numbers.split_at_mut(entry.rows.len());
+            let start = element.start(new, density, own);
+            of_law.copy_from_slice(&law.start(&start));
+        })
+    }
 
-/// The element's own axes as a unit quaternion: e₁ along ξ, e₂ in the plane of ξ and η. The fixed axes where an
-/// element is too degenerate to have any.
-pub(super) fn own_axes(corners: &[[f64; 3]; 8]) -> [f64; 4] {
-    let along = |minus: [usize; 4], plus: [usize; 4]| {
-        (0..4).fold([0.0; 3], |sum, i| add(sum, subtract(corners[plus[i]], corners[minus[i]])))
-    };
-    let xi = along([0, 3, 4, 7], [1, 2, 5, 6]);
-    let eta = along([0, 1, 4, 5], [3, 2, 7, 6]);
-    let axes = unit(xi).and_then(|e1| unit(subtract(eta, scaled(e1, dot(eta, e1)))).map(|e2| [e1, e2, cross(e1, e2)]));
-    axes.map_or([1.0, 0.0, 0.0, 0.0], |axes| quaternion(&axes))
-}
+    /// Place among the stored numbers of the first that is the law's.
+    pub fn first_of_law(&self) -> usize {
+        self.element.entry().rows.len()
+    }
 
-/// Unit quaternion of the rotation whose matrix has the columns `e` (Shepperd 1978: the largest term is the pivot).
-fn quaternion(e: &[[f64; 3]; 3]) -> [f64; 4] {
-    let (m00, m11, m22) = (e[0][0], e[1][1], e[2][2]);
-    let squares = [1.0 + m00 + m11 + m22, 1.0 + m00 - m11 - m22, 1.0 - m00 + m11 - m22, 1.0 - m00 - m11 + m22];
-    let pivot = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
-    // Columns are axes: component i of axis j is m[i][j].
-    let (x, y, z) = (e[1][2] - e[2][1], e[2][0] - e[0][2], e[0][1] - e[1][0]);
-    let (xy, yz, zx) = (e[0][1] + e[1][0], e[1][2] + e[2][1], e[2][0] + e[0][2]);
-    let q = match pivot {
-        0 => [squares[0], x, y, z],
-        1 => [x, squares[1], xy, zx],
-        2 => [y, xy, squares[2], yz],
-        _ => [z, zx, yz, squares[3]],
-    };
-    let length = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
-    q.map(|c| c / length)
+    /// Advances one group: the border elements when the sink keeps forces apart, else the interior.
+    pub fn run(&mut self, nodes: &[Row], sink: Sink, settings: &PassSettings) -> PassOutcome {
+        let ElementBlock { element, law, density, border, interior, keeps_steps, .. } = self;
+        if *keeps_steps {
+            let group = if matches!(sink, Sink::Apart(_)) { &mut *border } else { &mut *interior };
+            group.steps.resize(group.mass.len(), Row::default());
+        }
+        let pass = Pass { border, interior, nodes, sink, instructions: settings.instructions };
+        element.run(pass, law, *density, settings)
+    }
 }

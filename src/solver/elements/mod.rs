@@ -1,27 +1,103 @@
 //! Elements: from positions and velocities to corner forces, block by block in chunks of eight.
+//!
+//! A kind of element is a folder here and a line in the list below: see `docs/adding-an-element.md`.
 
 mod block;
 pub mod fields;
-pub mod geometry;
-pub mod hex8;
-pub mod hourglass;
-pub mod kinematics;
+mod formulation;
+pub mod hexahedron;
 mod pass;
+pub mod truss;
 
-use crate::lanes::Sym3;
-use nalgebra::{Matrix3, SymmetricEigen};
+use crate::lanes::{Matrix3, Sym3};
+use crate::material::{Law, Start};
+use crate::mesh::Block;
+use crate::model::Model;
+use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
-pub use pass::{PassOutcome, PassSettings, Sink, run};
+pub use formulation::{Energies, Entry, Formulation, Sample, StoredRow, Unfit};
+pub use pass::{Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 
-/// ln U of a stretch, by its eigenvectors: logarithmic strain.
-pub fn logarithm(u: Sym3<f64>) -> Sym3<f64> {
-    let m = u.matrix();
-    let eigen = SymmetricEigen::new(Matrix3::from_fn(|i, j| m[i][j]));
-    let logarithms = eigen.eigenvalues.map(libm::log);
-    let l = eigen.eigenvectors * Matrix3::from_diagonal(&logarithms) * eigen.eigenvectors.transpose();
-    Sym3 { xx: l[(0, 0)], yy: l[(1, 1)], zz: l[(2, 2)], xy: l[(0, 1)], yz: l[(1, 2)], zx: l[(2, 0)] }
+macro_rules! elements {
+    ($($module:ident :: $element:ident),+ $(,)?) => {
+        /// What the elements of a block are, with what holds for all of them.
+        #[derive(Debug, Clone)]
+        pub enum Element { $(#[doc = stringify!($element)] $element($module::$element),)+ }
+
+        /// Every kind of element there is.
+        pub static ELEMENTS: &[&Entry] = &[$(&$module::ENTRY),+];
+
+        impl Element {
+            /// The element that computes a block.
+            ///
+            /// # Errors
+            /// Why none can.
+            pub fn of_block(block: &Block, model: &Model) -> Result<Element, Unfit> {
+                $(if $module::ENTRY.shape == block.shape {
+                    return $module::$element::of_block(block, model).map(Element::$element);
+                })+
+                let [_, shapes] = block.shape.names();
+                Err(Unfit { reason: format!("there is no element that computes {shapes}"), help: String::new() })
+            }
+
+            /// The table entry of this kind.
+            pub fn entry(&self) -> &'static Entry { match self { $(Element::$element(_) => &$module::ENTRY,)+ } }
+
+            /// See [`Formulation::weigh`].
+            pub fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+                match self { $(Element::$element(own) => own.weigh(element, density, shares),)+ }
+            }
+
+            /// See [`Formulation::start`].
+            pub fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start {
+                match self { $(Element::$element(kind) => kind.start(element, density, own),)+ }
+            }
+
+            /// See [`Formulation::run`].
+            pub fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome {
+                match self { $(Element::$element(own) => own.run(pass, law, density, settings),)+ }
+            }
+
+            /// See [`Formulation::stand_in`].
+            pub fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
+                match self { $(Element::$element(kind) => kind.stand_in(density, edge, own),)+ }
+            }
+
+            /// See [`Formulation::volume`].
+            pub fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+                match self { $(Element::$element(own) => own.volume(group, i, nodes),)+ }
+            }
+
+            /// See [`Formulation::frame`].
+            pub fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+                match self { $(Element::$element(own) => own.frame(group, i, nodes),)+ }
+            }
+
+            /// See [`Formulation::stress`].
+            pub fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+                match self { $(Element::$element(own) => own.stress(group, i),)+ }
+            }
+
+            /// See [`Formulation::stretch`].
+            pub fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
+                match self { $(Element::$element(own) => own.stretch(group, i, nodes),)+ }
+            }
+
+            /// See [`Formulation::least_corner`].
+            pub fn least_corner(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+                match self { $(Element::$element(own) => own.least_corner(group, i, nodes),)+ }
+            }
+
+            /// See [`Formulation::last_half_step`].
+            pub fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
+                match self { $(Element::$element(own) => own.last_half_step(group, i, nodes, time_step),)+ }
+            }
+        }
+    };
 }
 
-#[cfg(test)]
-mod tests;
+elements! {
+    hexahedron::Hexahedron,
+    truss::Truss,
+}

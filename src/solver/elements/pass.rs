@@ -1,22 +1,19 @@
-//! One pass over the elements of a block, compiled for every law, hourglass control and instruction set.
+//! One pass over the elements of a block, compiled for every kind of element, law and instruction set.
 
-use super::block::{ElementBlock, Group};
-use super::hex8::{self, Physics, Settings};
-use super::hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
-use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, Pair, Row, prefetch};
-use crate::material::{Kernel, KernelVisitor};
-use crate::model::{BulkViscosity, Hourglass, StepModuli};
+use super::block::Group;
+use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, MOST_CORNERS, Pair, Row, Vectors, prefetch};
+use crate::model::{BulkViscosity, StepModuli};
 
 /// Where corner forces go.
 pub enum Sink<'a> {
-    /// Kept apart, eight per element in group order: they will be summed with those of other ranks.
+    /// Kept apart, one per corner in group order: they will be summed with those of other ranks.
     Apart(&'a mut [Force]),
     /// Subtracted from the nodes, element by element in canonical order; the border elements, whose forces were
     /// kept apart, take their turn in between.
     Nodes {
         /// Force sums of the nodes.
         forces: &'a mut [Force],
-        /// Forces of the border group, eight per element.
+        /// Forces of the border group, one per corner.
         border: &'a [Force],
     },
 }
@@ -65,59 +62,46 @@ pub struct PassSettings {
     pub instructions: InstructionSet,
 }
 
-/// Advances one group of a block: its border elements when the sink keeps forces apart, else its interior.
-pub fn run(block: &mut ElementBlock, nodes: &[Row], sink: Sink, pass: &PassSettings) -> PassOutcome {
-    let moduli = block.law.moduli();
-    let settings = Settings {
-        time_step: pass.time_step,
-        time: pass.time,
-        density: block.density,
-        least_share: block.least_share,
-        dilatational: moduli.dilatational(),
-        mu: 0.5 * moduli.two_mu,
-        poisson: moduli.poisson(),
-        linear_viscosity: pass.bulk_viscosity.linear,
-        quadratic_viscosity: pass.bulk_viscosity.quadratic,
-        effective_moduli: pass.moduli == StepModuli::Effective,
-    };
-    let ElementBlock { law, hourglass, border, interior, .. } = block;
-    let (control, instructions) = (*hourglass, pass.instructions);
-    law.accept(BlockPass { border, interior, control, nodes, sink, settings, instructions })
+/// One step of one kind of element, from the motion of N corners to their forces. Implementations are compiled into the loop
+/// over elements, once for each instruction set.
+pub trait StepKernel<const N: usize> {
+    /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities by direction and corner,
+    /// both relative to the first corner, and the elements' masses. Advances the rows of `state`.
+    fn step<V: Lanes>(
+        &self,
+        positions: &[[V; N]; 3],
+        velocities: &[[V; N]; 3],
+        state: &mut [Row],
+        part: usize,
+        mass: V,
+    ) -> Outcome<V, N>;
 }
 
-struct BlockPass<'a> {
-    border: &'a mut Group,
-    interior: &'a mut Group,
-    control: Hourglass,
-    nodes: &'a [Row],
-    sink: Sink<'a>,
-    settings: Settings,
-    instructions: InstructionSet,
+/// What a part of a chunk hands back.
+pub struct Outcome<V, const N: usize> {
+    /// Internal forces on the corners, `[direction][corner]`, to be subtracted from the nodes.
+    pub force: [[V; N]; 3],
+    /// Largest stable time step; not positive, or no number, of an element that has failed.
+    pub stable_step: V,
 }
 
-impl KernelVisitor for BlockPass<'_> {
-    type Output = PassOutcome;
-
-    fn visit<K: Kernel>(self, law: K) -> PassOutcome {
-        let control = match self.control {
-            Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
-                Either::FlanaganBelytschko(FlanaganBelytschko { stiffness, viscosity })
-            }
-            Hourglass::AssumedStrain { factor } => Either::AssumedStrain(AssumedStrain { factor }),
-        };
-        if !K::FREQUENT {
-            return self.with_control(&law, &control);
-        }
-        match control {
-            Either::FlanaganBelytschko(control) => self.with_control(&law, &control),
-            Either::AssumedStrain(control) => self.with_control(&law, &control),
-        }
-    }
+/// A pass over one group of a block: its border elements when the sink keeps forces apart, else its interior.
+pub struct Pass<'a> {
+    /// Border elements.
+    pub border: &'a mut Group,
+    /// All others.
+    pub interior: &'a mut Group,
+    /// Nodes.
+    pub nodes: &'a [Row],
+    /// Where the forces go.
+    pub sink: Sink<'a>,
+    /// Instruction set.
+    pub instructions: InstructionSet,
 }
 
-impl BlockPass<'_> {
-    fn with_control<K: Kernel, H: Control>(self, law: &K, control: &H) -> PassOutcome {
-        let physics = Physics { settings: self.settings, law, control };
+impl Pass<'_> {
+    /// Does a step of every element.
+    pub fn over<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
         let (group, sink) = match self.sink {
             Sink::Apart(slots) => (self.border, Target::Apart(slots)),
             Sink::Nodes { forces, border: slots } => {
@@ -125,38 +109,38 @@ impl BlockPass<'_> {
                 (self.interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
             }
         };
-        match self.instructions {
-            // SAFETY: `InstructionSet::detect` returns these only on processors that have them.
+        match self.instructions.vectors() {
+            // SAFETY: an instruction set is one that this processor has.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, &physics) },
+            Vectors::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, step) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, &physics) },
-            _ => chunks::<Pair, K, H>(group, self.nodes, sink, &physics),
+            Vectors::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, step) },
+            _ => chunks::<Pair, N, S>(group, self.nodes, sink, step),
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-unsafe fn chunks_avx512<K: Kernel, H: Control>(
+unsafe fn chunks_avx512<const N: usize, S: StepKernel<N>>(
     group: &mut Group,
     nodes: &[Row],
     sink: Target,
-    physics: &Physics<K, H>,
+    kernel: &S,
 ) -> PassOutcome {
-    chunks::<crate::lanes::F64x8, K, H>(group, nodes, sink, physics)
+    chunks::<crate::lanes::F64x8, N, S>(group, nodes, sink, kernel)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-unsafe fn chunks_avx2<K: Kernel, H: Control>(
+unsafe fn chunks_avx2<const N: usize, S: StepKernel<N>>(
     group: &mut Group,
     nodes: &[Row],
     sink: Target,
-    physics: &Physics<K, H>,
+    kernel: &S,
 ) -> PassOutcome {
-    chunks::<crate::lanes::F64x4, K, H>(group, nodes, sink, physics)
+    chunks::<crate::lanes::F64x4, N, S>(group, nodes, sink, kernel)
 }
 
 /// Where the forces of a chunk go, with what the merge of border elements has to remember.
@@ -187,19 +171,25 @@ impl Merge<'_> {
         while let Some(&border_place) = self.border.places.get(self.next)
             && border_place < place
         {
-            let nodes = self.border.nodes(self.next);
-            for (corner, node) in nodes.into_iter().enumerate() {
-                Merge::subtract(self.forces, node, &self.slots[8 * self.next + corner]);
+            let corners = self.border.corners;
+            for corner in 0..corners {
+                let node = self.border.node(self.next, corner);
+                Merge::subtract(self.forces, node, &self.slots[corners * self.next + corner]);
             }
             self.next += 1;
         }
     }
 
     #[inline(always)]
-    fn chunk(&mut self, places: &[u32], connectivity: &[[u32; CHUNK]; 8], corner_forces: &[[Force; 8]; CHUNK]) {
+    fn chunk<const N: usize>(
+        &mut self,
+        places: &[u32],
+        connectivity: &[[u32; CHUNK]; N],
+        corner_forces: &[[Force; MOST_CORNERS]; CHUNK],
+    ) {
         for (lane, &place) in places.iter().enumerate() {
             self.border_before(place);
-            for corner in 0..8 {
+            for corner in 0..N {
                 Merge::subtract(self.forces, connectivity[corner][lane], &corner_forces[lane][corner]);
             }
         }
@@ -207,27 +197,28 @@ impl Merge<'_> {
 }
 
 #[inline(always)]
-fn chunks<V: Lanes, K: Kernel, H: Control>(
+fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
     nodes: &[Row],
     mut sink: Target,
-    physics: &Physics<K, H>,
+    kernel: &S,
 ) -> PassOutcome {
     let stride = group.stride;
-    let mut corner_forces = [[Force::default(); 8]; CHUNK];
+    let mut corner_forces = [[Force::default(); MOST_CORNERS]; CHUNK];
     let (mut smallest, mut smallest_chunk) = (Row([f64::INFINITY; CHUNK]), Row([f64::INFINITY; CHUNK]));
     let mut failed_chunk = Row([f64::INFINITY; CHUNK]);
-    for (chunk, connectivity) in group.connectivity.iter().enumerate() {
+    for (chunk, connectivity) in group.connectivity.as_chunks::<N>().0.iter().enumerate() {
+        let mut steps = group.steps.get_mut(chunk);
         let (state, ahead) = group.state[chunk * stride..].split_at_mut(stride);
         // Measured: the narrow kernels gain a sixth at 64³ elements, the widest loses a little.
         if V::COUNT < CHUNK {
             prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
         }
         for part in 0..CHUNK / V::COUNT {
-            let (x, v) = relative_corners::<V>(nodes, connectivity, part);
+            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part);
             let mass = V::load(&group.mass[chunk], part);
-            let outcome = hex8::step(&x, &v, state, part, mass, physics);
-            for corner in 0..8 {
+            let outcome = kernel.step(&x, &v, state, part, mass);
+            for corner in 0..N {
                 let force = [outcome.force[0][corner], outcome.force[1][corner], outcome.force[2][corner]];
                 V::spread(force, &mut corner_forces, corner, part);
             }
@@ -236,6 +227,9 @@ fn chunks<V: Lanes, K: Kernel, H: Control>(
             let best = V::load(&smallest, part);
             V::select_less(step, best, here, V::load(&smallest_chunk, part)).store(&mut smallest_chunk, part);
             V::select_less(step, best, step, best).store(&mut smallest, part);
+            if let Some(row) = &mut steps {
+                step.store(row, part);
+            }
             let failed = V::load(&failed_chunk, part);
             V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_chunk, part);
         }
@@ -243,8 +237,8 @@ fn chunks<V: Lanes, K: Kernel, H: Control>(
         let places = &group.places[first..group.places.len().min(first + CHUNK)];
         match &mut sink {
             Target::Apart(slots) => {
-                for (slots, forces) in slots[8 * first..].chunks_exact_mut(8).zip(&corner_forces[..places.len()]) {
-                    slots.copy_from_slice(forces);
+                for (slots, forces) in slots[N * first..].chunks_exact_mut(N).zip(&corner_forces[..places.len()]) {
+                    slots.copy_from_slice(&forces[..N]);
                 }
             }
             Target::Nodes(merge) => merge.chunk(places, connectivity, &corner_forces),
@@ -260,15 +254,15 @@ fn chunks<V: Lanes, K: Kernel, H: Control>(
 /// flight costs digits.
 #[inline(always)]
 #[allow(clippy::type_complexity)]
-fn relative_corners<V: Lanes>(
+fn relative_corners<V: Lanes, const N: usize>(
     nodes: &[Row],
-    connectivity: &[[u32; CHUNK]; 8],
+    connectivity: &[[u32; CHUNK]; N],
     part: usize,
-) -> ([[V; 8]; 3], [[V; 8]; 3]) {
+) -> ([[V; N]; 3], [[V; N]; 3]) {
     let first = V::gather(nodes, &connectivity[0], part);
     let zero = V::splat(0.0);
-    let (mut x, mut v) = ([[zero; 8]; 3], [[zero; 8]; 3]);
-    for corner in 1..8 {
+    let (mut x, mut v) = ([[zero; N]; 3], [[zero; N]; 3]);
+    for corner in 1..N {
         let row = V::gather(nodes, &connectivity[corner], part);
         for i in 0..3 {
             x[i][corner] = row[i] - first[i];

@@ -1,6 +1,7 @@
 //! DELETE MATERIAL: blocks that go at a time, with their nodes.
 
 use super::{Erosion, drop_node};
+use crate::mesh::Connectivity;
 use crate::model::Deletion;
 use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
@@ -33,7 +34,7 @@ impl Deletions {
 
     /// Nodes that go on when they have lost their elements: those with an element of a block that wants it and is not
     /// deleted.
-    pub fn keeps(&self, element_nodes: &[[u32; 8]], nodes: usize) -> Vec<bool> {
+    pub fn keeps(&self, element_nodes: &Connectivity, nodes: usize) -> Vec<bool> {
         let wants = |(number, wants): &(i64, bool)| *wants && self.gone.binary_search(number).is_err();
         let wanting: Vec<bool> = self.blocks.iter().map(wants).collect();
         let mut keeps = vec![false; nodes];

@@ -1,6 +1,7 @@
 //! What erosion carries from step to step.
 
 use super::Erosion;
+use crate::lanes::{CHUNK, Row};
 use crate::restart::Archive;
 use crate::solver::domain::ABSENT;
 use crate::solver::elements::ElementBlock;
@@ -25,12 +26,14 @@ impl Erosion {
             element_nodes,
             // Of the problem, or counted anew by `take_away`.
             rules: _,
+            step_scale: _,
             local: _,
             left: _,
             stand_in: _,
             edge: _,
         } = self;
         archive.heap("DEADE", energy);
+        visit_steps(archive, blocks, file);
         let mut deleted: Vec<f64> = Vec::new();
         if archive.comm().rank() == 0 {
             deleted.extend(deletions.gone.iter().map(|&block| block as f64));
@@ -61,21 +64,45 @@ impl Erosion {
     /// Takes elements away that went before, with energies and nodes that are known.
     fn take_away(&mut self, dead: &[u32], blocks: &mut [ElementBlock], canonical: &[u32]) {
         for block in blocks {
-            let mass = self.stand_in_mass(block);
+            let stand_in = self.stand_in(block);
             for group in [&mut block.border, &mut block.interior] {
                 for i in 0..group.len() {
                     if dead.binary_search(&canonical[group.places[i] as usize]).is_ok() {
-                        group.retire(i, self.stand_in, mass);
+                        stand_in.take_over(group, i);
                     }
                 }
             }
         }
         for &element in dead {
-            for node in self.element_nodes[element as usize] {
+            for &node in &self.element_nodes[element as usize] {
                 let here = self.local[node as usize];
                 if here != ABSENT {
                     self.left[here as usize] -= 1;
                 }
+            }
+        }
+    }
+}
+
+/// Visits the stable steps of elements whose steps are watched, by their places in the mesh file.
+fn visit_steps(archive: &mut dyn Archive, blocks: &mut [ElementBlock], file: &[u32]) {
+    let mut rows: Vec<f64> = Vec::new();
+    for group in blocks.iter().flat_map(|block| block.groups()) {
+        let known = (0..group.len()).filter_map(|i| Some((group.places[i], group.stable_step(i)?)));
+        rows.extend(known.flat_map(|(place, step)| [f64::from(file[place as usize]), step]));
+    }
+    archive.list("STEPS", 2, &mut rows);
+    if !archive.loading() || rows.is_empty() {
+        return;
+    }
+    let (rows, _) = rows.as_chunks::<2>();
+    for block in blocks.iter_mut().filter(|block| block.keeps_steps) {
+        for group in [&mut block.border, &mut block.interior] {
+            group.steps = vec![Row::default(); group.mass.len()];
+            for (i, &place) in group.places.iter().enumerate() {
+                let found = rows.binary_search_by(|row| row[0].total_cmp(&f64::from(file[place as usize])));
+                // What the state does not know has not failed.
+                group.steps[i / CHUNK].0[i % CHUNK] = found.map_or(f64::INFINITY, |row| rows[row][1]);
             }
         }
     }

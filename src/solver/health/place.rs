@@ -3,7 +3,6 @@
 use super::finding::{SPOTS, Spot};
 use super::watch::Exam;
 use crate::comm::Communicator;
-use crate::mesh::check::hexahedron_volume;
 use crate::solver::body::centroid;
 use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::{Domain, ElementPlace, Solver};
@@ -38,15 +37,13 @@ impl Solver {
 /// The element with a canonical number, if this rank has it.
 fn find(domain: &Domain, canonical: f64) -> Option<ElementPlace> {
     let place = domain.element_canonical.iter().position(|&c| f64::from(c) == canonical)?;
-    let (block, nodes) = domain.blocks.iter().find_map(|block| {
-        block
-            .groups()
-            .into_iter()
-            .find_map(|group| group.places.binary_search(&(place as u32)).ok().map(|i| (block.id, group.nodes(i))))
+    let (block, group, i) = domain.blocks.iter().find_map(|block| {
+        let at = |group: &Group| group.places.binary_search(&(place as u32)).ok();
+        block.groups().into_iter().find_map(|group| Some((block, group, at(group)?)))
     })?;
-    let corners = nodes.map(|n| domain.nodes.position(n));
-    let (centre, volume) = (centroid(&corners), hexahedron_volume(&corners));
-    Some(ElementPlace { element: domain.element_id[place], block, centre, volume })
+    let corners: Vec<[f64; 3]> = group.nodes(i).map(|node| domain.nodes.position(node)).collect();
+    let volume = block.element.volume(group, i, &domain.nodes);
+    Some(ElementPlace { element: domain.element_id[place], block: block.id, centre: centroid(&corners), volume })
 }
 
 /// Living elements of this rank, block by block.

@@ -15,7 +15,7 @@ fn with_cube(more: &str, test: impl FnOnce(&mut Solver)) {
         coordinates: UNIT_CUBE.to_vec(),
         node_ids: (1..=8).collect(),
         element_ids: vec![7],
-        blocks: vec![Block { id: 1, name: String::new(), connectivity: vec![[0, 1, 2, 3, 4, 5, 6, 7]] }],
+        blocks: vec![Block::hexahedra_of(1, [[0, 1, 2, 3, 4, 5, 6, 7]])],
         ..Mesh::default()
     };
     let deck = format!(

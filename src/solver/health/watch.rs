@@ -75,11 +75,8 @@ impl Watch {
     /// What there is to know of a run before its first step.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, initial_energy: f64) -> Watch {
         let masses = body.block_masses(mesh.blocks.len());
-        let block = |(block, mass): (&crate::mesh::Block, f64)| BlockFacts {
-            id: block.id,
-            mass,
-            elements: block.connectivity.len(),
-        };
+        let block =
+            |(block, mass): (&crate::mesh::Block, f64)| BlockFacts { id: block.id, mass, elements: block.len() };
         let facts = Facts {
             node_id: share.nodes.iter().map(|&node| mesh.node_ids[node as usize]).collect(),
             blocks: mesh.blocks.iter().zip(masses).map(block).collect(),

@@ -2,26 +2,24 @@
 
 use crate::lanes::CHUNK;
 use crate::restart::Archive;
-use crate::solver::elements::hex8::rows;
 use crate::solver::elements::{ElementBlock, Group};
 
-/// Names of the rows that every element has, in their order: stress and stretch in the element's frame, the frame,
-/// hourglass resistances, energies, and the viscous stress.
-const NAMES: [&str; rows::LAW] = [
-    "USIGXX", "USIGYY", "USIGZZ", "USIGXY", "USIGYZ", "USIGZX", "USTRXX", "USTRYY", "USTRZZ", "USTRXY", "USTRYZ",
-    "USTRZX", "FRAME0", "FRAME1", "FRAME2", "FRAME3", "HGX1", "HGX2", "HGX3", "HGX4", "HGY1", "HGY2", "HGY3", "HGY4",
-    "HGZ1", "HGZ2", "HGZ3", "HGZ4", "EINTERN", "EHOURGL", "EVISCOUS", "BULKQ",
-];
-
-/// Visits the rows of all elements, those of laws by their names: `law_states` are the names of all laws of the model, and
-/// `count` is the number of local elements.
-pub(super) fn visit(archive: &mut dyn Archive, blocks: &mut [ElementBlock], law_states: &[&str], count: usize) {
-    for (row, name) in NAMES.into_iter().enumerate() {
-        visit_row(archive, blocks, name, count, |_| Some(row));
+/// Visits the rows of all elements by their names: `rows` are the names of all that the model's elements store, `law_states`
+/// those that its laws store, and `count` is the number of local elements.
+pub(super) fn visit(
+    archive: &mut dyn Archive,
+    blocks: &mut [ElementBlock],
+    [rows, law_states]: [&[&str]; 2],
+    count: usize,
+) {
+    for name in rows {
+        let place = |block: &ElementBlock| block.element.entry().rows.iter().position(|row| row.name == *name);
+        visit_row(archive, blocks, name, count, place);
     }
     for name in law_states {
         let place = |block: &ElementBlock| block.state_names.iter().position(|known| known == name);
-        visit_row(archive, blocks, name, count, |block| place(block).map(|place| rows::LAW + place));
+        let first = ElementBlock::first_of_law;
+        visit_row(archive, blocks, name, count, |block| place(block).map(|place| first(block) + place));
     }
 }
 
@@ -56,11 +54,12 @@ fn visit_row(
 impl Group {
     /// Sets one stored number of every element, given by the element's place in the rank's order.
     fn set_row(&mut self, row: usize, values: &[f64]) {
-        // Places, nodes and masses are of the problem and its cut; which are gone has been put back before.
-        let Group { places, connectivity, mass: _, state, stride, gone: _ } = self;
+        // Places, nodes and masses are of the problem and its cut; which are gone has been put back before,
+        // and steps are put back by who wants them.
+        let Group { places, mass, state, stride, corners: _, connectivity: _, gone: _, steps: _ } = self;
         let Some(&last) = places.last() else { return };
         // Lanes that fill up the last chunk copy its last element.
-        for slot in 0..connectivity.len() * CHUNK {
+        for slot in 0..mass.len() * CHUNK {
             let place = places.get(slot).copied().unwrap_or(last);
             state[slot / CHUNK * *stride + row].0[slot % CHUNK] = values[place as usize];
         }

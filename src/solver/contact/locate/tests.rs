@@ -209,7 +209,7 @@ impl Scene {
         let mut noise = Noise(self.noise);
         let (mut placed, mut last): (Vec<usize>, Vec<usize>) = Default::default();
         for (i, brick) in self.bricks.iter().enumerate() {
-            let mut own: Vec<usize> = mesh.blocks[i].connectivity.iter().flatten().map(|&n| n as usize).collect();
+            let mut own: Vec<usize> = mesh.blocks[i].nodes.iter().map(|&n| n as usize).collect();
             own.sort_unstable();
             own.dedup();
             let length = dot(brick.towards, brick.towards).sqrt().max(1e-3);
@@ -249,7 +249,7 @@ impl Scene {
         let body = Body::new(&mesh, &model).expect("materials");
         let at = |n: usize| body.positions[n];
         let mut springs: Vec<(usize, usize)> = Vec::new();
-        for corners in mesh.elements().map(|(_, corners)| corners) {
+        for corners in mesh.hexahedra() {
             let corners = corners.map(|n| n as usize);
             springs.extend(
                 (0..8).flat_map(|i| (0..i).map(move |j| (corners[i].min(corners[j]), corners[i].max(corners[j])))),

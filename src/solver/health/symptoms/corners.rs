@@ -3,10 +3,7 @@
 
 use super::{Symptom, When};
 use crate::comm::Communicator;
-use crate::mesh::check::hexahedron_volume;
-use crate::mesh::corners::least_corner;
-use crate::solver::elements::Group;
-use crate::solver::elements::fields::positions;
+use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::health::finding::Evidence;
 use crate::solver::health::place::{elements, worst_element};
 use crate::solver::health::watch::Exam;
@@ -22,7 +19,7 @@ pub const SYMPTOM: Symptom = Symptom {
         let nodes = &exam.solver.domain.nodes;
         let turned = elements(&exam.solver.domain)
             .filter(|(block, ..)| block.id == evidence.block)
-            .filter_map(|(_, group, i)| Some((group.places[i], -turned(group, i, nodes)?)));
+            .filter_map(|(block, group, i)| Some((group.places[i], -turned(block, group, i, nodes)?)));
         evidence.spots[0] = worst_element(exam, turned, comm);
     },
     label: |evidence| format!("corners inside out in block {}", evidence.block),
@@ -40,17 +37,16 @@ pub const SYMPTOM: Symptom = Symptom {
 };
 
 /// The least corner of an element that has a positive volume, where that is inside out.
-fn turned(group: &Group, i: usize, nodes: &Nodes) -> Option<f64> {
-    let corners = positions(group, i, nodes);
-    let least = least_corner(&group.nodes(i), &corners);
-    (least <= 0.0 && hexahedron_volume(&corners) > 0.0).then_some(least)
+fn turned(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> Option<f64> {
+    let least = block.element.least_corner(group, i, nodes);
+    (least <= 0.0 && block.element.volume(group, i, nodes) > 0.0).then_some(least)
 }
 
 fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let blocks = &exam.facts.blocks;
     let mut counts = vec![0u64; blocks.len()];
     for (block, group, i) in elements(&exam.solver.domain) {
-        counts[block.index] += u64::from(turned(group, i, &exam.solver.domain.nodes).is_some());
+        counts[block.index] += u64::from(turned(block, group, i, &exam.solver.domain.nodes).is_some());
     }
     comm.all_sum(&mut counts);
     let evidence = blocks.iter().zip(counts).map(|(block, count)| Evidence {

@@ -2,7 +2,7 @@
 
 use super::{Symptom, When};
 use crate::comm::{Communicator, ExactSum};
-use crate::solver::elements::hex8::rows;
+use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::health::finding::{Evidence, percent};
 use crate::solver::health::place::{elements, worst_element};
 use crate::solver::health::watch::Exam;
@@ -19,7 +19,7 @@ pub const SYMPTOM: Symptom = Symptom {
     measure,
     place: |exam, evidence, comm| {
         let own = elements(&exam.solver.domain).filter(|(block, ..)| block.id == evidence.block);
-        let energies = own.map(|(_, group, i)| (group.places[i], group.value(i, rows::HOURGLASS_ENERGY)));
+        let energies = own.map(|(block, group, i)| (group.places[i], hourglass_energy(block, group, i)));
         evidence.spots[0] = worst_element(exam, energies, comm);
     },
     label: |evidence| format!("hourglass energy of block {}", evidence.block),
@@ -36,12 +36,17 @@ pub const SYMPTOM: Symptom = Symptom {
              material",
 };
 
+/// Hourglass energy of an element, none of one that has no such modes.
+fn hourglass_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
+    block.element.entry().energies.hourglass.map_or(0.0, |row| group.value(i, row))
+}
+
 fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let blocks = &exam.facts.blocks;
     let mut sums: Vec<ExactSum> = vec![ExactSum::new(); 2 * blocks.len()];
     for (block, group, i) in elements(&exam.solver.domain) {
-        sums[2 * block.index].add(group.value(i, rows::INTERNAL_ENERGY));
-        sums[2 * block.index + 1].add(group.value(i, rows::HOURGLASS_ENERGY));
+        sums[2 * block.index].add(group.value(i, block.element.entry().energies.internal));
+        sums[2 * block.index + 1].add(hourglass_energy(block, group, i));
     }
     ExactSum::merge_ranks(&mut sums, comm);
     let mass: f64 = blocks.iter().map(|block| block.mass).sum();

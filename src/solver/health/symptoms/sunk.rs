@@ -43,8 +43,9 @@ fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Sunk> {
         *is_outer = numbers.peek() == Some(&canonical);
     }
     let here = elements(domain).filter(|(_, group, i)| is_outer[group.places[*i] as usize]);
-    let here: Vec<(u32, [u32; 8])> =
-        here.map(|(_, group, i)| (domain.element_canonical[group.places[i] as usize], group.nodes(i))).collect();
+    let here: Vec<(u32, [u32; 8])> = here
+        .filter_map(|(_, group, i)| Some((domain.element_canonical[group.places[i] as usize], group.all_nodes(i)?)))
+        .collect();
     let found = contact.sunk(&here, &domain.nodes, comm);
     let mut count = [found.iter().filter(|sunk| sunk.depth >= DEEP).count() as u64];
     comm.all_sum(&mut count);

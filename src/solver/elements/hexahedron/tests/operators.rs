@@ -1,7 +1,7 @@
 //! V-09: identities of the gradient operator, the volume and the hourglass vectors on random warped elements.
 
 use super::*;
-use crate::solver::elements::geometry::{HOURGLASS, corners as from_modes, dot, modes};
+use crate::solver::elements::hexahedron::geometry::{HOURGLASS, corners as from_modes, dot, modes};
 
 /// Natural coordinates of the corners.
 fn natural(corner: usize) -> [f64; 3] {

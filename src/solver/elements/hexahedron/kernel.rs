@@ -3,30 +3,10 @@
 use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
+use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
-
-/// Rows of an element's state, in the order in which they are stored; the law's own rows follow.
-pub mod rows {
-    /// Cauchy stress in the element's frame: xx, yy, zz, xy, yz, zx.
-    pub const STRESS: usize = 0;
-    /// Right stretch in the element's frame, six components in the same order.
-    pub const STRETCH: usize = 6;
-    /// Frame as a unit quaternion.
-    pub const FRAME: usize = 12;
-    /// Hourglass resistance, mode by mode within each direction.
-    pub const HOURGLASS: usize = 16;
-    /// Internal energy since the start.
-    pub const INTERNAL_ENERGY: usize = 28;
-    /// Hourglass energy since the start.
-    pub const HOURGLASS_ENERGY: usize = 29;
-    /// Energy taken up by bulk viscosity since the start.
-    pub const VISCOUS_ENERGY: usize = 30;
-    /// Bulk viscosity q of the last step, added to the mean stress.
-    pub const VISCOUS_STRESS: usize = 31;
-    /// First row of the law.
-    pub const LAW: usize = 32;
-}
+use crate::solver::elements::pass::{Outcome, StepKernel};
 
 /// Numbers that hold for a whole block and step.
 #[derive(Debug, Clone, Copy)]
@@ -64,14 +44,6 @@ pub struct Physics<'a, K, H> {
     pub control: &'a H,
 }
 
-/// What a chunk hands back.
-pub struct Outcome<V> {
-    /// Internal forces on the corners, `[direction][corner]`, to be subtracted from the nodes.
-    pub force: [Corners<V>; 3],
-    /// Largest stable time step.
-    pub stable_step: V,
-}
-
 /// Writes consecutive rows.
 #[inline(always)]
 fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usize, part: usize) {
@@ -86,17 +58,31 @@ fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
     (V::load(row, part) + value).store(row, part);
 }
 
+impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
+    #[inline(always)]
+    fn step<V: Lanes>(
+        &self,
+        positions: &[Corners<V>; 3],
+        velocities: &[Corners<V>; 3],
+        state: &mut [Row],
+        part: usize,
+        mass: V,
+    ) -> Outcome<V, 8> {
+        step(positions, velocities, state, part, mass, self)
+    }
+}
+
 /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities, both relative to
 /// the first corner, to stresses, energies, corner forces and the stable step.
 #[inline(always)]
-pub fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
+fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     positions: &[Corners<V>; 3],
     velocities: &[Corners<V>; 3],
     state: &mut [Row],
     part: usize,
     mass: V,
     Physics { settings, law, control }: &Physics<K, H>,
-) -> Outcome<V> {
+) -> Outcome<V, 8> {
     let time_step = V::splat(settings.time_step);
     let half = V::splat(0.5);
     let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];

@@ -2,12 +2,12 @@
 //! that their nodes really have, and uniform strain in patches of them.
 
 use super::*;
-use crate::mesh::shape::{Shape, least_share, mass_shares};
+use crate::mesh::hexahedron::{Form, least_share, mass_shares};
 
-const SHAPES: [Shape; 3] = [Shape::Wedge, Shape::Pyramid, Shape::Tetrahedron];
+const SHAPES: [Form; 3] = [Form::Wedge, Form::Pyramid, Form::Tetrahedron];
 
 /// The element's own nodes at the corners of the unit cube that its shape keeps, moved by up to `amplitude` and mapped.
-fn nodes_of(shape: Shape, random: &mut Random, amplitude: f64, form: &Matrix3<f64>) -> (Vec<[f64; 3]>, Corners) {
+fn nodes_of(shape: Form, random: &mut Random, amplitude: f64, form: &Matrix3<f64>) -> (Vec<[f64; 3]>, Corners) {
     let first = |node: usize| shape.corners().iter().position(|&own| own == node).unwrap();
     loop {
         let own: Vec<[f64; 3]> = (0..shape.nodes())
@@ -27,7 +27,7 @@ fn nodes_of(shape: Shape, random: &mut Random, amplitude: f64, form: &Matrix3<f6
 }
 
 /// 2/√λ_max of M⁻¹K on the element's own nodes, with the masses that they have, over the step that the element asks for.
-fn ratio(shape: Shape, corners: &Corners, poisson: f64, hourglass: Hourglass) -> f64 {
+fn ratio(shape: Form, corners: &Corners, poisson: f64, hourglass: Hourglass) -> f64 {
     let numbers = shape.corners().map(|n| n as u32);
     let shares = mass_shares(&numbers, corners);
     let collapse = DMatrix::from_fn(24, 3 * shape.nodes(), |row, column| {
@@ -41,7 +41,7 @@ fn ratio(shape: Shape, corners: &Corners, poisson: f64, hourglass: Hourglass) ->
     });
     let exact = 2.0 / scaled.symmetric_eigenvalues().max().sqrt();
     let mut rig = Rig::single(corners, elastic(poisson), hourglass);
-    rig.block.least_share = least_share(&numbers, &shares);
+    rig.block.element = Element::Hexahedron(Hexahedron { hourglass, least_share: least_share(&numbers, &shares) });
     exact / rig.step(0.0, |_| [0.0; 3]).stable_step
 }
 
@@ -79,10 +79,10 @@ fn stable_step_of_collapsed_elements() {
 #[test]
 fn a_tetrahedron_has_no_hourglass() {
     let mut random = Random(7);
-    let (own, corners) = nodes_of(Shape::Tetrahedron, &mut random, 0.2, &Matrix3::identity());
+    let (own, corners) = nodes_of(Form::Tetrahedron, &mut random, 0.2, &Matrix3::identity());
     let mut rig = Rig::single(&corners, elastic(0.3), ASSUMED);
     let velocity: Vec<[f64; 3]> = own.iter().map(|_| random.vector()).collect();
-    rig.step(1e-3, |corner| velocity[Shape::Tetrahedron.corners()[corner]]);
+    rig.step(1e-3, |corner| velocity[Form::Tetrahedron.corners()[corner]]);
     let largest = (0..12).map(|k| rig.state(rows::HOURGLASS + k).abs()).fold(0.0, f64::max);
     close("hourglass resistance", largest, 0.0, 1e-12 * STEEL.young);
 }

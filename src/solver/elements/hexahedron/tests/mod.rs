@@ -14,13 +14,13 @@ mod operators;
 mod patch;
 mod time_step;
 
-use super::hex8::rows;
 use super::kinematics::rotation_matrix;
-use super::{ElementBlock, Group, NewElement, PassOutcome, PassSettings, Sink, geometry, run};
+use super::{Hexahedron, geometry, rows};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Kernel, KernelVisitor, Law};
 use crate::mesh::UNIT_CUBE as CUBE;
 use crate::model::{BulkViscosity, Hourglass, StepModuli};
+use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 type Corners = [[f64; 3]; 8];
@@ -118,20 +118,28 @@ impl Rig {
             .enumerate()
             .map(|(place, &nodes)| {
                 let corners = nodes.map(|n| points[n as usize]);
-                NewElement { place: place as u32, nodes, corners, mass: DENSITY * volume(&corners) }
+                NewElement {
+                    place: place as u32,
+                    nodes: nodes.to_vec(),
+                    corners: corners.to_vec(),
+                    mass: DENSITY * volume(&corners),
+                    attributes: Vec::new(),
+                }
             })
             .collect();
+        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0 });
+        let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
         Rig {
             block: ElementBlock {
                 index: 0,
                 id: 1,
                 density: DENSITY,
-                least_share: 1.0,
-                hourglass,
                 state_names,
-                border: Group::new(&[], &law),
-                interior: Group::new(&elements, &law),
-                law,
+                keeps_steps: false,
+                border: group(&[]),
+                interior: group(&elements),
+                element: element.clone(),
+                law: law.clone(),
             },
             nodes: points.iter().map(|&[x, y, z]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0])).collect(),
             forces: vec![Force::default(); points.len()],
@@ -159,7 +167,7 @@ impl Rig {
         }
         self.forces.fill(Force::default());
         self.pass.time_step = time_step;
-        run(&mut self.block, &self.nodes, Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
+        self.block.run(&self.nodes, Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
     }
 
     /// Moves every node to a place in one step, along a straight line.

@@ -12,7 +12,7 @@ const CONTROLS: [Hourglass; 3] = [
 #[test]
 fn inversion_is_reported() {
     for control in CONTROLS {
-        for sets in [InstructionSet::widest(), InstructionSet::Portable] {
+        for sets in [InstructionSet::widest(), InstructionSet::default()] {
             let mut rig = Rig::single(&CUBE, elastic(0.3), control);
             rig.pass.instructions = sets;
             for step in 1..=12 {

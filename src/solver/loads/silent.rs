@@ -9,29 +9,70 @@
 //!
 //! So the dashpots never give energy, Δt̄ F·v ≤ 0, and the stable step is that of the body without them.
 
-use super::body::Body;
-use super::domain::ABSENT;
-use super::loads::face_area_vectors;
-use super::nodes::{Nodes, cross, dot, scaled};
-use crate::mesh::{HEX_SIDES, Mesh};
-use crate::model::Model;
+use super::pressure::face_area_vectors;
+use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn};
+use crate::model::{Function, Model};
+use crate::solver::constraints::StepTimes;
+use crate::solver::domain::ABSENT;
+use crate::solver::nodes::Nodes;
+use crate::vector::{cross, dot, scaled};
+
+pub(super) static ENTRY: LoadEntry = LoadEntry {
+    command: "SILENT BC",
+    works: "SILENTW",
+    key: Key::Node(0),
+    turn: Turn::Last,
+    echo,
+    make: |setting| {
+        let dashpots = dashpots(setting);
+        (!dashpots.is_empty()).then(|| Box::new(Dashpots(dashpots)) as Box<dyn Load>)
+    },
+};
+
+fn echo(model: &Model) -> (&'static str, &'static str, Vec<String>) {
+    let lines = model.silent_boundaries.iter().map(|side_set| format!("{side_set:>13}"));
+    ("SILENT BOUNDARIES", "     SIDE SET", lines.collect())
+}
+
+/// All dashpots of a rank.
+struct Dashpots(Vec<Dashpot>);
+
+impl Load for Dashpots {
+    fn entry(&self) -> &'static LoadEntry {
+        &ENTRY
+    }
+
+    fn apply(&mut self, nodes: &mut Nodes, _: &[Function], step: &StepTimes) {
+        self.0.iter_mut().for_each(|dashpot| dashpot.apply(nodes, step.kick));
+    }
+
+    fn book(&mut self, nodes: &Nodes, half_step: f64) {
+        self.0.iter_mut().for_each(|dashpot| dashpot.book(nodes, half_step));
+    }
+
+    fn accounts(&mut self, places: &Places, visit: &mut dyn FnMut(Account)) {
+        for Dashpot { node, work, resistance: _, force: _ } in &mut self.0 {
+            visit(Account { key: [places.node(*node), 0.0, 0.0, 0.0], own: places.owns(*node), work });
+        }
+    }
+}
 
 /// What the faces at one node of this rank do to it.
 #[derive(Debug, Clone)]
-pub struct Dashpot {
+struct Dashpot {
     /// Local node.
-    pub node: u32,
+    node: u32,
     /// Rows of C, force per velocity.
-    pub resistance: [[f64; 3]; 3],
+    resistance: [[f64; 3]; 3],
     /// Force on the node now.
-    pub force: [f64; 3],
+    force: [f64; 3],
     /// Work done so far; it is negative.
-    pub work: f64,
+    work: f64,
 }
 
 impl Dashpot {
     /// Adds the force at the present state; all other forces on the node but those of constraints and contact are known.
-    pub fn apply(&mut self, nodes: &mut Nodes, kick: f64) {
+    fn apply(&mut self, nodes: &mut Nodes, kick: f64) {
         let row = &nodes.rows[self.node as usize].0;
         let half = 0.5 * kick * row[7];
         let f = &mut nodes.forces[self.node as usize].0;
@@ -44,7 +85,7 @@ impl Dashpot {
     }
 
     /// Books half the step's work with the present velocity.
-    pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
+    fn book(&mut self, nodes: &Nodes, half_step: f64) {
         self.work += half_step * dot(self.force, nodes.velocity(self.node));
     }
 }
@@ -58,7 +99,8 @@ fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// The dashpots of a rank's nodes, in the order of its nodes. Every rank that has a node sums all faces there, in the
 /// order of the mesh, so that all get the same bits.
-pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<Dashpot> {
+fn dashpots(setting: &Setting) -> Vec<Dashpot> {
+    let Setting { mesh, model, body, local, nodes: _ } = *setting;
     let sets = model.silent_boundaries.iter().filter_map(|set| mesh.side_set(*set));
     // A face that is named twice lets a wave through once.
     let mut sides: Vec<(u32, u8)> = sets.flat_map(|set| set.sides.iter().copied()).collect();
@@ -67,7 +109,7 @@ pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<D
     }
     sides.sort_unstable();
     sides.dedup();
-    let elements: Vec<(usize, &[u32; 8])> = mesh.elements().collect();
+    let elements: Vec<(usize, &[u32])> = mesh.elements().collect();
     let mut sums = vec![[[0.0; 3]; 3]; local.len()];
     for (element, side) in sides {
         let (block, corners) = elements[element as usize];
@@ -75,7 +117,7 @@ pub fn dashpots(mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<D
         let moduli = material.law.moduli();
         let impedance = |modulus: f64| (material.density * modulus).sqrt();
         let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
-        let nodes = HEX_SIDES[side as usize].map(|corner| corners[corner]);
+        let Some(nodes) = mesh.blocks[block].shape.face(corners, side) else { continue };
         let areas = face_area_vectors(nodes.map(|node| body.positions[node as usize]));
         for (node, area) in nodes.into_iter().zip(areas).filter(|(node, _)| local[*node as usize] != ABSENT) {
             add_face(&mut sums[node as usize], area, along, across);

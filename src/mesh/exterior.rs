@@ -1,0 +1,152 @@
+//! Which faces are on the outside, and which element is across each of the others.
+//!
+//! Two elements share a face when its nodes are the same in any order, each counted once: a quadrilateral that has collapsed
+//! to a triangle then matches whichever corner it repeats.
+
+use super::Shape;
+
+/// A face has the number `SIDES` × the place of its element + its side.
+pub const SIDES: usize = 6;
+
+/// Across a face on the outside.
+pub const EXTERIOR: u32 = u32::MAX;
+
+/// Across what is no face: not wanted, collapsed, or a side that the element's shape does not have.
+pub const NONE: u32 = u32::MAX - 1;
+
+/// What a face has in common with the one across: its different nodes, ascending, and `u32::MAX` in place of a repeated one.
+/// `None` where a side has collapsed to a line or a point and is no face.
+pub fn key(mut nodes: [u32; 4]) -> Option<[u32; 4]> {
+    nodes.sort_unstable();
+    for i in (1..4).rev() {
+        if nodes[i] == nodes[i - 1] {
+            nodes[i..].rotate_left(1);
+            nodes[3] = u32::MAX;
+        }
+    }
+    (nodes[2] != u32::MAX).then_some(nodes)
+}
+
+/// The faces of an element, each with its side and its nodes, counter-clockwise seen from outside.
+pub fn faces(shape: Shape, nodes: &[u32]) -> impl Iterator<Item = (u8, [u32; 4])> {
+    (0..).zip(shape.faces()).filter_map(move |(side, _)| Some((side, shape.face(nodes, side)?)))
+}
+
+/// For each number of a face: the number of the face across, [`EXTERIOR`] or [`NONE`].
+///
+/// Only faces all of whose nodes are `wanted` are looked at. Both elements at a face name the same nodes, so that it is wanted
+/// on both sides or on neither, and no interior face is taken for an exterior one. Both faces of a surface element are outside,
+/// as far as it alone is concerned. All node indices must be below `node_count`.
+pub fn across<'a>(
+    elements: impl Iterator<Item = (Shape, &'a [u32])> + Clone,
+    node_count: usize,
+    wanted: impl Fn(u32) -> bool,
+) -> Vec<u32> {
+    let count = elements.clone().count();
+    let mut across = vec![NONE; SIDES * count];
+    for same in sorted(elements, node_count, wanted).chunk_by(|a, b| a.0 == b.0) {
+        for (i, &(_, face)) in same.iter().enumerate() {
+            // Three elements at a face are no body; the face is inside all the same.
+            across[face as usize] = if same.len() == 1 { EXTERIOR } else { same[(i + 1) % same.len()].1 };
+        }
+    }
+    across
+}
+
+/// Numbers of the faces on the outside, ascending; see [`across`].
+pub fn exterior<'a>(
+    elements: impl Iterator<Item = (Shape, &'a [u32])> + Clone,
+    node_count: usize,
+    wanted: impl Fn(u32) -> bool,
+) -> Vec<u32> {
+    let across = across(elements, node_count, wanted);
+    (0..across.len() as u32).filter(|&face| across[face as usize] == EXTERIOR).collect()
+}
+
+/// A face to be matched: its key, with the dimension of its element so that solids match solids only, and its number.
+type Keyed = (([u32; 4], u8), u32);
+
+/// All faces sorted by their keys and numbers. They are first put together by their lowest node: equal ones are then among a
+/// handful, so that neither a hash table nor a sort of all is needed.
+fn sorted<'a>(
+    elements: impl Iterator<Item = (Shape, &'a [u32])> + Clone,
+    node_count: usize,
+    wanted: impl Fn(u32) -> bool,
+) -> Vec<Keyed> {
+    let keyed = || {
+        elements.clone().zip(0u32..).flat_map(|((shape, nodes), element)| {
+            faces(shape, nodes).map(move |(side, nodes)| (shape, nodes, element * SIDES as u32 + u32::from(side)))
+        })
+    };
+    let keys = || {
+        keyed().filter(|(_, nodes, _)| nodes.iter().all(|&node| wanted(node))).filter_map(|(shape, nodes, number)| {
+            // The two faces of a surface element have the same nodes, and are not across from each other.
+            let kind = if shape.dimension() == 3 { 0 } else { 1 + number as usize % SIDES };
+            Some(((key(nodes)?, kind as u8), number))
+        })
+    };
+    let mut starts = vec![0usize; node_count + 1];
+    keys().for_each(|((nodes, _), _)| starts[nodes[0] as usize + 1] += 1);
+    for node in 0..node_count {
+        starts[node + 1] += starts[node];
+    }
+    let mut next = starts.clone();
+    let mut sorted: Vec<Keyed> = vec![(([0; 4], 0), 0); starts[node_count]];
+    for face in keys() {
+        let place = &mut next[face.0.0[0] as usize];
+        sorted[*place] = face;
+        *place += 1;
+    }
+    starts.windows(2).for_each(|ends| sorted[ends[0]..ends[1]].sort_unstable());
+    sorted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row of `n` unit hexahedra along x: nodes of plane i are 4 i to 4 i + 3.
+    fn row(n: u32) -> Vec<(Shape, Vec<u32>)> {
+        (0..n).map(|i| (Shape::Hexahedron, (4 * i..4 * i + 8).collect())).collect()
+    }
+
+    fn outside(elements: &[(Shape, Vec<u32>)]) -> Vec<u32> {
+        exterior(elements.iter().map(|(shape, nodes)| (*shape, &nodes[..])), 64, |_| true)
+    }
+
+    #[test]
+    fn a_row_of_elements_shows_four_faces_each_and_its_two_ends() {
+        let faces = outside(&row(5));
+        assert_eq!(faces.len(), 5 * 4 + 2);
+        assert_eq!(faces.iter().filter(|&&face| face / 6 == 0).count(), 5);
+        assert_eq!(faces.iter().filter(|&&face| face / 6 == 2).count(), 4);
+        let elements = row(5);
+        let across = across(elements.iter().map(|(shape, nodes)| (*shape, &nodes[..])), 64, |_| true);
+        let inside = (0..).zip(&across).filter(|(_, across)| **across < NONE);
+        assert!(inside.clone().count() == 8 && inside.into_iter().all(|(face, &other)| across[other as usize] == face));
+    }
+
+    #[test]
+    fn a_wedge_shows_two_triangles_and_three_quadrilaterals() {
+        // Nodes 2 and 3, and 6 and 7, have become one: side 2-3-7-6 has collapsed to the line 2-6.
+        let wedge = vec![0, 1, 2, 2, 4, 5, 6, 6];
+        let faces = outside(&[(Shape::Hexahedron, wedge.clone())]);
+        let keys = faces.iter().map(|&face| Shape::Hexahedron.face(&wedge, face as u8).and_then(key).expect("a face"));
+        assert_eq!((faces.len(), keys.filter(|key| key[3] == u32::MAX).count()), (5, 2));
+    }
+
+    #[test]
+    fn triangles_match_whichever_corner_they_repeat() {
+        assert_eq!(key([5, 9, 9, 2]), key([2, 2, 5, 9]));
+        assert_eq!(key([5, 9, 9, 2]), Some([2, 5, 9, u32::MAX]));
+        assert!(key([3, 3, 8, 8]).is_none() && key([4, 4, 4, 4]).is_none() && key([1, 2, 3, 3]).is_some());
+    }
+
+    #[test]
+    fn both_faces_of_a_surface_are_outside_and_bars_have_none() {
+        let strip = [(Shape::Quadrilateral, vec![0, 1, 2, 3]), (Shape::Bar, vec![2, 3])];
+        assert_eq!(outside(&strip), [0, 1]);
+        let glued = [(Shape::Quadrilateral, vec![4, 5, 6, 7]), (Shape::Hexahedron, (0..8).collect())];
+        assert_eq!(outside(&glued).len(), 2 + 6);
+    }
+}

@@ -1,0 +1,107 @@
+//! What every kind of element says of itself. The rest of the solver asks by these roles and knows no element by name.
+
+use super::block::{Group, NewElement};
+use super::pass::{Pass, PassOutcome, PassSettings};
+use crate::lanes::{Matrix3, Sym3};
+use crate::material::{Law, Start};
+use crate::mesh::{Block, Shape};
+use crate::model::Model;
+use crate::solver::nodes::Nodes;
+
+/// What the deck, the manual, restart files and the energy balance need to know of a kind of element.
+pub struct Entry {
+    /// Name in messages and the manual.
+    pub name: &'static str,
+    /// One sentence for the manual.
+    pub summary: &'static str,
+    /// Shape of the blocks that it computes.
+    pub shape: Shape,
+    /// What it stores per element beside its law's state variables, in this order.
+    pub rows: &'static [StoredRow],
+    /// Which of the rows are energies.
+    pub energies: Energies,
+    /// Which row is the bulk viscosity of the last step as a mean stress, if it has any.
+    pub viscous_stress: Option<usize>,
+}
+
+/// One number that an element stores.
+pub struct StoredRow {
+    /// Name in restart files.
+    pub name: &'static str,
+    /// Its dimension, `-` for a plain number.
+    pub dimension: &'static str,
+}
+
+/// Places of energies among the rows of an element; all are sums since the start, in the deck's unit of energy.
+pub struct Energies {
+    /// Internal energy.
+    pub internal: usize,
+    /// Energy of hourglass resistance, for elements that have any.
+    pub hourglass: Option<usize>,
+    /// Energy taken up by bulk viscosity, for elements that have any.
+    pub viscous: Option<usize>,
+}
+
+/// An element of the mesh that is to be weighed.
+pub struct Sample<'a> {
+    /// Nodes in the mesh.
+    pub nodes: &'a [u32],
+    /// Corner positions, length.
+    pub corners: &'a [[f64; 3]],
+    /// Attributes that the mesh gives it.
+    pub attributes: &'a [f64],
+}
+
+/// Why a block cannot be computed with an element, as the end of a sentence that begins with the block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unfit {
+    /// What is wrong.
+    pub reason: String,
+    /// What may be done, or an empty string.
+    pub help: String,
+}
+
+/// A kind of element, with what holds for all elements of a block. One file or folder implements it, and one line in
+/// `elements!` makes it known.
+pub trait Formulation: Sized {
+    /// Takes over a block of its shape.
+    ///
+    /// # Errors
+    /// Why it cannot, for instance because a thickness or an area is missing.
+    fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit>;
+
+    /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner. Called
+    /// once for every element of the block on every rank, so that bounds over the block can be found here.
+    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64;
+
+    /// Fills in the rows of an element at rest, and says what its law may see of it. `own` is zero.
+    fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start;
+
+    /// Advances one group of a block by a step: stresses, energies, corner forces, and the largest stable step.
+    fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome;
+
+    /// Fills in the rows of what stands in for an element that is gone, unstressed and at rest between the first corners of a
+    /// cube of this edge; returns its mass. `own` is zero.
+    fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64;
+
+    /// Volume of the `i`-th element now, length³.
+    fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64;
+
+    /// The rotation from the frame of the `i`-th element into space; columns are its axes.
+    fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64>;
+
+    /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
+    fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
+
+    /// Right stretch in the frame of the `i`-th element.
+    fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64>;
+
+    /// The least Jacobian of the `i`-th element's corners over its mean one, 1 in elements that have none.
+    fn least_corner(&self, _group: &Group, _i: usize, _nodes: &Nodes) -> f64 {
+        1.0
+    }
+
+    /// Work that the last forces of the `i`-th element have done since the last state. They acted for half of the step that
+    /// led here, and no new forces come to be averaged with them when the element goes.
+    fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64;
+}

@@ -1,0 +1,75 @@
+//! GRAVITY: a body acceleration of the whole model.
+
+use super::{Account, Key, Load, LoadEntry, Places, Turn, function_number};
+use crate::model::{Function, Gravity, Model};
+use crate::numbers::number;
+use crate::solver::constraints::StepTimes;
+use crate::solver::nodes::Nodes;
+use crate::vector::{add, dot, scaled};
+
+pub(super) static ENTRY: LoadEntry = LoadEntry {
+    command: "GRAVITY",
+    works: "GRAVITYW",
+    key: Key::Node(0),
+    turn: Turn::Body,
+    echo,
+    make: |setting| {
+        let gravities = setting.model.gravities.clone();
+        let load =
+            || BodyForce { gravities: gravities.clone(), acceleration: [0.0; 3], work: vec![0.0; setting.nodes] };
+        (!gravities.is_empty()).then(|| Box::new(load()) as Box<dyn Load>)
+    },
+};
+
+fn echo(model: &Model) -> (&'static str, &'static str, Vec<String>) {
+    let line = |gravity: &Gravity| {
+        let name = gravity.function.map_or("NONE".to_string(), |f| function_number(model, f).to_string());
+        let [x, y, z] = gravity.acceleration.map(number);
+        format!("{x:>13}{y:>13}{z:>13}{name:>10}")
+    };
+    ("GRAVITY", "            X            Y            Z  FUNCTION", model.gravities.iter().map(line).collect())
+}
+
+/// Gravity of the whole model.
+struct BodyForce {
+    /// The model's gravities.
+    gravities: Vec<Gravity>,
+    /// Acceleration now.
+    acceleration: [f64; 3],
+    /// Work on each local node so far.
+    work: Vec<f64>,
+}
+
+impl Load for BodyForce {
+    fn entry(&self) -> &'static LoadEntry {
+        &ENTRY
+    }
+
+    /// Adds m g(t) to every node.
+    fn apply(&mut self, nodes: &mut Nodes, functions: &[Function], step: &StepTimes) {
+        self.acceleration = self.gravities.iter().fold([0.0; 3], |sum, gravity| {
+            let factor = gravity.function.map_or(1.0, |f| functions[f].value(step.time));
+            add(sum, scaled(gravity.acceleration, factor))
+        });
+        for (force, row) in nodes.forces.iter_mut().zip(&nodes.rows) {
+            for i in 0..3 {
+                force.0[i] += row.0[3] * self.acceleration[i];
+            }
+        }
+    }
+
+    /// Books half the step's work with the present velocities.
+    fn book(&mut self, nodes: &Nodes, half_step: f64) {
+        for (work, row) in self.work.iter_mut().zip(&nodes.rows) {
+            let v = [row.0[4], row.0[5], row.0[6]];
+            *work += half_step * row.0[3] * dot(self.acceleration, v);
+        }
+    }
+
+    fn accounts(&mut self, places: &Places, visit: &mut dyn FnMut(Account)) {
+        let BodyForce { gravities: _, acceleration: _, work } = self;
+        for (node, work) in (0..).zip(work) {
+            visit(Account { key: [places.node(node), 0.0, 0.0, 0.0], own: places.owns(node), work });
+        }
+    }
+}
