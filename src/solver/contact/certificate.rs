@@ -123,7 +123,9 @@ impl Terms {
         if (wanted - resisted).abs() <= ROUND_OFF * resisted.abs() {
             return 1.0;
         }
-        if resisted > 0.0 { (wanted / resisted).clamp(0.0, FARTHEST) } else { 1.0 }
+        // Where bodies slide, friction wants more than it may have: that must not press harder.
+        let farthest = if self.0[5] == 0.0 && self.0[7] == 0.0 { FARTHEST } else { 1.0 };
+        if resisted > 0.0 { (wanted / resisted).clamp(0.0, farthest) } else { 1.0 }
     }
 
     /// How far to go along the ray of these forces so that the bank can pay, and what that does to the bank. These parts were

@@ -115,7 +115,8 @@ impl Constraint {
 pub enum Ledger<'a> {
     /// All contacts of all ranks draw on one bank.
     Bank(&'a mut Bank),
-    /// The constraints of each point are for themselves, and nothing is given back: rigid planes alone.
+    /// The constraints of each point are for themselves: rigid planes alone. What motion has made of an overlap is lifted without a
+    /// bank; there is no other side that could drive it.
     Points,
     /// Nobody: nodes are moved before the run, without velocities.
     Nobody,
@@ -126,7 +127,7 @@ impl Ledger<'_> {
     fn granted(&self) -> Granted {
         match self {
             Ledger::Bank(bank) => bank.granted(),
-            Ledger::Points => [0.0; 2],
+            Ledger::Points => [1.0; 2],
             Ledger::Nobody => [1.0; 2],
         }
     }
@@ -348,7 +349,7 @@ impl Enforcer {
             _ => 1.0,
         };
         for (c, state) in constraints.iter_mut().zip(&self.states) {
-            let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(granted));
+            let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(granted).min(1.0));
             c.shorten(state, c.change(&self.moved), ray, times.drift);
         }
     }
