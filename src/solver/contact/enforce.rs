@@ -35,7 +35,7 @@ const LEAST_SHARE: f64 = 0.25;
 
 /// Passes go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks in while
 /// loads are small can be lifted only at the price of the loads that come.
-const SETTLED: f64 = 0.01;
+const SETTLED: f64 = 0.002;
 
 /// A constraint that its members can follow only by less than this part of how far they can move at all is held: a tilt of
 /// a thousandth between a normal and the directions that are held. Round-off would move it.
