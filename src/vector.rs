@@ -37,7 +37,7 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     Some(scaled.map(|x| x / length))
 }
 
-/// `a` divided by its length, `None` where that is zero or not finite; cheaper than [`unit`], for lengths that can be squared.
+/// `a` divided by its length, `None` where that is zero or not finite; cheaper than [`unit()`], for lengths that can be squared.
 pub fn normalized(a: [f64; 3]) -> Option<[f64; 3]> {
     let length = dot(a, a).sqrt();
     (length > 0.0 && length.is_finite()).then(|| scaled(a, 1.0 / length))

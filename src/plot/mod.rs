@@ -1,8 +1,8 @@
 //! Curves from results: variables over time or over each other, filtered, differentiated, compared, as a picture (PNG,
 //! SVG) or as numbers (CSV).
 //!
-//! Data flows one way: files become a [`run`], its variables [`curve`]s ([`pick`], [`reference`]), which are worked on
-//! ([`work`], [`filter`], [`signal`]) and end on [`paper`] or in [`table`]s of numbers.
+//! Data flows one way: files become a `run`, its variables `curve`s (`pick`, `reference`), which are worked on
+//! (`work`, `filter`, `signal`) and end on `paper` or in `table`s of numbers.
 
 mod curve;
 mod error;
