@@ -4,37 +4,17 @@
 //! rank are `Sites`; check and enforcement happen in an `Arena`, of whole bodies on one rank, of a region
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
-mod arena;
-mod bounds;
-mod carried;
-mod certificate;
-mod contract;
-mod cubic;
-pub mod detect;
-mod edges;
-pub mod enforce;
-mod face;
-pub mod faces;
-mod friction;
-mod gain;
-mod links;
-mod locate;
-mod neighbourhood;
-mod overlap;
-mod planes;
-pub mod points;
-mod regional;
-mod remote;
+pub mod check;
+mod contact_nodes;
+pub mod enforcement;
+pub mod geometry;
+mod local_problem;
+mod ranks;
+mod report;
 mod reshape;
-mod routing;
 pub mod search;
 mod setup;
-mod sites;
 mod state;
-mod sunk;
-pub mod surface;
-mod traffic;
-mod work;
 
 use super::body::Body;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
@@ -43,25 +23,26 @@ use super::nodes::Nodes;
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
-use arena::{Arena, Cast, History, Setting};
-use carried::Carried;
-use certificate::Bank;
-use detect::{NONE, Past, Touch};
-use edges::PastPair;
-use enforce::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
-use faces::Faces;
-use gain::Gain;
-use locate::Reach;
-use planes::PlanePoint;
-use remote::Remote;
-use routing::share_planes;
+use check::node_face::{self, NONE, Past, Touch};
+use check::planes::PlanePoint;
+use contact_nodes::Sites;
+use enforcement::carried::Carried;
+use enforcement::certificate::Bank;
+use enforcement::enforcer::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
+use enforcement::gain::Gain;
+use geometry::edges::{self, PastPair};
+use geometry::faces::Faces;
+use local_problem::{Arena, Cast, History, Setting};
+use ranks::remote::Remote;
+use ranks::routing::share_planes;
+use search::locate::Reach;
+use search::neighbourhood;
 use search::{Search, SearchKind};
 use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
-use sites::Sites;
 
-pub use overlap::{Left, Overlap, remove as remove_overlap};
-pub use sunk::Sunk;
-pub use work::Work;
+pub use check::embedded::Sunk;
+pub use check::initial_overlap::{Left, Overlap, remove as remove_overlap};
+pub use report::Work;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {
@@ -366,7 +347,7 @@ impl Contact {
         self.answers().map(|(node, a)| (node, [a[9], a[10], a[11]])).filter(|(_, force)| *force != [0.0; 3])
     }
 
-    fn answers(&self) -> impl Iterator<Item = (u32, &[f64; sites::ANSWER])> + '_ {
+    fn answers(&self) -> impl Iterator<Item = (u32, &[f64; contact_nodes::ANSWER])> + '_ {
         let sites = &self.sites;
         sites.pushed.iter().map(|&i| (sites.list[i as usize].node, &sites.answers[i as usize]))
     }
@@ -375,7 +356,7 @@ impl Contact {
     /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face
     /// it meets.
     pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
-        let value = |(node, a): (u32, &[f64; sites::ANSWER])| {
+        let value = |(node, a): (u32, &[f64; contact_nodes::ANSWER])| {
             let element = if a[7] == 2.0 { self.skin.file_number(a[8] as u32) } else { 0.0 };
             (node, [a[0] + a[3], a[1] + a[4], a[2] + a[5], a[6], a[7], element])
         };
@@ -461,7 +442,7 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     let mean = mean_size(layout);
     // A reach of one step at least: the search must hold for the step it is made for.
     let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
-    Reach { steps: control.reach.max(1.0), least, depth: detect::KEEP }
+    Reach { steps: control.reach.max(1.0), least, depth: node_face::KEEP }
 }
 
 /// How far the passes go. All ranks must make the same number of them. With surfaces every rank sees all constraints and

@@ -4,7 +4,7 @@
 //! the same table of shapes; each looks at the edges whose first face it has, and tells the others what has changed.
 
 use super::Contact;
-use super::edges::{self, Shape, Side};
+use super::geometry::edges::{self, Shape, Side};
 use super::setup::Layout;
 use crate::comm::{Communicator, numbers_of_others};
 use crate::partition::dynamic::Parcels;

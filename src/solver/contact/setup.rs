@@ -1,10 +1,10 @@
 //! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
 
-use super::edges::{self, Edge, Shape};
-use super::faces::Faces;
-use super::locate::{Interface, Rule};
+use super::geometry::edges::{self, Edge, Shape};
+use super::geometry::faces::Faces;
+use super::geometry::surface::{Surface, face_nodes};
 use super::search::Box3;
-use super::surface::{Surface, face_nodes};
+use super::search::locate::{Interface, Rule};
 use crate::mesh::{Connectivity, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
 use crate::solver::Body;

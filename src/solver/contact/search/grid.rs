@@ -3,7 +3,7 @@
 
 use super::sizes::{CLASSES, Sizes, present};
 use super::{Box3, Candidates, Search, lowest_start};
-use crate::solver::contact::bounds::Bounds;
+use crate::solver::contact::geometry::swept_box::Bounds;
 
 /// Edge of a cell in typical sizes of the class that looks through it.
 const CELL: f64 = 0.7;

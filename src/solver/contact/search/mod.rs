@@ -10,6 +10,8 @@
 mod bvh;
 mod candidates;
 mod grid;
+pub mod locate;
+pub mod neighbourhood;
 mod point_in_box;
 mod sizes;
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! History on its way: at a search it follows each point to its new home.
 
-use super::arena::{History, Watched};
-use super::carried::{Carried, WIDTH};
-use super::detect::{NONE, Past, TOUCHES, UNTOUCHED};
-use super::edges::PastPair;
-use super::planes::PlanePoint;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
+use crate::solver::contact::check::node_face::{NONE, Past, TOUCHES, UNTOUCHED};
+use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::enforcement::carried::{Carried, WIDTH};
+use crate::solver::contact::geometry::edges::PastPair;
+use crate::solver::contact::local_problem::{History, Watched};
 use std::ops::Range;
 
 /// Numbers that tell what a point touches.

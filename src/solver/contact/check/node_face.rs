@@ -5,10 +5,10 @@
 //! come first; ties go to the face that the point's body faces most, then to the lower number (Heinstein et al. 1993;
 //! Attaway et al. 1996, figures 3 and 4).
 
-use super::carried::Carried;
-use super::face::{self, Stand};
-use super::faces::Faces;
-use super::points::Points;
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::projection::{self, Stand};
 use crate::vector::{add, dot, scaled, subtract};
 
 /// No face.
@@ -63,7 +63,7 @@ pub struct Touch {
     pub time: f64,
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
-    /// Where the point would be at the end of the step; the weights are those of the forces, see `face::shares_along`.
+    /// Where the point would be at the end of the step; the weights are those of the forces, see `projection::shares_along`.
     pub stand: Stand,
     /// Overlap that stays.
     pub allowed: f64,
@@ -105,9 +105,9 @@ impl Check<'_> {
         for touch in touches.iter_mut() {
             self.blend(near, touch);
             let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start(point));
-            if let Some(shares) = face::shares_along(&corners, start, &touch.stand) {
+            if let Some(shares) = projection::shares_along(&corners, start, &touch.stand) {
                 let end = self.faces.end(touch.face, self.points);
-                let foot = face::foot(&end, &shares);
+                let foot = projection::foot(&end, &shares);
                 touch.stand.weights = shares;
                 touch.stand.gap = dot(subtract(self.points.end(point), foot), touch.stand.normal);
             }
@@ -118,12 +118,12 @@ impl Check<'_> {
     /// theirs, so that what is symmetric stays so.
     fn blend(&self, near: &[u32], touch: &mut Touch) {
         // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
-        if touch.stand.weights.iter().all(|&weight| weight > 2.0 * face::TIE) {
+        if touch.stand.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
             return;
         }
         let corners = self.faces.corners[touch.face as usize];
         let unit = |face: u32| {
-            let normal = face::area_normal(&self.faces.end(face, self.points));
+            let normal = projection::area_normal(&self.faces.end(face, self.points));
             scaled(normal, 1.0 / dot(normal, normal).sqrt())
         };
         let shared = |face: u32| -> f64 {
@@ -131,7 +131,7 @@ impl Check<'_> {
             corners.iter().zip(touch.stand.weights).filter(|(corner, _)| other.contains(corner)).map(|(_, w)| w).sum()
         };
         let mut sum = [0.0; 3];
-        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - face::TIE) {
+        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - projection::TIE) {
             let normal = unit(face);
             if dot(normal, touch.stand.normal) > SAME_WAY {
                 sum = add(sum, normal);
@@ -149,7 +149,7 @@ impl Check<'_> {
     }
 
     fn stand_at_end(&self, point: u32, face: u32) -> Option<Stand> {
-        face::stand(&self.faces.end(face, self.points), self.points.end(point))
+        projection::stand(&self.faces.end(face, self.points), self.points.end(point))
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
@@ -201,7 +201,7 @@ impl Check<'_> {
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
     fn goes_on(&self, old: u32, face: u32, stand: &Stand, next: &Stand) -> bool {
-        let middle = |face| face::centre(&self.faces.end(face, self.points));
+        let middle = |face| projection::centre(&self.faces.end(face, self.points));
         dot(stand.normal, next.normal) > SAME_WAY || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
     }
 
@@ -210,14 +210,14 @@ impl Check<'_> {
         let held = touches.len();
         for i in 0..held {
             let old = touches[i];
-            let middle = face::centre(&self.faces.end(old.face, self.points));
+            let middle = projection::centre(&self.faces.end(old.face, self.points));
             for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
                 let corners = self.faces.end(face, self.points);
-                let hollow = dot(subtract(face::centre(&corners), middle), old.stand.normal) > 0.0;
+                let hollow = dot(subtract(projection::centre(&corners), middle), old.stand.normal) > 0.0;
                 if !hollow || self.is_in_front(point, face) || touches.iter().any(|touch| touch.face == face) {
                     continue;
                 }
-                let Some(stand) = face::stand(&corners, self.points.end(point)) else { continue };
+                let Some(stand) = projection::stand(&corners, self.points.end(point)) else { continue };
                 if stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
                     touches.push(self.held(face, stand, 0.0));
                 }
@@ -240,13 +240,13 @@ impl Check<'_> {
         if self.is_in_front(point, face) {
             return None;
         }
-        let end =
-            face::stand(&self.faces.end(face, self.points), self.points.end(point)).filter(|stand| stand.gap < 0.0)?;
-        let start = face::stand(&self.faces.start(face, self.points), self.points.start(point))?;
+        let end = projection::stand(&self.faces.end(face, self.points), self.points.end(point))
+            .filter(|stand| stand.gap < 0.0)?;
+        let start = projection::stand(&self.faces.start(face, self.points), self.points.start(point))?;
         let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
-            let time = face::first_crossing(&corners, self.points.path(point))?;
+            let time = projection::first_crossing(&corners, self.points.path(point))?;
             let comes = !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
             return comes.then(|| touch(time, 0.0));
         }
@@ -265,14 +265,14 @@ impl Check<'_> {
     fn is_in_front(&self, point: u32, face: u32) -> bool {
         let [a, b, c, d] = self.faces.corners[face as usize];
         let end = |point| self.points.end_four(point);
-        face::is_in_front([end(a), end(b), end(c), end(d)], end(point))
+        projection::is_in_front([end(a), end(b), end(c), end(d)], end(point))
     }
 
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
         self.beside(face).any(|other| {
-            let start = face::stand(&self.faces.start(other, self.points), self.points.start(point));
+            let start = projection::stand(&self.faces.start(other, self.points), self.points.start(point));
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
     }
@@ -295,7 +295,7 @@ impl Check<'_> {
     /// Smallest cosine between a normal and those of the faces around a point.
     fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
         let cosine = |&face: &u32| {
-            let own = face::area_normal(&self.faces.start(face, self.points));
+            let own = projection::area_normal(&self.faces.start(face, self.points));
             dot(own, *normal) / dot(own, own).sqrt()
         };
         self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
@@ -306,10 +306,10 @@ impl Check<'_> {
     fn slides_over(&self, point: u32, face: u32, end: &Stand) -> bool {
         let at = self.points.start(point);
         let corners = self.faces.start(face, self.points);
-        let foot = face::foot(&corners, &end.weights);
+        let foot = projection::foot(&corners, &end.weights);
         self.beside(face).any(|other| {
             let (corners, reach) = (self.faces.start(other, self.points), SEAM * self.faces.size[other as usize]);
-            let near = |position| face::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);
+            let near = |position| projection::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);
             near(foot).is_some() && near(at).is_some_and(|stand| self.most_opposed(point, &stand.normal) < -FLUSH)
         })
     }
@@ -350,7 +350,7 @@ impl Check<'_> {
         if !self.faces.touch(first.face, second.face) {
             return true;
         }
-        let middle = |face| face::centre(&self.faces.end(face, self.points));
+        let middle = |face| projection::centre(&self.faces.end(face, self.points));
         dot(subtract(middle(second.face), middle(first.face)), first.stand.normal) > 0.0
     }
 }

@@ -5,15 +5,15 @@
 //! the former is that of nodes and faces: by motion for a pair that comes anew, where it would be at the end of the step for
 //! one that has touched before.
 
-use super::bounds::Bounds;
-use super::carried::Carried;
-use super::cubic;
-use super::enforce::{Constraint, MEMBERS, Origin};
-use super::face::{area_normal, centre};
+use super::crossing;
 use super::faces::Faces;
-use super::points::Points;
-use super::search::Box3;
-use super::setup::Pairing;
+use super::motion::Points;
+use super::projection::{area_normal, centre};
+use super::swept_box::Bounds;
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::enforcer::{Constraint, MEMBERS, Origin};
+use crate::solver::contact::search::Box3;
+use crate::solver::contact::setup::Pairing;
 use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
@@ -402,10 +402,13 @@ impl EdgeCheck<'_> {
     fn meets(&self, pair: [u32; 2]) -> bool {
         let path = |edge: u32, end: usize| self.points.path(self.edges[edge as usize].ends[end]);
         let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
-        let volume =
-            cubic::coplanarity(cubic::relative(b[0], a[0]), cubic::relative(a[1], a[0]), cubic::relative(b[1], b[0]));
-        cubic::roots(&volume).any(|t| {
-            let at = |path: &cubic::Path| add(path.0, scaled(path.1, t));
+        let volume = crossing::coplanarity(
+            crossing::relative(b[0], a[0]),
+            crossing::relative(a[1], a[0]),
+            crossing::relative(b[1], b[0]),
+        );
+        crossing::roots(&volume).any(|t| {
+            let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
             Crossing::of([at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]).is_some_and(|c| c.between_ends(0.0))
         })
     }

@@ -1,10 +1,10 @@
 //! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
 
-use super::edges;
 use super::locate::{Interface, Near};
-use super::search::{Box3, Candidates, Search};
-use super::setup::Layout;
-use super::sites::Sites;
+use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::geometry::edges;
+use crate::solver::contact::search::{Box3, Candidates, Search};
+use crate::solver::contact::setup::Layout;
 
 /// Numbers, ascending, and their boxes.
 #[derive(Debug, Clone, Default)]

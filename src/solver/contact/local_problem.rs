@@ -3,18 +3,18 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
-use super::carried::Carried;
-use super::certificate::Bank;
-use super::detect::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
-use super::edges::{Edge, EdgeCheck, PastPair, Verdict};
-use super::enforce::{Constraint, Enforcer, Ledger, Limits, Origin, Others, Outcome};
-use super::faces::Faces;
-use super::locate::{Locator, Near, Rule};
-use super::neighbourhood::Found;
-use super::planes::PlanePoint;
-use super::points::Points;
+use super::check::node_face::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
+use super::check::planes::PlanePoint;
+use super::contact_nodes::ANSWER;
+use super::enforcement::carried::Carried;
+use super::enforcement::certificate::Bank;
+use super::enforcement::enforcer::{Constraint, Enforcer, Ledger, Limits, Origin, Others, Outcome};
+use super::geometry::edges::{Edge, EdgeCheck, PastPair, Verdict};
+use super::geometry::faces::Faces;
+use super::geometry::motion::Points;
+use super::search::locate::{Locator, Near, Rule};
+use super::search::neighbourhood::Found;
 use super::setup::{ABSENT, Layout, Pairing, Pairings, inverse};
-use super::sites::ANSWER;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;

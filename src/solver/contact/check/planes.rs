@@ -1,9 +1,9 @@
 //! Fixed rigid planes: constraints on single points.
 
-use super::carried::Carried;
-use super::enforce::{Constraint, MEMBERS, Origin};
-use super::points::Points;
 use crate::model::{Friction, RigidSurface};
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::enforcer::{Constraint, MEMBERS, Origin};
+use crate::solver::contact::geometry::motion::Points;
 use crate::vector::{dot, subtract};
 
 /// One point that a plane watches.
@@ -17,8 +17,8 @@ pub struct PlanePoint {
     pub plane: u32,
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
-    pub(super) allowed: f64,
-    pub(super) carried: Carried,
+    pub(in crate::solver::contact) allowed: f64,
+    pub(in crate::solver::contact) carried: Carried,
 }
 
 fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {

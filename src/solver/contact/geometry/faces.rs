@@ -1,7 +1,7 @@
 //! The faces of contact.
 
-use super::face::area_normal;
-use super::points::Points;
+use super::motion::Points;
+use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
 use crate::mesh::Connectivity;
 use crate::vector::{dot, subtract};
@@ -43,7 +43,7 @@ impl Faces {
             let (front, back) = (at(nodes), at(back_nodes(elements, number)));
             let normal = area_normal(&front);
             let area = dot(normal, normal).sqrt();
-            let through = subtract(super::face::centre(&front), super::face::centre(&back));
+            let through = subtract(super::projection::centre(&front), super::projection::centre(&back));
             faces.corners.push(nodes.map(&point));
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());

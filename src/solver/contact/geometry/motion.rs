@@ -1,6 +1,6 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
-use super::bounds::{Bounds, Outside};
+use super::swept_box::{Bounds, Outside};
 use crate::lanes::{InstructionSet, Vectors};
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.

@@ -1,13 +1,13 @@
 //! Messages in the passes: what homes tell each other of constraints that act on points of both.
 
-use super::arena::Cast;
-use super::carried::Carried;
-use super::certificate::Sums;
 use super::contract::Contract;
-use super::enforce::{Constraint, MEMBERS, Moved, Origin, Others, State, VOTES};
 use super::traffic::{Letters, Pattern};
 use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::certificate::Sums;
+use crate::solver::contact::enforcement::enforcer::{Constraint, MEMBERS, Moved, Origin, Others, State, VOTES};
+use crate::solver::contact::local_problem::Cast;
 
 /// What homes tell each other in a step.
 #[derive(Default)]

@@ -1,12 +1,12 @@
 //! Who must know of whose points until the next search, and what an arena therefore holds.
 
-use super::arena::{Arena, Cast};
-use super::neighbourhood::Found;
-use super::planes::PlanePoint;
 use super::regional::Regional;
-use super::setup::{Layout, inverse};
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
+use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::local_problem::{Arena, Cast};
+use crate::solver::contact::search::neighbourhood::Found;
+use crate::solver::contact::setup::{Layout, inverse};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Who must know of whose points in the passes.

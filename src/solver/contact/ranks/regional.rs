@@ -1,11 +1,11 @@
 //! What each rank gets for its search: points at their homes, and all faces and edges that these may meet.
 
-use super::neighbourhood::{self, Boxes};
-use super::search::Box3;
-use super::setup::Layout;
-use super::sites::Sites;
 use crate::comm::Communicator;
 use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
+use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::search::Box3;
+use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::setup::Layout;
 
 /// What has come to this rank for its search.
 pub struct Regional {

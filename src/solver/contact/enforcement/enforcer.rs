@@ -17,9 +17,9 @@
 
 use super::carried::Carried;
 use super::certificate::{Bank, Granted, Sums, Target, Terms, sunk, tangential};
-use super::points::Points;
 use crate::model::Friction;
 use crate::solver::constraints::StepTimes;
+use crate::solver::contact::geometry::motion::Points;
 use crate::vector::{add, dot, scaled, subtract};
 
 /// Part of the last step's force with which the passes begin. Where they end early, force follows overlap with the lag

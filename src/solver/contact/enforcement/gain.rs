@@ -4,8 +4,8 @@
 //! Where rigid planes are alone there is no bank, and the account is the largest value so far of the running sum of the work
 //! of all contact forces, normal and friction; it is known as often as that sum is looked at.
 
-use super::Contact;
 use crate::restart::Archive;
+use crate::solver::contact::Contact;
 
 /// The account of what contact has made.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

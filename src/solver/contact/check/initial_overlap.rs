@@ -1,18 +1,18 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
-use super::detect::{Check, UNTOUCHED};
-use super::enforce::{Alone, Constraint, Enforcer, Ledger, Limits};
-use super::face;
-use super::locate::{Locator, Near};
-use super::neighbourhood::{self, Boxes};
-use super::points::Points;
-use super::search::{Box3, Candidates, SearchKind};
-use super::setup::{ABSENT, Layout, Pairings, Skin};
-use super::sites::Sites;
+use super::node_face::{Check, UNTOUCHED};
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
+use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::enforcement::enforcer::{Alone, Constraint, Enforcer, Ledger, Limits};
+use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::projection;
+use crate::solver::contact::search::locate::{Locator, Near};
+use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::{Box3, Candidates, SearchKind};
+use crate::solver::contact::setup::{ABSENT, Layout, Pairings, Skin};
 use crate::vector::{add, cross, dot, scaled, subtract};
 use std::sync::Arc;
 
@@ -218,8 +218,9 @@ fn left(body: &Body, layout: &Layout) -> Left {
 /// Whether a point in an element is on one of its outer faces rather than behind it.
 fn touches_a_side(body: &Body, layout: &Layout, element: u32, point: [f64; 3]) -> bool {
     let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
-    let gap =
-        |face: u32| face::stand(&corners_of(body, layout, face), point).map_or(f64::NEG_INFINITY, |stand| stand.gap);
+    let gap = |face: u32| {
+        projection::stand(&corners_of(body, layout, face), point).map_or(f64::NEG_INFINITY, |stand| stand.gap)
+    };
     faces.into_iter().any(|face| gap(face) > -CLEARLY * layout.faces.depth[face as usize])
 }
 
@@ -250,7 +251,7 @@ fn bodies_of(body: &Body) -> Vec<u32> {
 /// Distance of a point to the nearest of some faces behind which it is.
 fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
     let behind = |face: u32| {
-        let stand = face::stand(&corners_of(body, layout, face), point)?;
+        let stand = projection::stand(&corners_of(body, layout, face), point)?;
         (stand.gap < 0.0 && stand.outside <= -stand.gap).then(|| stand.gap.hypot(stand.outside))
     };
     let nearest = faces.filter_map(behind).fold(f64::INFINITY, f64::min);
@@ -263,7 +264,7 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
     let volume = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| dot(a, cross(b, c));
     HEX_SIDES.iter().any(|side| {
         let side = side.map(|corner| subtract(corners[corner], middle));
-        let (centre, r) = (face::centre(&side), subtract(point, middle));
+        let (centre, r) = (projection::centre(&side), subtract(point, middle));
         (0..4).any(|i| {
             let (a, b) = (side[i], side[(i + 1) % 4]);
             let whole = volume(centre, a, b);
@@ -314,7 +315,7 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<Constr
             let face = layout.faces.block[touch.face as usize];
             let pairing = pairings.of(rule, layout.point_block[point as usize], face);
             if touch.stand.gap < -NOTHING * size {
-                constraints.extend(super::constraint(&layout.faces, pairing, point, touch));
+                constraints.extend(crate::solver::contact::constraint(&layout.faces, pairing, point, touch));
             }
         }
     }

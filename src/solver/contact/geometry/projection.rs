@@ -3,8 +3,8 @@
 //! A quadrilateral of four free corners is not flat. Everywhere in contact it is taken as the four triangles around
 //! the mean of its corners; neighbouring faces then share their edges exactly, and the outside has no gaps.
 
-use super::cubic::{self, Path};
-use super::points::Four;
+use super::crossing::{self, Path};
+use super::motion::Four;
 use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
@@ -152,13 +152,13 @@ pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], stand: &Stand) -> 
 pub fn first_crossing(corners: &[Path; 4], point: Path) -> Option<f64> {
     let mean = |pick: fn(&Path) -> [f64; 3]| centre(&[0, 1, 2, 3].map(|i| pick(&corners[i])));
     let middle: Path = (mean(|path| path.0), mean(|path| path.1));
-    let r = cubic::relative(point, middle);
-    let arms = corners.map(|corner| cubic::relative(corner, middle));
+    let r = crossing::relative(point, middle);
+    let arms = corners.map(|corner| crossing::relative(corner, middle));
     (0..4)
         .filter_map(|k| {
             let (e1, e2) = (arms[k], arms[(k + 1) % 4]);
-            let g = cubic::coplanarity(r, e1, e2);
-            cubic::roots(&g).find(|&t| falls(&g, t) && on_triangle(at(r, t), at(e1, t), at(e2, t)))
+            let g = crossing::coplanarity(r, e1, e2);
+            crossing::roots(&g).find(|&t| falls(&g, t) && on_triangle(at(r, t), at(e1, t), at(e2, t)))
         })
         .min_by(f64::total_cmp)
 }
@@ -170,7 +170,7 @@ fn at(path: Path, t: f64) -> [f64; 3] {
 
 /// Whether the volume falls at a root: the point passes from the front to the back.
 fn falls(g: &[f64; 4], t: f64) -> bool {
-    cubic::slope(g, t) < 0.0
+    crossing::slope(g, t) < 0.0
 }
 
 fn on_triangle(r: [f64; 3], e1: [f64; 3], e2: [f64; 3]) -> bool {
@@ -182,8 +182,8 @@ fn on_triangle(r: [f64; 3], e1: [f64; 3], e2: [f64; 3]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::points::four;
     use super::*;
+    use crate::solver::contact::geometry::motion::four;
     use proptest::prelude::*;
 
     const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -1,14 +1,14 @@
 //! Nodes that are in the outermost elements of others, and how deep: beyond half an element contact does not hold them.
 
-use super::Contact;
-use super::face;
-use super::overlap::is_inside;
-use super::search::{Box3, Candidates, SearchKind};
-use super::setup::ABSENT;
+use super::initial_overlap::is_inside;
 use crate::comm::Communicator;
 use crate::mesh::HEX_SIDES;
 use crate::mesh::check::hexahedron_volume;
 use crate::solver::body::centroid;
+use crate::solver::contact::Contact;
+use crate::solver::contact::geometry::projection;
+use crate::solver::contact::search::{Box3, Candidates, SearchKind};
+use crate::solver::contact::setup::ABSENT;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A node inside an element that is not its own.
@@ -82,9 +82,9 @@ impl Contact {
                 continue;
             }
             let face = of_side.map(|corner| corners[corner]);
-            let area = face::area_normal(&face);
+            let area = projection::area_normal(&face);
             // A face without area says nothing.
-            let Some(stand) = face::stand(&face, point) else { continue };
+            let Some(stand) = projection::stand(&face, point) else { continue };
             least = least.min(-stand.gap * dot(area, area).sqrt() / volume);
         }
         least.is_finite().then_some(least)

@@ -9,20 +9,20 @@
 //! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`Contract`] says who must know of whose
 //! points in the passes, and [`Links`] are these messages.
 
-use super::arena::{Arena, History};
 use super::contract::{Contract, cast};
 use super::links::{Linked, Links};
-use super::neighbourhood;
-use super::planes::PlanePoint;
 use super::regional::Regional;
 use super::routing::route;
-use super::search::Search;
-use super::setup::{ABSENT, Layout};
-use super::sites::{ANSWER, FORCES, STATUS, Site, Sites};
 use super::traffic::{Lists, Pattern};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
+use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::contact_nodes::{ANSWER, FORCES, STATUS, Site, Sites};
+use crate::solver::contact::local_problem::{Arena, History};
+use crate::solver::contact::search::Search;
+use crate::solver::contact::search::neighbourhood;
+use crate::solver::contact::setup::{ABSENT, Layout};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as

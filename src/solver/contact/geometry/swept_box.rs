@@ -1,6 +1,6 @@
 //! Boxes in single precision, rounded outwards: quick to compare, and never too small.
 
-use super::points::{Four, four};
+use super::motion::{Four, four};
 
 /// Part by which a coordinate is moved outwards: more than what rounding to single precision and one sum can take away.
 const OUTWARDS: f32 = 4e-7;

@@ -282,7 +282,7 @@ impl Stage {
     fn contact(&self, nodes: &Nodes) -> Contact {
         let local: Vec<u32> = (0..nodes.len() as u32).collect();
         let elements: Vec<u32> = (0..self.mesh.element_count() as u32).collect();
-        let held = vec![[super::super::ABSENT; 3]; nodes.len()];
+        let held = vec![[crate::solver::contact::ABSENT; 3]; nodes.len()];
         let contact =
             Contact::new(&self.mesh, &self.model, &self.body, (nodes, held), (&local, &elements), &mut Serial);
         contact.expect("the deck asks for contact")
@@ -325,7 +325,8 @@ struct Seen([Cell<u64>; 3]);
 
 impl Seen {
     fn add(&self, contact: &Contact) {
-        let faces = contact.arena.constraints.iter().filter(|c| c.count == super::super::MEMBERS).count() as u64;
+        let faces =
+            contact.arena.constraints.iter().filter(|c| c.count == crate::solver::contact::MEMBERS).count() as u64;
         let edges = contact.arena.constraints.len() as u64 - faces;
         let now = [faces, edges, contact.arena.locator.asleep()];
         self.0.iter().zip(now).for_each(|(sum, now)| sum.set(sum.get() + now));

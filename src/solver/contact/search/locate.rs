@@ -1,13 +1,13 @@
 //! Location: which points come near which faces, and which edges each other, in a step, of those that the last search has
 //! found.
 
-use super::bounds::Bounds;
-use super::detect::{NONE, Past, TOUCHES};
-use super::edges::Edge;
-use super::face::area_normal;
-use super::faces::Faces;
 use super::neighbourhood::Found;
-use super::points::Points;
+use crate::solver::contact::check::node_face::{NONE, Past, TOUCHES};
+use crate::solver::contact::geometry::edges::Edge;
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::projection::area_normal;
+use crate::solver::contact::geometry::swept_box::Bounds;
 use crate::vector::{dot, subtract};
 
 /// Points and faces that may touch.

@@ -1,7 +1,7 @@
 //! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
 
-use super::bounds::Bounds;
-use super::points::{Points, larger};
+use super::geometry::motion::{Points, larger};
+use super::geometry::swept_box::Bounds;
 use super::setup::{ABSENT, inverse};
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};

@@ -1,0 +1,7 @@
+//! Enforcement: forces that close the gaps of all contact constraints, and the account of their energy.
+
+pub mod carried;
+pub mod certificate;
+pub mod enforcer;
+pub mod friction;
+pub mod gain;

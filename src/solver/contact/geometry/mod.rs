@@ -1,0 +1,9 @@
+//! Geometry of contact: faces and edges of the surface, the motion of the contact nodes, projections, crossing times, swept boxes.
+
+pub mod crossing;
+pub mod edges;
+pub mod faces;
+pub mod motion;
+pub mod projection;
+pub mod surface;
+pub mod swept_box;
