@@ -2,7 +2,7 @@
 
 use super::geometry::motion::{Points, larger};
 use super::geometry::swept_box::Bounds;
-use super::setup::{ABSENT, inverse};
+use super::layout::{ABSENT, inverse};
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 

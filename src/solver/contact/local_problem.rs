@@ -3,18 +3,25 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
+use super::check::edge_edge::{EdgeCheck, PastPair, Verdict};
+use super::check::node_face;
 use super::check::node_face::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
 use super::check::planes::PlanePoint;
 use super::contact_nodes::ANSWER;
 use super::enforcement::carried::Carried;
 use super::enforcement::certificate::Bank;
-use super::enforcement::enforcer::{Constraint, Enforcer, Ledger, Limits, Origin, Others, Outcome};
-use super::geometry::edges::{Edge, EdgeCheck, PastPair, Verdict};
+use super::enforcement::constraint::{Constraint, Origin};
+use super::enforcement::enforcer::Enforcer;
+use super::enforcement::iterations::{Limits, Outcome};
+use super::enforcement::ledger::Ledger;
+use super::enforcement::other_ranks::Others;
+use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::Points;
+use super::layout::{ABSENT, Layout, inverse};
+use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Locator, Near, Rule};
 use super::search::neighbourhood::Found;
-use super::setup::{ABSENT, Layout, Pairing, Pairings, inverse};
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;
@@ -255,7 +262,7 @@ impl Arena {
                 let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[touch.face as usize]);
-                if let Some(mut constraint) = super::constraint(faces, pairing, point, touch) {
+                if let Some(mut constraint) = node_face::constraint(faces, pairing, point, touch) {
                     constraint.carried = carried_before(faces, &before, touches, touch);
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);

@@ -8,12 +8,14 @@ pub mod check;
 mod contact_nodes;
 pub mod enforcement;
 pub mod geometry;
+mod layout;
 mod local_problem;
+mod pairings;
 mod ranks;
 mod report;
 mod reshape;
 pub mod search;
-mod setup;
+mod skin;
 mod state;
 
 use super::body::Body;
@@ -23,26 +25,27 @@ use super::nodes::Nodes;
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
-use check::node_face::{self, NONE, Past, Touch};
+use check::edge_edge;
+use check::edge_edge::PastPair;
+use check::node_face::{self, NONE, Past};
 use check::planes::PlanePoint;
 use contact_nodes::Sites;
-use enforcement::carried::Carried;
 use enforcement::certificate::Bank;
-use enforcement::enforcer::{Alone, Constraint, Limits, MEMBERS, Origin, Outcome};
 use enforcement::gain::Gain;
-use geometry::edges::{self, PastPair};
-use geometry::faces::Faces;
+use enforcement::iterations::{Limits, Outcome};
+use enforcement::other_ranks::Alone;
+use layout::{ABSENT, Layout};
 use local_problem::{Arena, Cast, History, Setting};
+use pairings::Pairings;
 use ranks::remote::Remote;
 use ranks::routing::share_planes;
 use search::locate::Reach;
-use search::neighbourhood;
-use search::{Search, SearchKind};
-use setup::{ABSENT, Layout, Pairing, Pairings, Skin};
+use search::{Search, SearchKind, neighbourhood};
+use skin::Skin;
 
 pub use check::embedded::Sunk;
 pub use check::initial_overlap::{Left, Overlap, remove as remove_overlap};
-pub use report::Work;
+pub use report::{Report, Tally, Work};
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {
@@ -83,44 +86,6 @@ pub struct Contact {
     age: u64,
     /// Watched points and pairs of the last search, of all ranks.
     counts: [u64; 2],
-}
-
-/// Contact in numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Report {
-    /// Points of contact.
-    pub points: usize,
-    /// Faces that they may touch.
-    pub faces: usize,
-    /// Edges that stand out.
-    pub edges: usize,
-    /// Points that the last search found near faces.
-    pub watched: usize,
-    /// Pairs of these points and faces.
-    pub pairs: usize,
-    /// Searches so far.
-    pub searches: u64,
-    /// Enforcement.
-    pub tally: Tally,
-}
-
-/// Counts for the log.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Tally {
-    /// Steps in which anything was enforced.
-    pub steps: u64,
-    /// Passes in all of them.
-    pub passes: u64,
-    /// Steps in which the passes ran out.
-    pub capped: u64,
-    /// Largest overlap that was left, as a part of the face's size.
-    pub left: f64,
-    /// Deepest penetration that motion has made, as a part of the face's size.
-    pub deepest: f64,
-    /// The same in motions of a step, the farthest of those so far.
-    pub motions: f64,
-    /// Farthest motion of a contact along its normal in a step so far, a length.
-    pub farthest: f64,
 }
 
 impl Contact {
@@ -336,57 +301,10 @@ impl Contact {
         self.sites.book(nodes, half_step);
     }
 
-    /// Work of normal and of friction forces so far, at every point that this rank owns, and of points now gone.
-    pub fn works(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let owned = self.sites.list.iter().zip(&self.sites.works).filter(|(site, _)| site.owned);
-        owned.map(|(_, work)| *work).chain(self.lost_work.iter().copied())
-    }
-
-    /// Forces of rigid planes at local nodes.
-    pub fn plane_forces(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
-        self.answers().map(|(node, a)| (node, [a[9], a[10], a[11]])).filter(|(_, force)| *force != [0.0; 3])
-    }
-
-    fn answers(&self) -> impl Iterator<Item = (u32, &[f64; contact_nodes::ANSWER])> + '_ {
-        let sites = &self.sites;
-        sites.pushed.iter().map(|&i| (sites.list[i as usize].node, &sites.answers[i as usize]))
-    }
-
-    /// At each local node that is pushed: contact force, overlap that contact closes in the coming step, status (0 free,
-    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face
-    /// it meets.
-    pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
-        let value = |(node, a): (u32, &[f64; contact_nodes::ANSWER])| {
-            let element = if a[7] == 2.0 { self.skin.file_number(a[8] as u32) } else { 0.0 };
-            (node, [a[0] + a[3], a[1] + a[4], a[2] + a[5], a[6], a[7], element])
-        };
-        self.answers().map(value).collect()
-    }
-
-    /// Local nodes on the surface, and the ranks that compute their contact.
-    pub fn homes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let homes = self.sites.homes.iter().copied().chain(std::iter::repeat(0));
-        self.sites.list.iter().map(|site| site.node).zip(homes)
-    }
-
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
         self.sites.pushed.clear();
         self.arena.forget();
-    }
-
-    /// What the log tells at the end; nothing of planes alone, of which each rank knows its own only.
-    pub fn report(&self) -> Option<Report> {
-        let [watched, pairs] = self.counts.map(|count| count as usize);
-        (!self.layout.interfaces.is_empty()).then_some(Report {
-            points: self.layout.nodes.len(),
-            faces: self.layout.faces.len(),
-            edges: self.layout.edges.iter().filter(|edge| edge.stands_out()).count(),
-            watched,
-            pairs,
-            searches: self.searches,
-            tally: self.tally,
-        })
     }
 }
 
@@ -415,7 +333,7 @@ fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
         .edges
         .into_iter()
         .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }))
-        .filter_map(|past| edges::in_order(past, &new.edges));
+        .filter_map(|past| edge_edge::in_order(past, &new.edges));
     History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
         edges: edges.collect(),
@@ -469,32 +387,4 @@ fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layou
         }
     }
     list
-}
-
-/// The constraint of a point on a face. `None` where the point is to be the master only.
-fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &Touch) -> Option<Constraint> {
-    let face = touch.face as usize;
-    // A point without faces of its own cannot be the master of anything.
-    let share = if faces.around(point).is_empty() { 1.0 } else { pairing.share };
-    if share <= 0.0 {
-        return None;
-    }
-    let mut constraint = Constraint {
-        members: [point; MEMBERS],
-        weights: [1.0; MEMBERS],
-        count: MEMBERS,
-        normal: touch.stand.normal,
-        gap: touch.stand.gap - touch.allowed,
-        held: touch.time < 0.0,
-        size: faces.size[face],
-        share,
-        friction: pairing.friction,
-        carried: Carried::NOTHING,
-        origin: Origin::Face(point, 0),
-    };
-    constraint.members[1..].copy_from_slice(&faces.corners[face]);
-    for (weight, n) in constraint.weights[1..].iter_mut().zip(touch.stand.weights) {
-        *weight = -n;
-    }
-    Some(constraint)
 }

@@ -1,6 +1,45 @@
-//! What contact asks of this rank: for the log, and to price it on other machines.
+//! What contact tells others: values at the nodes, works, numbers for the log, and what it costs, to price it on other
+//! machines.
 
-use super::Contact;
+use super::{Contact, contact_nodes};
+
+/// Contact in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Points of contact.
+    pub points: usize,
+    /// Faces that they may touch.
+    pub faces: usize,
+    /// Edges that stand out.
+    pub edges: usize,
+    /// Points that the last search found near faces.
+    pub watched: usize,
+    /// Pairs of these points and faces.
+    pub pairs: usize,
+    /// Searches so far.
+    pub searches: u64,
+    /// Enforcement.
+    pub tally: Tally,
+}
+
+/// Counts for the log.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tally {
+    /// Steps in which anything was enforced.
+    pub steps: u64,
+    /// Passes in all of them.
+    pub passes: u64,
+    /// Steps in which the passes ran out.
+    pub capped: u64,
+    /// Largest overlap that was left, as a part of the face's size.
+    pub left: f64,
+    /// Deepest penetration that motion has made, as a part of the face's size.
+    pub deepest: f64,
+    /// The same in motions of a step, the farthest of those so far.
+    pub motions: f64,
+    /// Farthest motion of a contact along its normal in a step so far, a length.
+    pub farthest: f64,
+}
 
 /// Contact of one rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -16,6 +55,53 @@ pub struct Work {
 }
 
 impl Contact {
+    /// Work of normal and of friction forces so far, at every point that this rank owns, and of points now gone.
+    pub fn works(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let owned = self.sites.list.iter().zip(&self.sites.works).filter(|(site, _)| site.owned);
+        owned.map(|(_, work)| *work).chain(self.lost_work.iter().copied())
+    }
+
+    /// Forces of rigid planes at local nodes.
+    pub fn plane_forces(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        self.answers().map(|(node, a)| (node, [a[9], a[10], a[11]])).filter(|(_, force)| *force != [0.0; 3])
+    }
+
+    fn answers(&self) -> impl Iterator<Item = (u32, &[f64; contact_nodes::ANSWER])> + '_ {
+        let sites = &self.sites;
+        sites.pushed.iter().map(|&i| (sites.list[i as usize].node, &sites.answers[i as usize]))
+    }
+
+    /// At each local node that is pushed: contact force, overlap that contact closes in the coming step, status (0 free,
+    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face
+    /// it meets.
+    pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
+        let value = |(node, a): (u32, &[f64; contact_nodes::ANSWER])| {
+            let element = if a[7] == 2.0 { self.skin.file_number(a[8] as u32) } else { 0.0 };
+            (node, [a[0] + a[3], a[1] + a[4], a[2] + a[5], a[6], a[7], element])
+        };
+        self.answers().map(value).collect()
+    }
+
+    /// Local nodes on the surface, and the ranks that compute their contact.
+    pub fn homes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let homes = self.sites.homes.iter().copied().chain(std::iter::repeat(0));
+        self.sites.list.iter().map(|site| site.node).zip(homes)
+    }
+
+    /// What the log tells at the end; nothing of planes alone, of which each rank knows its own only.
+    pub fn report(&self) -> Option<Report> {
+        let [watched, pairs] = self.counts.map(|count| count as usize);
+        (!self.layout.interfaces.is_empty()).then_some(Report {
+            points: self.layout.nodes.len(),
+            faces: self.layout.faces.len(),
+            edges: self.layout.edges.iter().filter(|edge| edge.stands_out()).count(),
+            watched,
+            pairs,
+            searches: self.searches,
+            tally: self.tally,
+        })
+    }
+
     /// What contact has asked of this rank.
     pub fn work(&self) -> Work {
         let [_, candidates] = self.arena.locator.counts();

@@ -4,8 +4,9 @@
 //! the same table of shapes; each looks at the edges whose first face it has, and tells the others what has changed.
 
 use super::Contact;
+use super::check::edge_edge;
 use super::geometry::edges::{self, Shape, Side};
-use super::setup::Layout;
+use super::layout::Layout;
 use crate::comm::{Communicator, numbers_of_others};
 use crate::partition::dynamic::Parcels;
 use std::collections::BTreeMap;
@@ -37,7 +38,7 @@ impl Contact {
         }
         let mut history = self.carried.take().unwrap_or_else(|| self.arena.history());
         history.edges =
-            history.edges.into_iter().filter_map(|past| edges::in_order(past, &self.layout.edges)).collect();
+            history.edges.into_iter().filter_map(|past| edge_edge::in_order(past, &self.layout.edges)).collect();
         self.carried = Some(history);
         true
     }

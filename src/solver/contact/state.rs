@@ -4,12 +4,13 @@
 //! neither erosion nor the decomposition has a say. What touches is saved by the rank that computes it, works by the rank
 //! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
 
+use super::check::edge_edge::PastPair;
 use super::check::node_face::{NONE, Past, UNTOUCHED};
 use super::enforcement::carried::{Carried, WIDTH};
 use super::enforcement::certificate::Bank;
-use super::geometry::edges::{PastPair, Shape};
+use super::geometry::edges::Shape;
+use super::layout::Layout;
 use super::local_problem::{History, Watched};
-use super::setup::Layout;
 use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;

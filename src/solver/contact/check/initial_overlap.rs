@@ -1,18 +1,25 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
+use super::node_face;
 use super::node_face::{Check, UNTOUCHED};
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::contact_nodes::Sites;
-use crate::solver::contact::enforcement::enforcer::{Alone, Constraint, Enforcer, Ledger, Limits};
+use crate::solver::contact::enforcement::constraint::Constraint;
+use crate::solver::contact::enforcement::enforcer::Enforcer;
+use crate::solver::contact::enforcement::iterations::Limits;
+use crate::solver::contact::enforcement::ledger::Ledger;
+use crate::solver::contact::enforcement::other_ranks::Alone;
 use crate::solver::contact::geometry::motion::Points;
 use crate::solver::contact::geometry::projection;
+use crate::solver::contact::layout::{ABSENT, Layout};
+use crate::solver::contact::pairings::Pairings;
 use crate::solver::contact::search::locate::{Locator, Near};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
-use crate::solver::contact::setup::{ABSENT, Layout, Pairings, Skin};
+use crate::solver::contact::skin::Skin;
 use crate::vector::{add, cross, dot, scaled, subtract};
 use std::sync::Arc;
 
@@ -315,7 +322,7 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<Constr
             let face = layout.faces.block[touch.face as usize];
             let pairing = pairings.of(rule, layout.point_block[point as usize], face);
             if touch.stand.gap < -NOTHING * size {
-                constraints.extend(crate::solver::contact::constraint(&layout.faces, pairing, point, touch));
+                constraints.extend(node_face::constraint(&layout.faces, pairing, point, touch));
             }
         }
     }

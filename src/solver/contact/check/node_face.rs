@@ -6,9 +6,11 @@
 //! Attaway et al. 1996, figures 3 and 4).
 
 use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::Points;
 use crate::solver::contact::geometry::projection::{self, Stand};
+use crate::solver::contact::pairings::Pairing;
 use crate::vector::{add, dot, scaled, subtract};
 
 /// No face.
@@ -353,4 +355,32 @@ impl Check<'_> {
         let middle = |face| projection::centre(&self.faces.end(face, self.points));
         dot(subtract(middle(second.face), middle(first.face)), first.stand.normal) > 0.0
     }
+}
+
+/// The constraint of a point on a face. `None` where the point is to be the master only.
+pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &Touch) -> Option<Constraint> {
+    let face = touch.face as usize;
+    // A point without faces of its own cannot be the master of anything.
+    let share = if faces.around(point).is_empty() { 1.0 } else { pairing.share };
+    if share <= 0.0 {
+        return None;
+    }
+    let mut constraint = Constraint {
+        members: [point; MEMBERS],
+        weights: [1.0; MEMBERS],
+        count: MEMBERS,
+        normal: touch.stand.normal,
+        gap: touch.stand.gap - touch.allowed,
+        held: touch.time < 0.0,
+        size: faces.size[face],
+        share,
+        friction: pairing.friction,
+        carried: Carried::NOTHING,
+        origin: Origin::Face(point, 0),
+    };
+    constraint.members[1..].copy_from_slice(&faces.corners[face]);
+    for (weight, n) in constraint.weights[1..].iter_mut().zip(touch.stand.weights) {
+        *weight = -n;
+    }
+    Some(constraint)
 }

@@ -2,7 +2,7 @@
 
 use crate::model::{Friction, RigidSurface};
 use crate::solver::contact::enforcement::carried::Carried;
-use crate::solver::contact::enforcement::enforcer::{Constraint, MEMBERS, Origin};
+use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::motion::Points;
 use crate::vector::{dot, subtract};
 

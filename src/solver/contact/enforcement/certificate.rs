@@ -11,7 +11,7 @@
 //! have filled: sinking in against a force takes the energy that lifting gives back. What contact takes when bodies land on
 //! each other never enters, nor does friction. So the sum of W over all steps is never positive.
 
-use super::enforcer::{Constraint, State};
+use super::constraint::{Constraint, State};
 use crate::comm::ExactSum;
 use crate::vector::{dot, subtract};
 

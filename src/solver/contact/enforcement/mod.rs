@@ -2,6 +2,10 @@
 
 pub mod carried;
 pub mod certificate;
+pub mod constraint;
 pub mod enforcer;
 pub mod friction;
 pub mod gain;
+pub mod iterations;
+pub mod ledger;
+pub mod other_ranks;

@@ -4,9 +4,9 @@ use super::regional::Regional;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::layout::{Layout, inverse};
 use crate::solver::contact::local_problem::{Arena, Cast};
 use crate::solver::contact::search::neighbourhood::Found;
-use crate::solver::contact::setup::{Layout, inverse};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Who must know of whose points in the passes.

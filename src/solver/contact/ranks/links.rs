@@ -6,7 +6,8 @@ use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::certificate::Sums;
-use crate::solver::contact::enforcement::enforcer::{Constraint, MEMBERS, Moved, Origin, Others, State, VOTES};
+use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Moved, Origin, State};
+use crate::solver::contact::enforcement::other_ranks::{Others, VOTES};
 use crate::solver::contact::local_problem::Cast;
 
 /// What homes tell each other in a step.

@@ -3,9 +3,9 @@
 use crate::comm::Communicator;
 use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
 use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
-use crate::solver::contact::setup::Layout;
 
 /// What has come to this rank for its search.
 pub struct Regional {

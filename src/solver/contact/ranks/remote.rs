@@ -19,10 +19,9 @@ use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
 use crate::solver::contact::check::planes::PlanePoint;
 use crate::solver::contact::contact_nodes::{ANSWER, FORCES, STATUS, Site, Sites};
+use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{Arena, History};
-use crate::solver::contact::search::Search;
-use crate::solver::contact::search::neighbourhood;
-use crate::solver::contact::setup::{ABSENT, Layout};
+use crate::solver::contact::search::{Search, neighbourhood};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as

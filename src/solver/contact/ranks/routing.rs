@@ -2,10 +2,10 @@
 
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
+use crate::solver::contact::check::edge_edge::PastPair;
 use crate::solver::contact::check::node_face::{NONE, Past, TOUCHES, UNTOUCHED};
 use crate::solver::contact::check::planes::PlanePoint;
 use crate::solver::contact::enforcement::carried::{Carried, WIDTH};
-use crate::solver::contact::geometry::edges::PastPair;
 use crate::solver::contact::local_problem::{History, Watched};
 use std::ops::Range;
 

@@ -1,10 +1,11 @@
 //! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
 
 use super::locate::{Interface, Near};
+use crate::solver::contact::check::edge_edge;
 use crate::solver::contact::contact_nodes::Sites;
 use crate::solver::contact::geometry::edges;
+use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::{Box3, Candidates, Search};
-use crate::solver::contact::setup::Layout;
 
 /// Numbers, ascending, and their boxes.
 #[derive(Debug, Clone, Default)]
@@ -69,7 +70,7 @@ pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &Sit
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| sites.of(end));
         let of = of.fold(Box3::empty(), |all, site| all.joined(&around(sites, site)));
-        all.push(edge, of.grown(edges::keep(&layout.faces, one)));
+        all.push(edge, of.grown(edge_edge::keep(&layout.faces, one)));
     }
     all
 }

@@ -325,8 +325,12 @@ struct Seen([Cell<u64>; 3]);
 
 impl Seen {
     fn add(&self, contact: &Contact) {
-        let faces =
-            contact.arena.constraints.iter().filter(|c| c.count == crate::solver::contact::MEMBERS).count() as u64;
+        let faces = contact
+            .arena
+            .constraints
+            .iter()
+            .filter(|c| c.count == crate::solver::contact::enforcement::constraint::MEMBERS)
+            .count() as u64;
         let edges = contact.arena.constraints.len() as u64 - faces;
         let now = [faces, edges, contact.arena.locator.asleep()];
         self.0.iter().zip(now).for_each(|(sum, now)| sum.set(sum.get() + now));

@@ -1,134 +1,15 @@
-//! What the deck lets touch, found in the mesh: points, faces, interfaces, and what holds between them.
+//! The surfaces that the deck lets touch, found in the mesh, and layouts made of them, again when elements go.
 
-use super::geometry::edges::{self, Edge, Shape};
+use super::geometry::edges;
 use super::geometry::faces::Faces;
 use super::geometry::surface::{Surface, face_nodes};
+use super::layout::Layout;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
 use crate::mesh::{Connectivity, Mesh};
-use crate::model::{Contact, ContactEdges, ContactMaterials, Friction, Model};
+use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
 use crate::solver::Body;
 use std::sync::Arc;
-
-/// No point.
-pub const ABSENT: u32 = u32::MAX;
-
-/// Where each of `count` numbers is among some of them, [`ABSENT`] for those that are not.
-pub fn inverse(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
-    let mut places = vec![ABSENT; count];
-    (0..).zip(numbers).for_each(|(place, number)| places[number as usize] = place);
-    places
-}
-
-/// What holds where a point of one kind touches a face of another.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pairing {
-    /// Coulomb friction.
-    pub friction: Friction,
-    /// Share of the slave role of the point, that of the master role of the face.
-    pub share: f64,
-}
-
-/// Pairings by the blocks of point and face, and by interface.
-#[derive(Debug, Clone, Default)]
-pub struct Pairings {
-    blocks: Vec<Pairing>,
-    count: usize,
-    pairs: Vec<Pairing>,
-}
-
-impl Pairings {
-    /// What holds where a point of block `point` touches a face of block `face` through an interface.
-    pub fn of(&self, rule: Rule, point: u32, face: u32) -> Pairing {
-        match rule {
-            Rule::Blocks => self.blocks[point as usize * self.count + face as usize],
-            Rule::Pair(number) => self.pairs[number as usize],
-        }
-    }
-
-    /// Pairings of all blocks and of all pairs of side sets.
-    pub fn new(mesh: &Mesh, model: &Model, body: &Body) -> Pairings {
-        let count = mesh.blocks.len();
-        let impedance = |block: usize| {
-            let material = &model.materials[body.block_material[block]];
-            (material.density * material.law.moduli().dilatational()).sqrt()
-        };
-        let pairing = |point: usize, face: usize| {
-            let ids = [mesh.blocks[point].id, mesh.blocks[face].id];
-            let by_impedance = if point == face { 0.5 } else { impedance(face) / (impedance(point) + impedance(face)) };
-            // The last command about two blocks holds, whichever it names first.
-            let data = model.contact.data.iter().rev().find_map(|data| match data.materials {
-                [a, b] if [b, a] == ids => Some((data, data.partition)),
-                [a, b] if [a, b] == ids => Some((data, data.partition.map(|partition| 1.0 - partition))),
-                _ => None,
-            });
-            match data {
-                // A material is neither master nor slave of itself.
-                Some((data, _)) if point == face => Pairing { friction: data.friction, share: 0.5 },
-                Some((data, share)) => Pairing { friction: data.friction, share: share.unwrap_or(by_impedance) },
-                None => Pairing { friction: Friction::default(), share: by_impedance },
-            }
-        };
-        let blocks = (0..count * count).map(|i| pairing(i / count, i % count)).collect();
-        let pairs = model.contact.surfaces.iter().flat_map(|pair| {
-            // Points of the first set on faces of the second, then the other way round.
-            let partition = if pair.side_sets[0] == pair.side_sets[1] { 0.5 } else { pair.partition };
-            [1.0 - partition, partition].map(|share| Pairing { friction: pair.friction, share })
-        });
-        Pairings { blocks, count, pairs: pairs.collect() }
-    }
-}
-
-/// Points and faces as they are now.
-#[derive(Debug, Clone, Default)]
-pub struct Layout {
-    /// Middle of the points at the start: boxes in single precision are seen from there.
-    pub origin: [f64; 3],
-    /// Node of the mesh of each point, ascending.
-    pub nodes: Vec<u32>,
-    /// Block of each point: that of the first of its faces.
-    pub point_block: Vec<u32>,
-    /// Faces.
-    pub faces: Arc<Faces>,
-    /// Interfaces; explicit pairs first.
-    pub interfaces: Vec<Interface>,
-    /// Edges of the faces that CONTACT MATERIAL lets touch, ascending; none where edges touch nothing.
-    pub edges: Vec<Edge>,
-    /// Whether lines of the mesh meet edges that stand out.
-    pub lines: bool,
-}
-
-impl Layout {
-    /// The interface of CONTACT MATERIAL.
-    pub fn automatic(&self) -> Option<&Interface> {
-        self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
-    }
-
-    /// Whether an edge may touch others.
-    pub fn takes_part(&self, edge: u32) -> bool {
-        match self.edges[edge as usize].shape {
-            Shape::StandsOut => true,
-            Shape::Line => self.lines,
-            Shape::Hollow => false,
-        }
-    }
-
-    /// The edge between two nodes of the mesh.
-    pub fn edge(&self, nodes: [u32; 2]) -> Option<u32> {
-        let ends = nodes.map(|node| self.point(node));
-        self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
-    }
-
-    /// The point of a node of the mesh, or [`ABSENT`].
-    pub fn point(&self, node: u32) -> u32 {
-        self.nodes.binary_search(&node).map_or(ABSENT, |point| point as u32)
-    }
-
-    /// The place of a face by its number, or [`ABSENT`].
-    pub fn face(&self, number: u32) -> u32 {
-        self.faces.number.binary_search(&number).map_or(ABSENT, |face| face as u32)
-    }
-}
 
 /// Middle of the box around some points, or what is left of one without end.
 fn middle(positions: &[[f64; 3]]) -> [f64; 3] {

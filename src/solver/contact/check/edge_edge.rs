@@ -1,0 +1,352 @@
+//! Edges against edges: two edges that cross meet where no node meets a face, as when a corner hits an edge.
+//!
+//! Edges that stand out meet each other, and the lines of the mesh in faces that are flat or nearly so, into which they would
+//! sink between the nodes. The check of the former is that of nodes and faces: by motion for a pair that comes anew, where it
+//! would be at the end of the step for one that has touched before.
+
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
+use crate::solver::contact::geometry::crossing;
+use crate::solver::contact::geometry::edges::{Edge, Shape};
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::projection::area_normal;
+use crate::solver::contact::geometry::swept_box::Bounds;
+use crate::solver::contact::pairings::Pairing;
+use crate::solver::contact::search::Box3;
+use crate::vector::{add, cross, dot, scaled, subtract};
+
+/// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
+const CROSSING: f64 = 0.05;
+
+/// A pair that has parted by less than this part of an edge is still watched.
+const KEEP: f64 = 0.01;
+
+/// Pairs that overlap by more than this part of an edge did not come through each other.
+const DEEP: f64 = 0.25;
+
+/// Part of a line's length scale by which an edge may sink in before the line answers. Where an edge lies on a face its nodes
+/// and those of the face hold it; only what sinks in between them is left to the lines, so that what rests is held once.
+const SLACK: f64 = 0.005;
+
+/// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
+const SUNK: f64 = 0.05;
+
+/// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
+const STEEP: f64 = 0.8;
+
+/// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PastPair {
+    /// The edges: ascending where both stand out, else the line second.
+    pub pair: [u32; 2],
+    /// +1 or −1.
+    pub sense: f64,
+    /// Overlap that is tolerated because it was not made by motion; at most 0.
+    pub allowed: f64,
+    /// What the contact carries: forces on the first edge.
+    pub carried: Carried,
+}
+
+/// A pair in the order that its edges have now; `None` where they no longer meet.
+pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
+    let [a, b] = past.pair;
+    let swaps = match [a, b].map(|edge| edges[edge as usize].shape) {
+        [Shape::StandsOut, Shape::StandsOut] => a > b,
+        [Shape::StandsOut, Shape::Line] => false,
+        [Shape::Line, Shape::StandsOut] => true,
+        _ => return None,
+    };
+    // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
+    Some(if swaps { PastPair { pair: [b, a], carried: past.carried.reversed(), ..past } } else { past })
+}
+
+/// Where two edges are nearest to each other.
+struct Crossing {
+    /// Unit normal to both, in the sense of the product of their directions.
+    normal: [f64; 3],
+    /// Places along the edges, 0 to 1 between the ends.
+    places: [f64; 2],
+    /// Way from the second to the first, along the normal.
+    gap: f64,
+    /// Lengths of the edges.
+    lengths: [f64; 2],
+}
+
+impl Crossing {
+    /// `None` for edges that are nearly parallel or have no length.
+    fn of(a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> Option<Crossing> {
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let product = cross(u, v);
+        let (uu, vv, square) = (dot(u, u), dot(v, v), dot(product, product));
+        if square.is_nan() || square <= CROSSING * CROSSING * uu * vv {
+            return None;
+        }
+        let places = [dot(cross(r, v), product) / square, dot(cross(r, u), product) / square];
+        let length = square.sqrt();
+        let normal = scaled(product, 1.0 / length);
+        Some(Crossing { normal, places, gap: -dot(r, normal), lengths: [uu.sqrt(), vv.sqrt()] })
+    }
+
+    /// Whether they cross between their ends, by more than `depth` from every end: nearer to an end, a node or another
+    /// edge is in the way before these two.
+    fn between_ends(&self, depth: f64) -> bool {
+        (0..2).all(|i| self.places[i].min(1.0 - self.places[i]) * self.lengths[i] > depth)
+    }
+
+    fn shorter(&self) -> f64 {
+        self.lengths[0].min(self.lengths[1])
+    }
+}
+
+/// What the check says of a pair.
+pub enum Verdict {
+    /// They touch.
+    Touch(PastPair, Box<Constraint>),
+    /// They do not; along an axis they are so far apart in this step, beyond where they would be near, or 0.
+    Beside(f64),
+}
+
+/// Two edges that cross, seen along the normal of both, as numbers that need no root and no quotient.
+struct Glance {
+    /// Product of their directions, and its square.
+    product: [f64; 3],
+    square: f64,
+    /// Way from the first to the second, times the product.
+    fall: f64,
+}
+
+/// The check of edges against edges.
+pub struct EdgeCheck<'a> {
+    /// Points.
+    pub points: &'a Points,
+    /// Faces.
+    pub faces: &'a Faces,
+    /// Edges.
+    pub edges: &'a [Edge],
+}
+
+impl EdgeCheck<'_> {
+    fn start(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.start(a), self.points.start(b)]
+    }
+
+    fn end(&self, edge: u32) -> [[f64; 3]; 2] {
+        let [a, b] = self.edges[edge as usize].ends;
+        [self.points.end(a), self.points.end(b)]
+    }
+
+    /// Box around the way of an edge over the step.
+    fn way(&self, edge: u32) -> Box3 {
+        let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
+        Box3::around(&[a, b, c, d])
+    }
+
+    /// How far apart the ways of two edges are along an axis, beyond where they are near; not above 0 where they are near.
+    fn apart(&self, pair: [u32; 2]) -> f64 {
+        let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
+        let bounds = |edge: u32, margin: f64| {
+            let [a, b] = self.edges[edge as usize].ends.map(|end| &self.points.ways[end as usize]);
+            Bounds::joined([a, b, a, b], margin as f32)
+        };
+        f64::from(bounds(pair[0], margins[0].max(margins[1])).distance(&bounds(pair[1], 0.0)))
+    }
+
+    /// Whether two edges touch in the coming step: the pair to remember and its constraint.
+    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: impl FnOnce() -> Pairing) -> Verdict {
+        let stand_out = self.edges[pair[1] as usize].stands_out();
+        if past.is_none() {
+            let apart = self.apart(pair);
+            if apart > 0.0 {
+                return Verdict::Beside(apart);
+            }
+            // Nearly all pairs on bodies that rest on each other go no further.
+            let Some(glance) = self.at_a_glance(pair) else { return Verdict::Beside(0.0) };
+            if !stand_out && self.is_above(pair[1], &glance) {
+                return Verdict::Beside(0.0);
+            }
+        }
+        let pairing = pairing();
+        let found = if stand_out { self.standing_out(pair, past, pairing) } else { self.on_line(pair, past, pairing) };
+        match found {
+            Some((now, constraint)) => Verdict::Touch(now, Box::new(constraint)),
+            // Newcomers that come so far are near.
+            None => Verdict::Beside(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
+        }
+    }
+
+    /// Two edges that stand out.
+    fn standing_out(
+        &self,
+        pair: [u32; 2],
+        past: Option<&PastPair>,
+        pairing: Pairing,
+    ) -> Option<(PastPair, Constraint)> {
+        let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
+        if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
+            return None;
+        }
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
+        let now = match past {
+            // What has opened does not close again for nothing.
+            Some(past) => PastPair { allowed: past.allowed.max((past.sense * end.gap).min(0.0)), ..*past },
+            None => self.newcomer(pair, &end)?,
+        };
+        let gap = now.sense * end.gap - now.allowed;
+        let reach = end.shorter();
+        if !end.between_ends((-gap).max(0.0)) || gap > KEEP * reach || gap < -DEEP * reach {
+            return None;
+        }
+        Some((now, self.constraint(pair, &end, &now, gap, pairing)))
+    }
+
+    /// How two edges cross at the end of the step; `None` where they do not between their ends.
+    fn at_a_glance(&self, pair: [u32; 2]) -> Option<Glance> {
+        let [a, b] = pair.map(|edge| self.end(edge));
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let product = cross(u, v);
+        let square = dot(product, product);
+        let within = |place: f64| place >= 0.0 && place <= square;
+        let crosses = within(dot(cross(r, v), product)) && within(dot(cross(r, u), product));
+        crosses.then(|| Glance { product, square, fall: dot(r, product) })
+    }
+
+    /// Whether the edge that crosses a line does so on the outside, or hardly inside.
+    fn is_above(&self, line: u32, &Glance { product, square, fall }: &Glance) -> bool {
+        let slack = SLACK * self.scale(line);
+        let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.points)));
+        fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
+    }
+
+    /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
+    /// there, so motion need not be asked.
+    fn on_line(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+        let scale = self.scale(pair[1]);
+        if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
+            return None;
+        }
+        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
+        if !end.between_ends(0.0) {
+            return None;
+        }
+        let line = self.outwards(pair[1]);
+        let up = dot(end.normal, line);
+        let sense = up.signum();
+        let (gap, tolerated) = (sense * end.gap, -SLACK * scale);
+        // The line looks out along the normal; pushed along it, the edge goes back into its own body.
+        if up * up <= STEEP * STEEP * dot(line, line) || sense * dot(end.normal, self.outwards(pair[0])) >= 0.0 {
+            return None;
+        }
+        let now = match past {
+            // To be pushed out would give it velocity: it is left where it is until it goes by itself.
+            Some(past) => PastPair { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
+            None => {
+                let before = self.gap_before(pair, &end, sense)?;
+                if gap >= tolerated || before <= -SUNK * scale {
+                    return None;
+                }
+                PastPair { pair, sense, allowed: before.min(tolerated), carried: Carried::NOTHING }
+            }
+        };
+        let beyond = gap - now.allowed;
+        if beyond > SLACK * scale || beyond < -DEEP * scale {
+            return None;
+        }
+        Some((now, self.constraint(pair, &end, &now, beyond, pairing)))
+    }
+
+    /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
+    fn gap_before(&self, pair: [u32; 2], end: &Crossing, sense: f64) -> Option<f64> {
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+        Some(dot(start.normal, end.normal).signum() * sense * start.gap)
+    }
+
+    /// Length that what sinks in at a line is small against: the size of the faces, or what half the element beneath allows.
+    fn scale(&self, line: u32) -> f64 {
+        scale(self.faces, &self.edges[line as usize])
+    }
+
+    /// Sum of the normals of the faces at an edge, at the beginning of the step.
+    fn outwards(&self, edge: u32) -> [f64; 3] {
+        let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.points)));
+        add(a, b)
+    }
+
+    /// A pair that has not touched before: it must come together within the step, both edges from outside.
+    fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+        // Turning through parallel within a step leaves no sense to compare.
+        if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
+            return None;
+        }
+        let outwards = |sense: f64, normal: [f64; 3]| {
+            // Pushed along the normal, the first edge goes back into its own body.
+            sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
+        };
+        let sense = start.gap.signum();
+        let touch = |sense, allowed| PastPair { pair, sense, allowed, carried: Carried::NOTHING };
+        if outwards(sense, start.normal) && sense * end.gap < 0.0 {
+            return self.meets(pair).then_some(touch(sense, 0.0));
+        }
+        // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
+        let depth = start.gap.abs();
+        let sense = -sense;
+        (outwards(sense, start.normal) && depth < KEEP * start.shorter() && start.between_ends(depth))
+            .then_some(touch(sense, -depth))
+    }
+
+    /// Whether the edges come into one plane within the step, and there between their ends.
+    fn meets(&self, pair: [u32; 2]) -> bool {
+        let path = |edge: u32, end: usize| self.points.path(self.edges[edge as usize].ends[end]);
+        let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
+        let volume = crossing::coplanarity(
+            crossing::relative(b[0], a[0]),
+            crossing::relative(a[1], a[0]),
+            crossing::relative(b[1], b[0]),
+        );
+        crossing::roots(&volume).any(|t| {
+            let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
+            Crossing::of([at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]).is_some_and(|c| c.between_ends(0.0))
+        })
+    }
+
+    /// Places where the edges see each other at the beginning of the step, along the normal of its end: forces there have
+    /// no moment.
+    fn places_along(&self, pair: [u32; 2], end: &Crossing) -> [f64; 2] {
+        let [a, b] = pair.map(|edge| self.start(edge));
+        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
+        let volume = dot(end.normal, cross(u, v));
+        let places = [dot(end.normal, cross(r, v)) / volume, dot(end.normal, cross(r, u)) / volume];
+        if places.iter().all(|place| (-0.5..=1.5).contains(place)) { places } else { end.places }
+    }
+
+    fn constraint(&self, pair: [u32; 2], end: &Crossing, now: &PastPair, gap: f64, pairing: Pairing) -> Constraint {
+        let [a, b] = [self.edges[pair[0] as usize].ends, self.edges[pair[1] as usize].ends];
+        let [s, t] = self.places_along(pair, end);
+        Constraint {
+            members: [a[0], a[1], b[0], b[1], a[0]],
+            weights: [1.0 - s, s, t - 1.0, -t, 0.0],
+            count: MEMBERS - 1,
+            normal: scaled(end.normal, now.sense),
+            gap,
+            held: now.carried != Carried::NOTHING,
+            size: end.shorter(),
+            share: pairing.share,
+            friction: pairing.friction,
+            carried: now.carried,
+            origin: Origin::Edges(pair[0], pair[1]),
+        }
+    }
+}
+
+/// How far around itself an edge looks for others.
+pub fn keep(faces: &Faces, edge: &Edge) -> f64 {
+    if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
+}
+
+/// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.
+fn scale(faces: &Faces, line: &Edge) -> f64 {
+    let of = |face: u32| faces.size[face as usize].min(faces.depth[face as usize] / SUNK);
+    of(line.faces[0]).min(of(line.faces[1]))
+}

@@ -1,0 +1,114 @@
+//! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the passes.
+
+use super::carried::Carried;
+use super::certificate::{Target, sunk};
+use crate::model::Friction;
+use crate::solver::contact::geometry::motion::Points;
+use crate::vector::{add, dot, scaled};
+
+/// Points that one constraint can join: a point and four corners.
+pub const MEMBERS: usize = 5;
+
+/// A gap to be closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constraint {
+    /// Points that take part; the first `count` count.
+    pub members: [u32; MEMBERS],
+    /// Their weights.
+    pub weights: [f64; MEMBERS],
+    /// Number of members.
+    pub count: usize,
+    /// Unit normal along which the first member is pushed.
+    pub normal: [f64; 3],
+    /// Gap at the end of the step without contact.
+    pub gap: f64,
+    /// Whether it was there in the step before; else its members meet anew.
+    pub held: bool,
+    /// Length that the gap is small against.
+    pub size: f64,
+    /// Weight of this constraint where points share their mass among several: the slave share of the partition.
+    pub share: f64,
+    /// Coulomb friction.
+    pub friction: Friction,
+    /// Forces of the last step, until [`Enforcer::solve`] finds the new ones: the normal force λ and the friction force on
+    /// the first member.
+    pub carried: Carried,
+    /// What has made it. Constraints are in the order of their origins.
+    pub origin: Origin,
+}
+
+/// What a constraint comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// A point and the place among the faces that it touches.
+    Face(u32, u32),
+    /// Two edges.
+    Edges(u32, u32),
+    /// One of the points that rigid planes watch.
+    Plane(u32),
+}
+
+impl Constraint {
+    /// Members with their weights.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.members.iter().zip(&self.weights).take(self.count).map(|(&point, &weight)| (point as usize, weight))
+    }
+
+    /// Relative velocity of its members: Σ w v, over the step without contact, and over the step before.
+    pub fn velocities(&self, points: &Points) -> [[f64; 3]; 2] {
+        let of = |velocity: fn(&Points, u32) -> [f64; 3]| {
+            self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(points, point as u32), weight)))
+        };
+        [of(Points::velocity), of(Points::velocity_before)]
+    }
+
+    /// Relative velocity that forces give its members.
+    pub fn change(&self, moved: &[Moved]) -> [f64; 3] {
+        self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)))
+    }
+
+    /// Goes only a part of the way along the ray of the forces, which give it the velocity `change` in all.
+    pub fn shorten(&mut self, state: &State, change: [f64; 3], ray: f64, drift: f64) {
+        let Carried { sunk: before, push, drag } = self.carried;
+        let along = ray * dot(change, self.normal);
+        let sunk = sunk(before, self.gap + drift * along, state.free + along, drift);
+        self.carried = Carried { sunk, push: ray * push, drag: scaled(drag, ray) };
+    }
+}
+
+/// A point in the course of the passes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moved {
+    /// Change of velocity that the forces make.
+    pub change: [f64; 3],
+    /// Sum of what the active constraints weigh at the point.
+    pub load: f64,
+}
+
+/// A constraint in the course of the passes.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct State {
+    /// Reduced mass of the constraint alone, times its share; 0 where nothing can be moved.
+    pub strength: f64,
+    /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
+    pub softness: [[f64; 2]; MEMBERS],
+    /// Velocity of sliding without contact forces.
+    pub slip: [f64; 3],
+    /// The same over the step before.
+    pub slip_before: [f64; 3],
+    /// Velocity along the normal without contact forces, u*.
+    pub free: f64,
+    /// The same over the step before, u⁻.
+    pub before: f64,
+    /// Velocity along the normal that it is to have at least after the step.
+    pub target: Target,
+    /// How far the constraint would stay behind that velocity over the step without contact forces: a length, negative
+    /// where it would.
+    pub closing: f64,
+    /// Whether this rank has made it.
+    pub own: bool,
+    /// Normal and friction force of the last pass.
+    pub last: (f64, [f64; 3]),
+    /// Whether it pushes or overlaps.
+    pub active: bool,
+}

@@ -1,0 +1,147 @@
+//! The passes: each closes every gap as if it were alone, with shares of the masses, and goes on a little.
+
+use super::carried::Carried;
+use super::certificate::tangential;
+use super::constraint::{Constraint, Moved, State};
+use super::enforcer::Enforcer;
+use super::other_ranks::Others;
+use crate::solver::contact::geometry::motion::Points;
+use crate::vector::{add, dot, scaled, subtract};
+
+/// Passes go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks in while
+/// loads are small can be lifted only at the price of the loads that come.
+const SETTLED: f64 = 0.002;
+
+/// How far the passes go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest number of passes.
+    pub passes: u32,
+    /// Overlap that is left alone, as a part of the face's size.
+    pub tolerance: f64,
+}
+
+/// What became of a step's constraints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Outcome {
+    /// Passes made.
+    pub passes: u32,
+    /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
+    pub left: f64,
+    /// Deepest overlap that motion had made before the step, as a part of the face's size.
+    pub deepest: f64,
+    /// The deepest one as a length.
+    pub depth: f64,
+    /// Farthest that a constraint would move along its normal in the step without contact, a length.
+    pub motion: f64,
+}
+
+/// Times that turn velocities into ways and forces into velocities.
+#[derive(Clone, Copy)]
+pub(super) struct Times {
+    pub(super) drift: f64,
+    pub(super) kick: f64,
+    pub(super) both: f64,
+}
+
+impl Enforcer {
+    /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is
+    /// nearly always, it costs nothing.
+    pub(super) fn passes(
+        &mut self,
+        constraints: &mut [Constraint],
+        points: &Points,
+        times: Times,
+        limits: Limits,
+        wanted: bool,
+        others: &mut dyn Others,
+    ) -> Option<Outcome> {
+        let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
+        let [deepest, depth, motion] = self.extent(constraints, times.drift);
+        loop {
+            self.scatter(constraints, points, times, others);
+            let ahead = momentum.next();
+            let (mut worst, mut farthest) = (0.0, 0.0);
+            for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
+                let way = correct(c, state, &self.moved, times, ahead);
+                (worst, farthest) = (f64::max(worst, way / c.size), f64::max(farthest, way));
+            }
+            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion, farthest]);
+            let [left, any_wanted, ..] = votes;
+            if any_wanted == 0.0 {
+                return None;
+            }
+            let [_, _, deepest, depth, motion, farthest] = votes;
+            outcome = Outcome { left, passes: outcome.passes + 1, deepest, depth, motion };
+            let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * motion;
+            if settled || outcome.passes == limits.passes {
+                return Some(outcome);
+            }
+        }
+    }
+
+    /// Deepest overlap that motion has made, in face sizes and as a length, and the farthest that a constraint would move.
+    fn extent(&self, constraints: &[Constraint], drift: f64) -> [f64; 3] {
+        let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
+        own.fold([0.0; 3], |[deepest, depth, motion], (c, state)| {
+            let sunk = c.carried.sunk;
+            [(sunk / c.size).max(deepest), sunk.max(depth), (drift * state.free).abs().max(motion)]
+        })
+    }
+}
+
+/// How far the next pass goes on in the direction of the one before.
+struct Momentum(f64);
+
+impl Momentum {
+    fn new() -> Momentum {
+        Momentum(1.0)
+    }
+
+    fn next(&mut self) -> f64 {
+        let before = self.0;
+        self.0 = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
+        (before - 1.0) / self.0
+    }
+}
+
+/// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
+/// part `ahead`. How far it moves, a length.
+fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times, ahead: f64) -> f64 {
+    let change = c.change(moved);
+    let gap = state.closing + times.drift * dot(change, c.normal);
+    let Carried { push: tried, drag: tried_drag, .. } = c.carried;
+    if tried == 0.0 && gap >= 0.0 {
+        (c.carried.drag, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
+        return 0.0;
+    }
+    let (mut inverse, mut sliding) = (0.0, 0.0);
+    for ((point, w), softness) in c.parts().zip(&state.softness) {
+        // A constraint that has just become active is not yet in the load.
+        let own = if state.active { 0.0 } else { w.abs() };
+        let share = moved[point].load / state.strength + own;
+        inverse += share * softness[0];
+        sliding += share * softness[1];
+    }
+    let push = (tried - gap / (times.both * inverse)).max(0.0);
+    let mut way = (push - tried).abs() * times.both * inverse;
+    let push_ahead = further(tried, push, state.last.0, ahead).max(0.0);
+    if c.friction.is_some() {
+        let slip = add(state.slip, tangential(change, c.normal));
+        let wanted = subtract(tried_drag, scaled(slip, 1.0 / (times.kick * sliding)));
+        let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * push);
+        let drag = if size > most { scaled(wanted, most / size) } else { wanted };
+        let turn = subtract(drag, tried_drag);
+        way = way.max(dot(turn, turn).sqrt() * times.both * sliding);
+        c.carried.drag = [0, 1, 2].map(|i| further(tried_drag[i], drag[i], state.last.1[i], ahead));
+        state.last.1 = drag;
+    }
+    (c.carried.push, state.last.0, state.active) = (push_ahead, push, true);
+    way
+}
+
+/// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.
+fn further(tried: f64, new: f64, last: f64, ahead: f64) -> f64 {
+    let turns_back = (tried - new) * (new - last) > 0.0;
+    if turns_back { new } else { new + ahead * (new - last) }
+}

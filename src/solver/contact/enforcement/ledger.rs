@@ -1,0 +1,24 @@
+//! Who pays for what contact gives back.
+
+use super::certificate::{Bank, Granted};
+
+/// Who pays for what contact gives back.
+pub enum Ledger<'a> {
+    /// All contacts of all ranks draw on one bank.
+    Bank(&'a mut Bank),
+    /// The constraints of each point are for themselves: rigid planes alone. What motion has made of an overlap is lifted without a
+    /// bank; there is no other side that could drive it.
+    Points,
+    /// Nobody: nodes are moved before the run, without velocities.
+    Nobody,
+}
+
+impl Ledger<'_> {
+    /// What is granted when forces are sought.
+    pub(super) fn granted(&self) -> Granted {
+        match self {
+            Ledger::Bank(bank) => bank.granted(),
+            Ledger::Points | Ledger::Nobody => [1.0; 2],
+        }
+    }
+}

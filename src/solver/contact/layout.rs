@@ -1,0 +1,67 @@
+//! What the deck lets touch as it is now: points, faces, edges, and interfaces.
+
+use super::geometry::edges::{Edge, Shape};
+use super::geometry::faces::Faces;
+use super::search::locate::{Interface, Rule};
+use std::sync::Arc;
+
+/// No point.
+pub const ABSENT: u32 = u32::MAX;
+
+/// Where each of `count` numbers is among some of them, [`ABSENT`] for those that are not.
+pub fn inverse(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
+    let mut places = vec![ABSENT; count];
+    (0..).zip(numbers).for_each(|(place, number)| places[number as usize] = place);
+    places
+}
+
+/// Points and faces as they are now.
+#[derive(Debug, Clone, Default)]
+pub struct Layout {
+    /// Middle of the points at the start: boxes in single precision are seen from there.
+    pub origin: [f64; 3],
+    /// Node of the mesh of each point, ascending.
+    pub nodes: Vec<u32>,
+    /// Block of each point: that of the first of its faces.
+    pub point_block: Vec<u32>,
+    /// Faces.
+    pub faces: Arc<Faces>,
+    /// Interfaces; explicit pairs first.
+    pub interfaces: Vec<Interface>,
+    /// Edges of the faces that CONTACT MATERIAL lets touch, ascending; none where edges touch nothing.
+    pub edges: Vec<Edge>,
+    /// Whether lines of the mesh meet edges that stand out.
+    pub lines: bool,
+}
+
+impl Layout {
+    /// The interface of CONTACT MATERIAL.
+    pub fn automatic(&self) -> Option<&Interface> {
+        self.interfaces.iter().find(|interface| interface.rule == Rule::Blocks)
+    }
+
+    /// Whether an edge may touch others.
+    pub fn takes_part(&self, edge: u32) -> bool {
+        match self.edges[edge as usize].shape {
+            Shape::StandsOut => true,
+            Shape::Line => self.lines,
+            Shape::Hollow => false,
+        }
+    }
+
+    /// The edge between two nodes of the mesh.
+    pub fn edge(&self, nodes: [u32; 2]) -> Option<u32> {
+        let ends = nodes.map(|node| self.point(node));
+        self.edges.binary_search_by(|edge| edge.ends.cmp(&ends)).ok().map(|edge| edge as u32)
+    }
+
+    /// The point of a node of the mesh, or [`ABSENT`].
+    pub fn point(&self, node: u32) -> u32 {
+        self.nodes.binary_search(&node).map_or(ABSENT, |point| point as u32)
+    }
+
+    /// The place of a face by its number, or [`ABSENT`].
+    pub fn face(&self, number: u32) -> u32 {
+        self.faces.number.binary_search(&number).map_or(ABSENT, |face| face as u32)
+    }
+}
