@@ -2,7 +2,7 @@
 
 use super::{echo::table, number};
 use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
-use crate::solver::contact::{Left, Overlap};
+use crate::solver::contact::{DeepOverlap, Overlap};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
 pub fn tables(model: &Model, overlap: Overlap) -> String {
@@ -73,7 +73,7 @@ fn overlaps(overlap: Overlap) -> Vec<String> {
     moved.into_iter().collect()
 }
 
-fn left(left: Left) -> Vec<String> {
+fn left(left: DeepOverlap) -> Vec<String> {
     let some = (left.nodes > 0).then(|| format!("{:>21}{:>13}", left.nodes, number(left.deepest)));
     some.into_iter().collect()
 }

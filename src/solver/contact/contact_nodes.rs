@@ -1,14 +1,14 @@
 //! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
 
-use super::geometry::motion::{Points, larger};
-use super::geometry::swept_box::Bounds;
+use super::geometry::motion::{NodeMotion, larger};
+use super::geometry::swept_box::SweptBox;
 use super::layout::{ABSENT, inverse};
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A point that is a node here.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Site {
+pub struct ContactNode {
     /// The point.
     pub point: u32,
     /// The local node.
@@ -31,17 +31,17 @@ pub const STATUS: usize = 7;
 
 /// Points of this rank, in the order of their numbers.
 #[derive(Debug, Clone, Default)]
-pub struct Sites {
+pub struct ContactNodes {
     /// Who they are.
-    pub list: Vec<Site>,
+    pub list: Vec<ContactNode>,
     /// Where each point is in the list, or [`ABSENT`].
     places: Vec<u32>,
     /// For each axis of each, the constraint that holds the node, or [`ABSENT`].
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
-    pub points: Points,
+    pub points: NodeMotion,
     /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
-    stays: Vec<Bounds>,
+    stays: Vec<SweptBox>,
     /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
@@ -55,26 +55,26 @@ pub struct Sites {
     pub works: Vec<[f64; 2]>,
 }
 
-impl Sites {
+impl ContactNodes {
     /// Sites at these points; `here` gives the local node of a point, or [`ABSENT`], `held` the constraints of nodes.
     pub fn new(
         (points, origin): (usize, [f64; 3]),
         here: impl Fn(u32) -> u32,
         held: &[[u32; 3]],
         nodes: &Nodes,
-    ) -> Sites {
+    ) -> ContactNodes {
         let site = |point: u32| {
             let node = here(point);
-            (node != ABSENT).then(|| Site { point, node, owned: nodes.owned[node as usize] })
+            (node != ABSENT).then(|| ContactNode { point, node, owned: nodes.owned[node as usize] })
         };
-        let list: Vec<Site> = (0..points as u32).filter_map(site).collect();
+        let list: Vec<ContactNode> = (0..points as u32).filter_map(site).collect();
         let count = list.len();
-        let held = |site: &Site| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
-        let mut sites = Sites {
+        let held = |site: &ContactNode| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
+        let mut sites = ContactNodes {
             holders: list.iter().map(held).collect(),
             places: inverse(list.iter().map(|site| site.point), points),
             list,
-            points: Points::new(count, origin),
+            points: NodeMotion::new(count, origin),
             answers: vec![[0.0; ANSWER]; count],
             works: vec![[0.0; 2]; count],
             ..Default::default()
@@ -87,12 +87,12 @@ impl Sites {
     }
 
     /// All points as sites at rest.
-    pub fn still(points: &Points) -> Sites {
-        let site = |point: u32| Site { point, node: point, owned: true };
-        let list: Vec<Site> = (0..points.len() as u32).map(site).collect();
+    pub fn still(points: &NodeMotion) -> ContactNodes {
+        let site = |point: u32| ContactNode { point, node: point, owned: true };
+        let list: Vec<ContactNode> = (0..points.len() as u32).map(site).collect();
         let holders = vec![[ABSENT; 3]; list.len()];
         let places = (0..points.len() as u32).collect();
-        let mut sites = Sites { list, places, holders, points: points.clone(), ..Default::default() };
+        let mut sites = ContactNodes { list, places, holders, points: points.clone(), ..Default::default() };
         sites.renew(1.0, 0.0);
         sites
     }
@@ -105,9 +105,9 @@ impl Sites {
 
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
-        self.stays.resize(self.list.len(), Bounds::EVERYTHING);
+        self.stays.resize(self.list.len(), SweptBox::EVERYTHING);
         self.points.begin(step.drift);
-        let motion = |site: &Site| {
+        let motion = |site: &ContactNode| {
             let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
             let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
             ([row[0], row[1], row[2], row[3]], velocity, [row[4], row[5], row[6]])
@@ -128,7 +128,7 @@ impl Sites {
             let room = larger(SIDE * longest, least);
             let centre = subtract(add(start, half), self.points.origin());
             let side = half.map(|way| way.abs() + room);
-            self.stays.push(Bounds::around(subtract(centre, side), add(centre, side)));
+            self.stays.push(SweptBox::around(subtract(centre, side), add(centre, side)));
         }
     }
 

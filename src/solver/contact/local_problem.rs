@@ -3,10 +3,10 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
-use super::check::edge_edge::{EdgeCheck, PastPair, Verdict};
+use super::check::edge_edge::{EdgeCheck, EdgeContact, EdgeVerdict};
 use super::check::node_face;
-use super::check::node_face::{Check, NONE, Past, TOUCHES, Touch, UNTOUCHED};
-use super::check::planes::PlanePoint;
+use super::check::node_face::{DetectedContact, FaceContact, NONE, NodeFaceCheck, TOUCHES, UNTOUCHED};
+use super::check::planes::PlaneNode;
 use super::contact_nodes::ANSWER;
 use super::enforcement::carried::Carried;
 use super::enforcement::certificate::Bank;
@@ -14,14 +14,14 @@ use super::enforcement::constraint::{Constraint, Origin};
 use super::enforcement::enforcer::Enforcer;
 use super::enforcement::iterations::{Limits, Outcome};
 use super::enforcement::ledger::Ledger;
-use super::enforcement::other_ranks::Others;
+use super::enforcement::other_ranks::OtherRanks;
 use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
-use super::geometry::motion::Points;
+use super::geometry::motion::NodeMotion;
 use super::layout::{ABSENT, Layout, inverse};
 use super::pairings::{Pairing, Pairings};
-use super::search::locate::{Locator, Near, Rule};
-use super::search::neighbourhood::Found;
+use super::search::locate::{Candidate, Locator, Rule};
+use super::search::neighbourhood::SearchResult;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;
@@ -30,19 +30,19 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
     /// Points and what they touch.
-    pub points: Vec<(u32, [Past; TOUCHES])>,
+    pub points: Vec<(u32, [FaceContact; TOUCHES])>,
     /// Pairs of edges that touch.
-    pub edges: Vec<PastPair>,
+    pub edges: Vec<EdgeContact>,
     /// Watches of planes and their forces.
-    pub planes: Vec<Watched>,
+    pub planes: Vec<PlaneHistory>,
 }
 
 /// A watch of a plane: its number, and what its contact carries.
-pub type Watched = (u32, Carried);
+pub type PlaneHistory = (u32, Carried);
 
 /// Points, faces and edges of an arena, by the numbers of the layout, ascending.
 #[derive(Debug, Clone, Default)]
-pub struct Cast {
+pub struct Numbering {
     /// Points whose motion is known here.
     pub points: Vec<u32>,
     /// Points that only take part in constraints of other ranks, not among `points`.
@@ -55,22 +55,22 @@ pub struct Cast {
 
 /// Points that may touch, and everything about them.
 #[derive(Default)]
-pub struct Arena {
+pub struct LocalProblem {
     /// The points.
-    pub points: Points,
+    pub points: NodeMotion,
     /// Candidates.
     pub locator: Locator,
     /// Who is here.
-    pub cast: Cast,
+    pub cast: Numbering,
     /// Where each point of the layout is here.
     places: Vec<u32>,
     faces: Arc<Faces>,
     edges: Vec<Edge>,
     point_block: Vec<u32>,
     rules: Vec<Rule>,
-    history: Vec<[Past; TOUCHES]>,
-    edge_history: Vec<PastPair>,
-    planes: Vec<PlanePoint>,
+    history: Vec<[FaceContact; TOUCHES]>,
+    edge_history: Vec<EdgeContact>,
+    planes: Vec<PlaneNode>,
     /// Constraints of this step.
     pub constraints: Vec<Constraint>,
     enforcer: Enforcer,
@@ -78,14 +78,14 @@ pub struct Arena {
     pub answers: Vec<[f64; ANSWER]>,
     /// Points with a force now, ascending.
     pub pushed: Vec<u32>,
-    near: Vec<Near>,
+    near: Vec<Candidate>,
     near_faces: Vec<u32>,
     strict: Vec<bool>,
-    touches: Vec<Touch>,
+    touches: Vec<DetectedContact>,
 }
 
 /// What a step needs to know of the problem.
-pub struct Setting<'a> {
+pub struct StepInput<'a> {
     /// What holds between blocks and pairs.
     pub pairings: &'a Pairings,
     /// Rigid planes.
@@ -96,10 +96,16 @@ pub struct Setting<'a> {
     pub limits: Limits,
 }
 
-impl Arena {
+impl LocalProblem {
     /// An arena with this cast. `found` is in numbers of the layout, as is `watches`, the planes' points that this rank
     /// answers for.
-    pub fn new(cast: Cast, found: Found, depth: f64, layout: &Layout, watches: &[PlanePoint]) -> Arena {
+    pub fn new(
+        cast: Numbering,
+        found: SearchResult,
+        depth: f64,
+        layout: &Layout,
+        watches: &[PlaneNode],
+    ) -> LocalProblem {
         let points = cast.points.len();
         let mut places = inverse(cast.points.iter().copied(), layout.nodes.len());
         let face_places = inverse(cast.faces.iter().copied(), layout.faces.len());
@@ -116,17 +122,21 @@ impl Arena {
             Edge { ends: edge.ends.map(local), faces, ..edge }
         });
         let edges: Vec<Edge> = edges.collect();
-        let found = Found {
+        let found = SearchResult {
             watched: found.watched.into_iter().map(local).collect(),
             first: found.first,
-            near: found.near.into_iter().map(|near| Near { face: face_places[near.face as usize], ..near }).collect(),
+            near: found
+                .near
+                .into_iter()
+                .map(|near| Candidate { face: face_places[near.face as usize], ..near })
+                .collect(),
             pairs: found.pairs.into_iter().map(|pair| pair.map(|edge| place(&cast.edges, edge))).collect(),
         };
-        let planes = watches.iter().map(|watch| PlanePoint { point: local(watch.point), ..*watch }).collect();
+        let planes = watches.iter().map(|watch| PlaneNode { point: local(watch.point), ..*watch }).collect();
         (points as u32..).zip(&cast.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + cast.ghosts.len();
-        let values = Points::new(points, layout.origin);
-        Arena {
+        let values = NodeMotion::new(points, layout.origin);
+        LocalProblem {
             locator: Locator::new(found, depth, &values, &faces, &edges),
             points: values,
             edges,
@@ -149,7 +159,7 @@ impl Arena {
     }
 
     /// The candidates of the last search are replaced; history is kept of points that still have any.
-    pub fn renew(&mut self, found: Found, depth: f64) {
+    pub fn renew(&mut self, found: SearchResult, depth: f64) {
         let mut watched = found.watched.iter().peekable();
         for (point, past) in self.history.iter_mut().enumerate() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
@@ -164,13 +174,14 @@ impl Arena {
     pub fn history(&self) -> History {
         let face = |face: u32| if face == NONE { NONE } else { self.cast.faces[face as usize] };
         let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != UNTOUCHED);
-        let points = touching.map(|(past, &point)| (point, past.map(|past| Past { face: face(past.face), ..past })));
+        let points =
+            touching.map(|(past, &point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
         let edges = self.edge_history.iter();
         let planes = self.planes.iter().filter(|watch| watch.carried != Carried::NOTHING);
         History {
             points: points.collect(),
             edges: edges
-                .map(|past| PastPair { pair: past.pair.map(|e| self.cast.edges[e as usize]), ..*past })
+                .map(|past| EdgeContact { pair: past.pair.map(|e| self.cast.edges[e as usize]), ..*past })
                 .collect(),
             planes: planes.map(|watch| (watch.number, watch.carried)).collect(),
         }
@@ -181,14 +192,14 @@ impl Arena {
         for (point, pasts) in history.points {
             let here = place(&self.cast.points, point);
             if let Some(mine) = self.history.get_mut(here as usize) {
-                *mine = tidy(pasts.map(|past| Past { face: place(&self.cast.faces, past.face), ..past }));
+                *mine = tidy(pasts.map(|past| FaceContact { face: place(&self.cast.faces, past.face), ..past }));
             }
         }
         history.edges.sort_by_key(|past| past.pair);
         let edge = |edge: u32| self.cast.edges.binary_search(&edge).ok().map(|edge| edge as u32);
         let pairs = history.edges.into_iter().filter_map(|past| {
             let [first, second] = past.pair;
-            Some(PastPair { pair: [edge(first)?, edge(second)?], ..past })
+            Some(EdgeContact { pair: [edge(first)?, edge(second)?], ..past })
         });
         self.edge_history = pairs.collect();
         for (number, carried) in history.planes {
@@ -199,7 +210,13 @@ impl Arena {
     }
 
     /// Finds the contact forces of a step, whose motion is in `points`.
-    pub fn step(&mut self, setting: &Setting, step: &StepTimes, bank: &mut Bank, others: &mut dyn Others) -> Outcome {
+    pub fn step(
+        &mut self,
+        setting: &StepInput,
+        step: &StepTimes,
+        bank: &mut Bank,
+        others: &mut dyn OtherRanks,
+    ) -> Outcome {
         self.constraints.clear();
         if !self.rules.is_empty() {
             self.locator.step(&self.points, &self.faces);
@@ -229,9 +246,9 @@ impl Arena {
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     fn check(&mut self, pairings: &Pairings) {
-        let Arena { points, faces, point_block, rules, locator, history, .. } = self;
-        let Arena { constraints, near, near_faces, strict, touches, .. } = self;
-        let check = Check { points, faces };
+        let LocalProblem { points, faces, point_block, rules, locator, history, .. } = self;
+        let LocalProblem { constraints, near, near_faces, strict, touches, .. } = self;
+        let check = NodeFaceCheck { points, faces };
         for i in 0..locator.watched().len() {
             if locator.is_quiet(i) {
                 continue;
@@ -267,14 +284,14 @@ impl Arena {
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
-                past[place] = Past { face: touch.face, allowed: touch.allowed, ..UNTOUCHED[0] };
+                past[place] = FaceContact { face: touch.face, allowed: touch.allowed, ..UNTOUCHED[0] };
             }
         }
     }
 
     /// The check of every pair of edges that may cross.
     fn check_edges(&mut self, pairings: &Pairings) {
-        let Arena { points, faces, locator, edges, edge_history, constraints, .. } = self;
+        let LocalProblem { points, faces, locator, edges, edge_history, constraints, .. } = self;
         let check = EdgeCheck { points, faces, edges };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
@@ -289,20 +306,26 @@ impl Arena {
             // Neither edge is the master.
             let pairing = || Pairing { share: 0.5, ..pairings.of(Rule::Blocks, block(pair[0]), block(pair[1])) };
             match check.pair(pair, past, pairing) {
-                Verdict::Touch(now, constraint) => {
+                EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
                     edge_history.push(now);
                     constraints.push(*constraint);
                 }
-                Verdict::Beside(apart) => locator.let_pair_wait(place, apart),
+                EdgeVerdict::Apart(apart) => locator.let_pair_wait(place, apart),
             }
         }
     }
 
-    fn enforce(&mut self, setting: &Setting, step: &StepTimes, bank: &mut Bank, others: &mut dyn Others) -> Outcome {
-        let Arena { constraints, enforcer, points, rules, .. } = self;
+    fn enforce(
+        &mut self,
+        setting: &StepInput,
+        step: &StepTimes,
+        bank: &mut Bank,
+        others: &mut dyn OtherRanks,
+    ) -> Outcome {
+        let LocalProblem { constraints, enforcer, points, rules, .. } = self;
         // Of planes alone each rank knows its own.
-        let ledger = if rules.is_empty() { Ledger::Points } else { Ledger::Bank(bank) };
+        let ledger = if rules.is_empty() { Ledger::EachNode } else { Ledger::Bank(bank) };
         enforcer.prepare(constraints, points, step.drift, &ledger);
         let own = constraints.len();
         others.copy(constraints, enforcer.states());
@@ -386,15 +409,20 @@ fn place(list: &[u32], number: u32) -> u32 {
 }
 
 /// What a touch carries from the last step. A point that has slid on to the next face takes it along.
-fn carried_before(faces: &Faces, before: &[Past; TOUCHES], touches: &[Touch], touch: &Touch) -> Carried {
+fn carried_before(
+    faces: &Faces,
+    before: &[FaceContact; TOUCHES],
+    touches: &[DetectedContact],
+    touch: &DetectedContact,
+) -> Carried {
     let same = before.iter().find(|past| past.face == touch.face);
-    let left = |past: &&Past| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
+    let left = |past: &&FaceContact| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
     let beside = || before.iter().filter(left).find(|past| faces.touch(past.face, touch.face));
     same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
 }
 
 /// Pasts with the faces that are left first.
-fn tidy(mut pasts: [Past; TOUCHES]) -> [Past; TOUCHES] {
+fn tidy(mut pasts: [FaceContact; TOUCHES]) -> [FaceContact; TOUCHES] {
     pasts.sort_by_key(|past| past.face == NONE);
     pasts
 }

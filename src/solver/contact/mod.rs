@@ -1,7 +1,7 @@
 //! Contact: a predictor finds where nodes would go, and forces take the overlaps out (Attaway et al. 1996).
 //!
 //! [`Contact::apply`] is steps 1.6 to 1.9 of the paper's figure 1: predict, locate, check in detail, enforce. Nodes of this
-//! rank are `Sites`; check and enforcement happen in an `Arena`, of whole bodies on one rank, of a region
+//! rank are `ContactNodes`; check and enforcement happen in an `LocalProblem`, of whole bodies on one rank, of a region
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
 pub mod check;
@@ -26,16 +26,16 @@ use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
 use check::edge_edge;
-use check::edge_edge::PastPair;
-use check::node_face::{self, NONE, Past};
-use check::planes::PlanePoint;
-use contact_nodes::Sites;
+use check::edge_edge::EdgeContact;
+use check::node_face::{self, FaceContact, NONE};
+use check::planes::PlaneNode;
+use contact_nodes::ContactNodes;
 use enforcement::certificate::Bank;
 use enforcement::gain::Gain;
 use enforcement::iterations::{Limits, Outcome};
-use enforcement::other_ranks::Alone;
+use enforcement::other_ranks::NoOtherRanks;
 use layout::{ABSENT, Layout};
-use local_problem::{Arena, Cast, History, Setting};
+use local_problem::{History, LocalProblem, Numbering, StepInput};
 use pairings::Pairings;
 use ranks::remote::Remote;
 use ranks::routing::share_planes;
@@ -43,8 +43,8 @@ use search::locate::Reach;
 use search::{Search, SearchKind, neighbourhood};
 use skin::Skin;
 
-pub use check::embedded::Sunk;
-pub use check::initial_overlap::{Left, Overlap, remove as remove_overlap};
+pub use check::embedded::EmbeddedNode;
+pub use check::initial_overlap::{DeepOverlap, Overlap, remove as remove_overlap};
 pub use report::{Report, Tally, Work};
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
@@ -53,8 +53,8 @@ pub struct Contact {
     skin: Skin,
     pairings: Pairings,
     /// Points that are nodes here.
-    sites: Sites,
-    arena: Arena,
+    sites: ContactNodes,
+    arena: LocalProblem,
     /// The other ranks, where there are any that this one must know.
     remote: Option<Remote>,
     /// What the next search puts back, where the arena has been given up.
@@ -70,7 +70,7 @@ pub struct Contact {
     /// Mean size of the faces: what overlaps with planes are small against.
     mean_size: f64,
     /// All points that planes watch.
-    watches: Vec<PlanePoint>,
+    watches: Vec<PlaneNode>,
     limits: Limits,
     /// Work of normal and friction forces at points that are gone, those of this rank.
     lost_work: Vec<[f64; 2]>,
@@ -108,8 +108,8 @@ impl Contact {
         let skin = Skin::new(mesh, model, body, watched.concat());
         let layout = skin.layout();
         let mut contact = Contact {
-            sites: Sites::default(),
-            arena: Arena::default(),
+            sites: ContactNodes::default(),
+            arena: LocalProblem::default(),
             remote: None,
             carried: None,
             search: kind(model.contact.control.search).make(),
@@ -140,7 +140,7 @@ impl Contact {
     fn meet(&mut self, local: impl Fn(u32) -> u32, nodes: &Nodes, comm: &mut dyn Communicator) {
         let Contact { layout, held, elements, .. } = self;
         let here = |point: u32| local(layout.nodes[point as usize]);
-        self.sites = Sites::new((layout.nodes.len(), layout.origin), here, held, nodes);
+        self.sites = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes. Where there was more before, their forces were known at homes only.
             if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
@@ -277,10 +277,10 @@ impl Contact {
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let Contact { arena, remote, pairings, planes, mean_size, limits, bank, .. } = self;
-        let setting = Setting { pairings, planes, mean_size: *mean_size, limits: *limits };
+        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits };
         match remote {
             Some(remote) => arena.step(&setting, step, bank, &mut remote.others(comm)),
-            None => arena.step(&setting, step, bank, &mut Alone),
+            None => arena.step(&setting, step, bank, &mut NoOtherRanks),
         }
     }
 
@@ -309,30 +309,36 @@ impl Contact {
 }
 
 /// An arena that holds what this rank has, and everything when there is no other.
-fn alone(layout: &Layout, sites: &Sites, watches: &[PlanePoint], found: neighbourhood::Found, depth: f64) -> Arena {
-    let cast = Cast {
+fn alone(
+    layout: &Layout,
+    sites: &ContactNodes,
+    watches: &[PlaneNode],
+    found: neighbourhood::SearchResult,
+    depth: f64,
+) -> LocalProblem {
+    let cast = Numbering {
         points: sites.list.iter().map(|site| site.point).collect(),
         ghosts: Vec::new(),
         faces: (0..layout.faces.len() as u32).collect(),
         edges: (0..layout.edges.len() as u32).collect(),
     };
-    let here: Vec<PlanePoint> = watches.iter().filter(|watch| sites.of(watch.point).is_some()).copied().collect();
-    Arena::new(cast, found, depth, layout, &here)
+    let here: Vec<PlaneNode> = watches.iter().filter(|watch| sites.of(watch.point).is_some()).copied().collect();
+    LocalProblem::new(cast, found, depth, layout, &here)
 }
 
 /// A history in the numbers of a new layout.
 fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
     let point = |point: u32| new.point(old.nodes[point as usize]);
-    let face = |past: Past| match past.face {
+    let face = |past: FaceContact| match past.face {
         NONE => past,
-        face => Past { face: new.face(old.faces.number[face as usize]), ..past },
+        face => FaceContact { face: new.face(old.faces.number[face as usize]), ..past },
     };
     let edge = |edge: u32| new.edge(old.edges[edge as usize].ends.map(|point| old.nodes[point as usize]));
     let points = history.points.into_iter().map(|(p, pasts)| (point(p), pasts.map(face)));
     let edges = history
         .edges
         .into_iter()
-        .filter_map(|past| Some(PastPair { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }))
+        .filter_map(|past| Some(EdgeContact { pair: [edge(past.pair[0])?, edge(past.pair[1])?], ..past }))
         .filter_map(|past| edge_edge::in_order(past, &new.edges));
     History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
@@ -376,13 +382,13 @@ fn limits(model: &Model, watched: &[Vec<u32>]) -> Limits {
     Limits { passes: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
 }
 
-fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlanePoint> {
+fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {
     let mut list = Vec::new();
     for (number, (plane, nodes)) in model.rigid_surfaces.iter().zip(watched).enumerate() {
         for &node in nodes {
             if let Ok(point) = layout.nodes.binary_search(&node) {
-                let watch = PlanePoint::new(point as u32, number, plane, body.positions[node as usize]);
-                list.push(PlanePoint { number: list.len() as u32, ..watch });
+                let watch = PlaneNode::new(point as u32, number, plane, body.positions[node as usize]);
+                list.push(PlaneNode { number: list.len() as u32, ..watch });
             }
         }
     }

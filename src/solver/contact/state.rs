@@ -4,13 +4,13 @@
 //! neither erosion nor the decomposition has a say. What touches is saved by the rank that computes it, works by the rank
 //! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
 
-use super::check::edge_edge::PastPair;
-use super::check::node_face::{NONE, Past, UNTOUCHED};
+use super::check::edge_edge::EdgeContact;
+use super::check::node_face::{FaceContact, NONE, UNTOUCHED};
 use super::enforcement::carried::{Carried, WIDTH};
 use super::enforcement::certificate::Bank;
 use super::geometry::edges::Shape;
 use super::layout::Layout;
-use super::local_problem::{History, Watched};
+use super::local_problem::{History, PlaneHistory};
 use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;
@@ -149,10 +149,10 @@ impl Contact {
         self.carried = Some(come);
     }
 
-    fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [Past; 3])> {
+    fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [FaceContact; 3])> {
         let mut rows = Vec::new();
         for (point, pasts) in &now.points {
-            for (slot, Past { face, allowed, carried }) in
+            for (slot, FaceContact { face, allowed, carried }) in
                 pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
             {
                 let node = f64::from(self.layout.nodes[*point as usize]);
@@ -169,7 +169,7 @@ impl Contact {
         let mut faces: Vec<([f64; 2], u32)> =
             (0..self.layout.faces.len() as u32).map(|face| (self.face_key(face), face)).collect();
         faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
-        let mut points: Vec<(u32, [Past; 3])> = Vec::new();
+        let mut points: Vec<(u32, [FaceContact; 3])> = Vec::new();
         // Rows are sorted by their nodes.
         for row in rows.chunks_exact(TOUCH) {
             let point = self.layout.point(row[0] as u32);
@@ -179,7 +179,7 @@ impl Contact {
             let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
             let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
             if let (Ok(face), Some(past)) = (face, pasts) {
-                *past = Past { face: faces[face].1, allowed: row[4], carried: Carried::from_slice(&row[5..]) };
+                *past = FaceContact { face: faces[face].1, allowed: row[4], carried: Carried::from_slice(&row[5..]) };
             }
         }
         points
@@ -191,9 +191,9 @@ impl Contact {
         [self.skin.file_number(number), f64::from(number % 6)]
     }
 
-    fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<PastPair> {
+    fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<EdgeContact> {
         let mut rows = Vec::new();
-        for PastPair { pair, sense, allowed, carried } in &now.edges {
+        for EdgeContact { pair, sense, allowed, carried } in &now.edges {
             let [[a, b], [c, d]] = pair.map(|edge| self.layout.edges[edge as usize].ends);
             rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
             rows.extend([*sense, *allowed]);
@@ -206,12 +206,12 @@ impl Contact {
         let edge = |ends: [f64; 2]| self.layout.edge(ends.map(|node| node as u32));
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
-            Some(PastPair { pair, sense: row[4], allowed: row[5], carried: Carried::from_slice(&row[6..]) })
+            Some(EdgeContact { pair, sense: row[4], allowed: row[5], carried: Carried::from_slice(&row[6..]) })
         });
         pairs.collect()
     }
 
-    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<Watched> {
+    fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<PlaneHistory> {
         // Planes alone are with every rank that has the node.
         let alone = self.layout.interfaces.is_empty();
         let answers = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
@@ -228,7 +228,7 @@ impl Contact {
             return Vec::new();
         }
         let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
-        let force = |watch: &super::PlanePoint| {
+        let force = |watch: &super::PlaneNode| {
             let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
             let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
             Some((watch.number, Carried::from_slice(&row[2..])))

@@ -9,9 +9,9 @@ use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origi
 use crate::solver::contact::geometry::crossing;
 use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::area_normal;
-use crate::solver::contact::geometry::swept_box::Bounds;
+use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::pairings::Pairing;
 use crate::solver::contact::search::Box3;
 use crate::vector::{add, cross, dot, scaled, subtract};
@@ -37,7 +37,7 @@ const STEEP: f64 = 0.8;
 
 /// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PastPair {
+pub struct EdgeContact {
     /// The edges: ascending where both stand out, else the line second.
     pub pair: [u32; 2],
     /// +1 or −1.
@@ -49,7 +49,7 @@ pub struct PastPair {
 }
 
 /// A pair in the order that its edges have now; `None` where they no longer meet.
-pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
+pub fn in_order(past: EdgeContact, edges: &[Edge]) -> Option<EdgeContact> {
     let [a, b] = past.pair;
     let swaps = match [a, b].map(|edge| edges[edge as usize].shape) {
         [Shape::StandsOut, Shape::StandsOut] => a > b,
@@ -58,7 +58,7 @@ pub fn in_order(past: PastPair, edges: &[Edge]) -> Option<PastPair> {
         _ => return None,
     };
     // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
-    Some(if swaps { PastPair { pair: [b, a], carried: past.carried.reversed(), ..past } } else { past })
+    Some(if swaps { EdgeContact { pair: [b, a], carried: past.carried.reversed(), ..past } } else { past })
 }
 
 /// Where two edges are nearest to each other.
@@ -100,15 +100,15 @@ impl Crossing {
 }
 
 /// What the check says of a pair.
-pub enum Verdict {
+pub enum EdgeVerdict {
     /// They touch.
-    Touch(PastPair, Box<Constraint>),
+    Touching(EdgeContact, Box<Constraint>),
     /// They do not; along an axis they are so far apart in this step, beyond where they would be near, or 0.
-    Beside(f64),
+    Apart(f64),
 }
 
 /// Two edges that cross, seen along the normal of both, as numbers that need no root and no quotient.
-struct Glance {
+struct QuickCrossing {
     /// Product of their directions, and its square.
     product: [f64; 3],
     square: f64,
@@ -119,7 +119,7 @@ struct Glance {
 /// The check of edges against edges.
 pub struct EdgeCheck<'a> {
     /// Points.
-    pub points: &'a Points,
+    pub points: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
     /// Edges.
@@ -148,31 +148,31 @@ impl EdgeCheck<'_> {
         let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
         let bounds = |edge: u32, margin: f64| {
             let [a, b] = self.edges[edge as usize].ends.map(|end| &self.points.ways[end as usize]);
-            Bounds::joined([a, b, a, b], margin as f32)
+            SweptBox::joined([a, b, a, b], margin as f32)
         };
         f64::from(bounds(pair[0], margins[0].max(margins[1])).distance(&bounds(pair[1], 0.0)))
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
-    pub fn pair(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: impl FnOnce() -> Pairing) -> Verdict {
+    pub fn pair(&self, pair: [u32; 2], past: Option<&EdgeContact>, pairing: impl FnOnce() -> Pairing) -> EdgeVerdict {
         let stand_out = self.edges[pair[1] as usize].stands_out();
         if past.is_none() {
             let apart = self.apart(pair);
             if apart > 0.0 {
-                return Verdict::Beside(apart);
+                return EdgeVerdict::Apart(apart);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
-            let Some(glance) = self.at_a_glance(pair) else { return Verdict::Beside(0.0) };
+            let Some(glance) = self.at_a_glance(pair) else { return EdgeVerdict::Apart(0.0) };
             if !stand_out && self.is_above(pair[1], &glance) {
-                return Verdict::Beside(0.0);
+                return EdgeVerdict::Apart(0.0);
             }
         }
         let pairing = pairing();
         let found = if stand_out { self.standing_out(pair, past, pairing) } else { self.on_line(pair, past, pairing) };
         match found {
-            Some((now, constraint)) => Verdict::Touch(now, Box::new(constraint)),
+            Some((now, constraint)) => EdgeVerdict::Touching(now, Box::new(constraint)),
             // Newcomers that come so far are near.
-            None => Verdict::Beside(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
+            None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
         }
     }
 
@@ -180,9 +180,9 @@ impl EdgeCheck<'_> {
     fn standing_out(
         &self,
         pair: [u32; 2],
-        past: Option<&PastPair>,
+        past: Option<&EdgeContact>,
         pairing: Pairing,
-    ) -> Option<(PastPair, Constraint)> {
+    ) -> Option<(EdgeContact, Constraint)> {
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
         if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
             return None;
@@ -190,7 +190,7 @@ impl EdgeCheck<'_> {
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
-            Some(past) => PastPair { allowed: past.allowed.max((past.sense * end.gap).min(0.0)), ..*past },
+            Some(past) => EdgeContact { allowed: past.allowed.max((past.sense * end.gap).min(0.0)), ..*past },
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - now.allowed;
@@ -202,18 +202,18 @@ impl EdgeCheck<'_> {
     }
 
     /// How two edges cross at the end of the step; `None` where they do not between their ends.
-    fn at_a_glance(&self, pair: [u32; 2]) -> Option<Glance> {
+    fn at_a_glance(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
         let [a, b] = pair.map(|edge| self.end(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
         let within = |place: f64| place >= 0.0 && place <= square;
         let crosses = within(dot(cross(r, v), product)) && within(dot(cross(r, u), product));
-        crosses.then(|| Glance { product, square, fall: dot(r, product) })
+        crosses.then(|| QuickCrossing { product, square, fall: dot(r, product) })
     }
 
     /// Whether the edge that crosses a line does so on the outside, or hardly inside.
-    fn is_above(&self, line: u32, &Glance { product, square, fall }: &Glance) -> bool {
+    fn is_above(&self, line: u32, &QuickCrossing { product, square, fall }: &QuickCrossing) -> bool {
         let slack = SLACK * self.scale(line);
         let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.points)));
         fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
@@ -221,7 +221,12 @@ impl EdgeCheck<'_> {
 
     /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
     /// there, so motion need not be asked.
-    fn on_line(&self, pair: [u32; 2], past: Option<&PastPair>, pairing: Pairing) -> Option<(PastPair, Constraint)> {
+    fn on_line(
+        &self,
+        pair: [u32; 2],
+        past: Option<&EdgeContact>,
+        pairing: Pairing,
+    ) -> Option<(EdgeContact, Constraint)> {
         let scale = self.scale(pair[1]);
         if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
             return None;
@@ -240,13 +245,13 @@ impl EdgeCheck<'_> {
         }
         let now = match past {
             // To be pushed out would give it velocity: it is left where it is until it goes by itself.
-            Some(past) => PastPair { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
+            Some(past) => EdgeContact { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
             None => {
                 let before = self.gap_before(pair, &end, sense)?;
                 if gap >= tolerated || before <= -SUNK * scale {
                     return None;
                 }
-                PastPair { pair, sense, allowed: before.min(tolerated), carried: Carried::NOTHING }
+                EdgeContact { pair, sense, allowed: before.min(tolerated), carried: Carried::NOTHING }
             }
         };
         let beyond = gap - now.allowed;
@@ -274,7 +279,7 @@ impl EdgeCheck<'_> {
     }
 
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
-    fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<PastPair> {
+    fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<EdgeContact> {
         let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
         // Turning through parallel within a step leaves no sense to compare.
         if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
@@ -285,7 +290,7 @@ impl EdgeCheck<'_> {
             sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
-        let touch = |sense, allowed| PastPair { pair, sense, allowed, carried: Carried::NOTHING };
+        let touch = |sense, allowed| EdgeContact { pair, sense, allowed, carried: Carried::NOTHING };
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
             return self.meets(pair).then_some(touch(sense, 0.0));
         }
@@ -321,7 +326,7 @@ impl EdgeCheck<'_> {
         if places.iter().all(|place| (-0.5..=1.5).contains(place)) { places } else { end.places }
     }
 
-    fn constraint(&self, pair: [u32; 2], end: &Crossing, now: &PastPair, gap: f64, pairing: Pairing) -> Constraint {
+    fn constraint(&self, pair: [u32; 2], end: &Crossing, now: &EdgeContact, gap: f64, pairing: Pairing) -> Constraint {
         let [a, b] = [self.edges[pair[0] as usize].ends, self.edges[pair[1] as usize].ends];
         let [s, t] = self.places_along(pair, end);
         Constraint {

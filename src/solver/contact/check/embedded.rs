@@ -13,7 +13,7 @@ use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A node inside an element that is not its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sunk {
+pub struct EmbeddedNode {
     /// Place of the node in the mesh file.
     pub node: u32,
     /// Canonical number of the element.
@@ -44,7 +44,7 @@ impl Contact {
 
     /// The nodes of all ranks that are in some of these elements, those of this rank; a node is told once for each element
     /// that it is in. All ranks call it.
-    pub fn sunk(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<Sunk> {
+    pub fn sunk(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
         let points = self.points_of_all(nodes, comm);
         let corners = |outer: &Outer| outer.1.map(|node| nodes.position(node));
         let boxes: Vec<Box3> = elements.iter().map(|outer| Box3::around(&corners(outer))).collect();
@@ -62,7 +62,7 @@ impl Contact {
                 .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node));
             found.extend(of_others.filter_map(|outer| {
                 let depth = self.depth(outer.0, &corners(outer), *at)?;
-                Some(Sunk { node, element: outer.0, depth })
+                Some(EmbeddedNode { node, element: outer.0, depth })
             }));
         }
         found

@@ -1,22 +1,22 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::node_face;
-use super::node_face::{Check, UNTOUCHED};
+use super::node_face::{NodeFaceCheck, UNTOUCHED};
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
-use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::enforcement::enforcer::Enforcer;
 use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::ledger::Ledger;
-use crate::solver::contact::enforcement::other_ranks::Alone;
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::pairings::Pairings;
-use crate::solver::contact::search::locate::{Locator, Near};
+use crate::solver::contact::search::locate::{Candidate, Locator};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::skin::Skin;
@@ -47,7 +47,7 @@ pub struct Overlap {
     /// Farthest move, a length.
     pub farthest: f64,
     /// What is left deep inside.
-    pub left: Left,
+    pub left: DeepOverlap,
     /// What could not be moved out, though it is not deep.
     pub stuck: Stuck,
 }
@@ -84,7 +84,7 @@ impl Overlap {
 
 /// Nodes that remain inside elements that are not theirs: too deep to say which way is out. Contact does not see them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Left {
+pub struct DeepOverlap {
     /// Their number.
     pub nodes: usize,
     /// Distance of the deepest from the nearest face of the outside, a length.
@@ -95,10 +95,10 @@ pub struct Left {
     pub element: u32,
 }
 
-impl Left {
+impl DeepOverlap {
     /// Tells the user, where there are any.
     pub fn warning(&self, mesh: &Mesh) -> Option<String> {
-        let Left { nodes, deepest, node, element } = *self;
+        let DeepOverlap { nodes, deepest, node, element } = *self;
         let [x, y, z] = mesh.coordinates.get(node as usize)?;
         (nodes > 0).then(|| {
             format!(
@@ -120,7 +120,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         return Overlap { left: left(body, &layout), ..Default::default() };
     }
     let pairings = Pairings::new(mesh, model, body);
-    let mut points = Points::new(layout.nodes.len(), layout.origin);
+    let mut points = NodeMotion::new(layout.nodes.len(), layout.origin);
     weigh(mesh, model, body, &layout, &mut points);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(points.len());
@@ -141,8 +141,8 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
         let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
-        enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Nobody);
-        enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Nobody, &mut Alone));
+        enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Unlimited);
+        enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             let node = layout.nodes[point] as usize;
@@ -176,8 +176,8 @@ fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
 }
 
 /// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
-fn left(body: &Body, layout: &Layout) -> Left {
-    let Some(automatic) = layout.automatic() else { return Left::default() };
+fn left(body: &Body, layout: &Layout) -> DeepOverlap {
+    let Some(automatic) = layout.automatic() else { return DeepOverlap::default() };
     let mut blocks: Vec<u32> = automatic.faces.iter().map(|&face| layout.faces.block[face as usize]).collect();
     blocks.sort_unstable();
     blocks.dedup();
@@ -193,7 +193,7 @@ fn left(body: &Body, layout: &Layout) -> Left {
     let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
     let mut candidates = Candidates::default();
     SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
-    let mut left = Left::default();
+    let mut left = DeepOverlap::default();
     let mut bodies: Option<Vec<u32>> = None;
     for (point, &node) in layout.nodes.iter().enumerate() {
         let near = candidates.of(point).iter().map(|&place| elements[place as usize]);
@@ -215,7 +215,7 @@ fn left(body: &Body, layout: &Layout) -> Left {
             let faces = automatic.faces.iter().copied().filter(|&face| of_body(face));
             let depth = depth(body, layout, faces, at(point));
             if depth > left.deepest {
-                left = Left { deepest: depth, node, element: body.element_order[element as usize], ..left };
+                left = DeepOverlap { deepest: depth, node, element: body.element_order[element as usize], ..left };
             }
         }
     }
@@ -282,7 +282,7 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
 }
 
 /// Inverse masses; none in directions that the deck holds.
-fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut Points) {
+fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut NodeMotion) {
     for (point, &node) in layout.nodes.iter().enumerate() {
         points.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
     }
@@ -298,17 +298,17 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut 
 }
 
 /// Every point behind a face that faces it.
-fn overlaps(layout: &Layout, pairings: &Pairings, points: &Points) -> Vec<Constraint> {
-    let sites = Sites::still(points);
+fn overlaps(layout: &Layout, pairings: &Pairings, points: &NodeMotion) -> Vec<Constraint> {
+    let sites = ContactNodes::still(points);
     let all = neighbourhood::point_boxes(&sites);
     let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &sites);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, points, &layout.faces, &layout.edges);
     locator.step(points, &layout.faces);
-    let check = Check { points, faces: &layout.faces };
+    let check = NodeFaceCheck { points, faces: &layout.faces };
     let (mut touches, mut constraints) = (Vec::new(), Vec::new());
-    let mut near: Vec<Near> = Vec::new();
+    let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.watched().len() {
         let point = locator.watched()[i];
         locator.near(i, points, &layout.faces, &UNTOUCHED, &mut near);

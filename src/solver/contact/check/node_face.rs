@@ -8,8 +8,8 @@
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::Points;
-use crate::solver::contact::geometry::projection::{self, Stand};
+use crate::solver::contact::geometry::motion::NodeMotion;
+use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::pairings::Pairing;
 use crate::vector::{add, dot, scaled, subtract};
 
@@ -44,7 +44,7 @@ const SAME_WAY: f64 = 0.8;
 
 /// Where a face has seen a point before.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Past {
+pub struct FaceContact {
     /// The face, or [`NONE`].
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
@@ -54,11 +54,12 @@ pub struct Past {
 }
 
 /// Of a point that touches nothing.
-pub const UNTOUCHED: [Past; TOUCHES] = [Past { face: NONE, allowed: 0.0, carried: Carried::NOTHING }; TOUCHES];
+pub const UNTOUCHED: [FaceContact; TOUCHES] =
+    [FaceContact { face: NONE, allowed: 0.0, carried: Carried::NOTHING }; TOUCHES];
 
 /// A point on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub struct DetectedContact {
     /// The face.
     pub face: u32,
     /// Part of the step after which it is touched; −1 where it has been touched before.
@@ -66,7 +67,7 @@ pub struct Touch {
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
     /// Where the point would be at the end of the step; the weights are those of the forces, see `projection::shares_along`.
-    pub stand: Stand,
+    pub stand: Projection,
     /// Overlap that stays.
     pub allowed: f64,
 }
@@ -77,19 +78,26 @@ fn keep(faces: &Faces, face: u32) -> f64 {
 }
 
 /// The detailed check of points against faces.
-pub struct Check<'a> {
+pub struct NodeFaceCheck<'a> {
     /// Points.
-    pub points: &'a Points,
+    pub points: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
 }
 
-impl Check<'_> {
+impl NodeFaceCheck<'_> {
     /// Fills `touches` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
     /// this step meet the point's; `past` the faces touched before.
     /// `strict[i]` says whether the `i`-th of them is met only by points one of whose own faces looks at it; the nodes of a
     /// side set do not bring all the faces of their body.
-    pub fn point(&self, point: u32, near: &[u32], strict: &[bool], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
+    pub fn point(
+        &self,
+        point: u32,
+        near: &[u32],
+        strict: &[bool],
+        past: &[FaceContact; TOUCHES],
+        touches: &mut Vec<DetectedContact>,
+    ) {
         touches.clear();
         if past[0].face != NONE {
             self.watched(point, near, past, touches);
@@ -118,7 +126,7 @@ impl Check<'_> {
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
-    fn blend(&self, near: &[u32], touch: &mut Touch) {
+    fn blend(&self, near: &[u32], touch: &mut DetectedContact) {
         // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
         if touch.stand.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
             return;
@@ -150,13 +158,13 @@ impl Check<'_> {
         past != NONE && self.faces.touch(past, face)
     }
 
-    fn stand_at_end(&self, point: u32, face: u32) -> Option<Stand> {
+    fn stand_at_end(&self, point: u32, face: u32) -> Option<Projection> {
         projection::stand(&self.faces.end(face, self.points), self.points.end(point))
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
-    fn watched(&self, point: u32, near: &[u32], past: &[Past; TOUCHES], touches: &mut Vec<Touch>) {
-        let mut left: Option<(u32, f64, Stand)> = None;
+    fn watched(&self, point: u32, near: &[u32], past: &[FaceContact; TOUCHES], touches: &mut Vec<DetectedContact>) {
+        let mut left: Option<(u32, f64, Projection)> = None;
         for past in past.iter().filter(|past| past.face != NONE && near.contains(&past.face)) {
             let Some(stand) = self.stand_at_end(point, past.face) else { continue };
             if stand.outside == 0.0 {
@@ -173,7 +181,7 @@ impl Check<'_> {
         };
         let slightly = stand.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
-        let mut next: Option<(u32, Stand)> = None;
+        let mut next: Option<(u32, Projection)> = None;
         for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
             let Some(stand) =
@@ -202,13 +210,13 @@ impl Check<'_> {
     }
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
-    fn goes_on(&self, old: u32, face: u32, stand: &Stand, next: &Stand) -> bool {
+    fn goes_on(&self, old: u32, face: u32, stand: &Projection, next: &Projection) -> bool {
         let middle = |face| projection::centre(&self.faces.end(face, self.points));
         dot(stand.normal, next.normal) > SAME_WAY || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
-    fn folds(&self, point: u32, near: &[u32], touches: &mut Vec<Touch>) {
+    fn folds(&self, point: u32, near: &[u32], touches: &mut Vec<DetectedContact>) {
         let held = touches.len();
         for i in 0..held {
             let old = touches[i];
@@ -227,25 +235,25 @@ impl Check<'_> {
         }
     }
 
-    fn held(&self, face: u32, stand: Stand, allowed: f64) -> Touch {
+    fn held(&self, face: u32, stand: Projection, allowed: f64) -> DetectedContact {
         // What has opened does not close again for nothing.
-        Touch { face, time: -1.0, opposition: 0.0, allowed: allowed.max(stand.gap.min(0.0)), stand }
+        DetectedContact { face, time: -1.0, opposition: 0.0, allowed: allowed.max(stand.gap.min(0.0)), stand }
     }
 
     /// Neither away from the face nor so deep that it must have come from elsewhere.
-    fn in_reach(&self, face: u32, stand: &Stand, allowed: f64) -> bool {
+    fn in_reach(&self, face: u32, stand: &Projection, allowed: f64) -> bool {
         stand.gap < keep(self.faces, face) + allowed && stand.gap > -self.faces.depth[face as usize]
     }
 
     /// A point that this face has not seen before.
-    fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<Touch> {
+    fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<DetectedContact> {
         if self.is_in_front(point, face) {
             return None;
         }
         let end = projection::stand(&self.faces.end(face, self.points), self.points.end(point))
             .filter(|stand| stand.gap < 0.0)?;
         let start = projection::stand(&self.faces.start(face, self.points), self.points.start(point))?;
-        let touch = |time, allowed| Touch { face, time, opposition: 0.0, stand: end, allowed };
+        let touch = |time, allowed| DetectedContact { face, time, opposition: 0.0, stand: end, allowed };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
             let time = projection::first_crossing(&corners, self.points.path(point))?;
@@ -305,7 +313,7 @@ impl Check<'_> {
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
-    fn slides_over(&self, point: u32, face: u32, end: &Stand) -> bool {
+    fn slides_over(&self, point: u32, face: u32, end: &Projection) -> bool {
         let at = self.points.start(point);
         let corners = self.faces.start(face, self.points);
         let foot = projection::foot(&corners, &end.weights);
@@ -316,7 +324,7 @@ impl Check<'_> {
         })
     }
 
-    fn opposition(&self, point: u32, stand: &Stand) -> f64 {
+    fn opposition(&self, point: u32, stand: &Projection) -> f64 {
         let normal = self.faces.point_normal(point, self.points);
         let length = dot(normal, normal).sqrt();
         // A free node faces everything.
@@ -324,11 +332,11 @@ impl Check<'_> {
     }
 
     /// Puts touches in order and keeps those that push in ways of their own.
-    fn choose(&self, point: u32, touches: &mut Vec<Touch>) {
+    fn choose(&self, point: u32, touches: &mut Vec<DetectedContact>) {
         for touch in touches.iter_mut() {
             touch.opposition = self.opposition(point, &touch.stand);
         }
-        let number = |touch: &Touch| self.faces.number[touch.face as usize];
+        let number = |touch: &DetectedContact| self.faces.number[touch.face as usize];
         touches.sort_by(|a, b| {
             a.time.total_cmp(&b.time).then(a.opposition.total_cmp(&b.opposition)).then(number(a).cmp(&number(b)))
         });
@@ -345,7 +353,7 @@ impl Check<'_> {
 
     /// Whether a face holds a point in a way that the one chosen before does not: it pushes another way, and does not
     /// merely lie around the corner of the same body.
-    fn apart(&self, first: &Touch, second: &Touch) -> bool {
+    fn apart(&self, first: &DetectedContact, second: &DetectedContact) -> bool {
         if dot(first.stand.normal, second.stand.normal) > SAME_WAY {
             return false;
         }
@@ -358,7 +366,7 @@ impl Check<'_> {
 }
 
 /// The constraint of a point on a face. `None` where the point is to be the master only.
-pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &Touch) -> Option<Constraint> {
+pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &DetectedContact) -> Option<Constraint> {
     let face = touch.face as usize;
     // A point without faces of its own cannot be the master of anything.
     let share = if faces.around(point).is_empty() { 1.0 } else { pairing.share };

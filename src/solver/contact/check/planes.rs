@@ -3,12 +3,12 @@
 use crate::model::{Friction, RigidSurface};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{dot, subtract};
 
 /// One point that a plane watches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlanePoint {
+pub struct PlaneNode {
     /// Number of the watch among all.
     pub number: u32,
     /// The point.
@@ -25,10 +25,10 @@ fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
     dot(subtract(position, plane.point), plane.normal)
 }
 
-impl PlanePoint {
+impl PlaneNode {
     /// A point at its initial position.
-    pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlanePoint {
-        PlanePoint {
+    pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlaneNode {
+        PlaneNode {
             number: 0,
             point,
             plane: number as u32,
@@ -42,7 +42,7 @@ impl PlanePoint {
     pub fn constraint(
         &mut self,
         planes: &[RigidSurface],
-        points: &Points,
+        points: &NodeMotion,
         size: f64,
         always: bool,
     ) -> Option<Constraint> {

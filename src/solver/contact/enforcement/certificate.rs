@@ -11,7 +11,7 @@
 //! have filled: sinking in against a force takes the energy that lifting gives back. What contact takes when bodies land on
 //! each other never enters, nor does friction. So the sum of W over all steps is never positive.
 
-use super::constraint::{Constraint, State};
+use super::constraint::{Constraint, ConstraintState};
 use crate::comm::ExactSum;
 use crate::vector::{dot, subtract};
 
@@ -86,7 +86,7 @@ pub struct Terms(pub [f64; COUNT]);
 
 impl Terms {
     /// The terms of one constraint whose forces are final; `change` is the relative velocity that all forces give it.
-    pub fn of(c: &Constraint, state: &State, change: [f64; 3]) -> Terms {
+    pub fn of(c: &Constraint, state: &ConstraintState, change: [f64; 3]) -> Terms {
         let (push, drag) = (c.carried.push, c.carried.drag);
         let along = dot(change, c.normal);
         let mut terms = [0.0; COUNT];

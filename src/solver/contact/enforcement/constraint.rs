@@ -3,7 +3,7 @@
 use super::carried::Carried;
 use super::certificate::{Target, sunk};
 use crate::model::Friction;
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};
 
 /// Points that one constraint can join: a point and four corners.
@@ -55,20 +55,20 @@ impl Constraint {
     }
 
     /// Relative velocity of its members: Σ w v, over the step without contact, and over the step before.
-    pub fn velocities(&self, points: &Points) -> [[f64; 3]; 2] {
-        let of = |velocity: fn(&Points, u32) -> [f64; 3]| {
+    pub fn velocities(&self, points: &NodeMotion) -> [[f64; 3]; 2] {
+        let of = |velocity: fn(&NodeMotion, u32) -> [f64; 3]| {
             self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(points, point as u32), weight)))
         };
-        [of(Points::velocity), of(Points::velocity_before)]
+        [of(NodeMotion::velocity), of(NodeMotion::velocity_before)]
     }
 
     /// Relative velocity that forces give its members.
-    pub fn change(&self, moved: &[Moved]) -> [f64; 3] {
+    pub fn change(&self, moved: &[Response]) -> [f64; 3] {
         self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)))
     }
 
     /// Goes only a part of the way along the ray of the forces, which give it the velocity `change` in all.
-    pub fn shorten(&mut self, state: &State, change: [f64; 3], ray: f64, drift: f64) {
+    pub fn shorten(&mut self, state: &ConstraintState, change: [f64; 3], ray: f64, drift: f64) {
         let Carried { sunk: before, push, drag } = self.carried;
         let along = ray * dot(change, self.normal);
         let sunk = sunk(before, self.gap + drift * along, state.free + along, drift);
@@ -78,7 +78,7 @@ impl Constraint {
 
 /// A point in the course of the passes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Moved {
+pub struct Response {
     /// Change of velocity that the forces make.
     pub change: [f64; 3],
     /// Sum of what the active constraints weigh at the point.
@@ -87,7 +87,7 @@ pub struct Moved {
 
 /// A constraint in the course of the passes.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct State {
+pub struct ConstraintState {
     /// Reduced mass of the constraint alone, times its share; 0 where nothing can be moved.
     pub strength: f64,
     /// For each member, |w| times what a unit force along the normal does to it, and to what slides.

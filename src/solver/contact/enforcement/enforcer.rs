@@ -17,12 +17,12 @@
 
 use super::carried::Carried;
 use super::certificate::{Sums, Target, Terms, tangential};
-use super::constraint::{Constraint, Moved, State};
+use super::constraint::{Constraint, ConstraintState, Response};
 use super::iterations::{Limits, Outcome, Times};
 use super::ledger::Ledger;
-use super::other_ranks::Others;
+use super::other_ranks::OtherRanks;
 use crate::solver::constraints::StepTimes;
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};
 
 /// Part of the last step's force with which the passes begin. Where they end early, force follows overlap with the lag
@@ -47,10 +47,10 @@ pub struct Enforcer {
     pub normal_force: Vec<[f64; 3]>,
     /// Friction forces on the points.
     pub friction_force: Vec<[f64; 3]>,
-    pub(super) moved: Vec<Moved>,
+    pub(super) moved: Vec<Response>,
     /// Forces and loads while they are summed.
-    sums: Vec<Moved>,
-    pub(super) states: Vec<State>,
+    sums: Vec<Response>,
+    pub(super) states: Vec<ConstraintState>,
     /// Rays of single points, where the ledger is theirs.
     rays: Vec<Terms>,
     /// Points of the constraints, ascending.
@@ -69,8 +69,8 @@ impl Enforcer {
         Enforcer {
             normal_force: vec![[0.0; 3]; points],
             friction_force: vec![[0.0; 3]; points],
-            moved: vec![Moved::default(); points],
-            sums: vec![Moved::default(); points],
+            moved: vec![Response::default(); points],
+            sums: vec![Response::default(); points],
             is_member: vec![false; points],
             ..Default::default()
         }
@@ -81,10 +81,10 @@ impl Enforcer {
     pub fn solve(
         &mut self,
         constraints: &mut [Constraint],
-        points: &Points,
+        points: &NodeMotion,
         step: &StepTimes,
         limits: Limits,
-        (ledger, others): (Ledger, &mut dyn Others),
+        (ledger, others): (Ledger, &mut dyn OtherRanks),
     ) -> Outcome {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
@@ -119,24 +119,24 @@ impl Enforcer {
     fn settle(
         &mut self,
         constraints: &mut [Constraint],
-        points: &Points,
+        points: &NodeMotion,
         times: Times,
         ledger: Ledger,
-        others: &mut dyn Others,
+        others: &mut dyn OtherRanks,
     ) {
-        if let Ledger::Nobody = ledger {
+        if let Ledger::Unlimited = ledger {
             return;
         }
         self.scatter(constraints, points, times, others);
         let granted = ledger.granted();
         let mut all = Sums::default();
         self.rays.clear();
-        if let Ledger::Points = ledger {
+        if let Ledger::EachNode = ledger {
             self.rays.resize(self.moved.len(), Terms::default());
         }
         for (c, state) in constraints.iter().zip(&self.states).filter(|(c, _)| c.carried.push > 0.0) {
             match ledger {
-                Ledger::Points => self.rays[c.members[0] as usize].add(&Terms::of(c, state, c.change(&self.moved))),
+                Ledger::EachNode => self.rays[c.members[0] as usize].add(&Terms::of(c, state, c.change(&self.moved))),
                 _ if state.own => all.add(&Terms::of(c, state, c.change(&self.moved))),
                 _ => (),
             }
@@ -155,13 +155,13 @@ impl Enforcer {
     }
 
     /// Change of velocity that the forces make at a point.
-    pub fn change(&self, point: usize, points: &Points, kick: f64) -> [f64; 3] {
+    pub fn change(&self, point: usize, points: &NodeMotion, kick: f64) -> [f64; 3] {
         let (force, m) = (add(self.normal_force[point], self.friction_force[point]), points.inverse_mass[point]);
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
     }
 
     /// What does not change in the passes, of each constraint.
-    pub fn states(&mut self) -> &mut Vec<State> {
+    pub fn states(&mut self) -> &mut Vec<ConstraintState> {
         &mut self.states
     }
 
@@ -180,13 +180,13 @@ impl Enforcer {
 
     /// Finds what does not change in the passes, and the friction of the last step in the new planes; before
     /// [`Enforcer::solve`].
-    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &Points, drift: f64, ledger: &Ledger) {
+    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &NodeMotion, drift: f64, ledger: &Ledger) {
         self.states.clear();
         let granted = ledger.granted();
         for c in constraints {
             let Carried { push, drag, .. } = c.carried;
             (c.carried.push, c.carried.drag) = (BEGINNING * push, scaled(drag, BEGINNING));
-            let mut state = State { own: true, ..Default::default() };
+            let mut state = ConstraintState { own: true, ..Default::default() };
             let (mut inverse, mut isotropic) = (0.0, 0.0);
             for (i, (point, w)) in c.parts().enumerate() {
                 let m = points.inverse_mass[point];
@@ -199,7 +199,7 @@ impl Enforcer {
             let [free, before] = c.velocities(points);
             (state.free, state.before) = (dot(free, c.normal), dot(before, c.normal));
             state.target = match ledger {
-                Ledger::Nobody => Target { least: state.free - c.gap / drift, ..Default::default() },
+                Ledger::Unlimited => Target { least: state.free - c.gap / drift, ..Default::default() },
                 _ => Target::of(c, [state.before, state.free], drift),
             };
             // Where all members are held there is nothing to move.
@@ -235,9 +235,9 @@ impl Enforcer {
     pub(super) fn scatter(
         &mut self,
         constraints: &[Constraint],
-        points: &Points,
+        points: &NodeMotion,
         times: Times,
-        others: &mut dyn Others,
+        others: &mut dyn OtherRanks,
     ) {
         for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
             let force = add(scaled(c.normal, c.carried.push), c.carried.drag);
@@ -253,7 +253,7 @@ impl Enforcer {
             // What others answer for comes from them.
             let Some(m) = points.inverse_mass.get(p) else { continue };
             let ([x, y, z], k) = (sum.change, times.kick);
-            self.moved[p] = Moved { change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
+            self.moved[p] = Response { change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
         }
         others.share(&mut self.moved);
     }

@@ -2,10 +2,10 @@
 
 use super::carried::Carried;
 use super::certificate::tangential;
-use super::constraint::{Constraint, Moved, State};
+use super::constraint::{Constraint, ConstraintState, Response};
 use super::enforcer::Enforcer;
-use super::other_ranks::Others;
-use crate::solver::contact::geometry::motion::Points;
+use super::other_ranks::OtherRanks;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled, subtract};
 
 /// Passes go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks in while
@@ -50,11 +50,11 @@ impl Enforcer {
     pub(super) fn passes(
         &mut self,
         constraints: &mut [Constraint],
-        points: &Points,
+        points: &NodeMotion,
         times: Times,
         limits: Limits,
         wanted: bool,
-        others: &mut dyn Others,
+        others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
         let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
         let [deepest, depth, motion] = self.extent(constraints, times.drift);
@@ -107,7 +107,7 @@ impl Momentum {
 
 /// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
 /// part `ahead`. How far it moves, a length.
-fn correct(c: &mut Constraint, state: &mut State, moved: &[Moved], times: Times, ahead: f64) -> f64 {
+fn correct(c: &mut Constraint, state: &mut ConstraintState, moved: &[Response], times: Times, ahead: f64) -> f64 {
     let change = c.change(moved);
     let gap = state.closing + times.drift * dot(change, c.normal);
     let Carried { push: tried, drag: tried_drag, .. } = c.carried;

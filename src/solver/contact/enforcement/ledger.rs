@@ -8,9 +8,9 @@ pub enum Ledger<'a> {
     Bank(&'a mut Bank),
     /// The constraints of each point are for themselves: rigid planes alone. What motion has made of an overlap is lifted without a
     /// bank; there is no other side that could drive it.
-    Points,
+    EachNode,
     /// Nobody: nodes are moved before the run, without velocities.
-    Nobody,
+    Unlimited,
 }
 
 impl Ledger<'_> {
@@ -18,7 +18,7 @@ impl Ledger<'_> {
     pub(super) fn granted(&self) -> Granted {
         match self {
             Ledger::Bank(bank) => bank.granted(),
-            Ledger::Points | Ledger::Nobody => [1.0; 2],
+            Ledger::EachNode | Ledger::Unlimited => [1.0; 2],
         }
     }
 }

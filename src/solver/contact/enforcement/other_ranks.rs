@@ -1,19 +1,19 @@
 //! What the enforcement on one rank asks of the other ranks.
 
 use super::certificate::Sums;
-use super::constraint::{Constraint, Moved, State};
+use super::constraint::{Constraint, ConstraintState, Response};
 
 /// Numbers of which all ranks learn the largest in a pass: how much it moved, whether anybody wants it, and of the overlaps
 /// that motion has made so far the deepest in face sizes, the deepest, and the farthest motion of the step.
 pub const VOTES: usize = 6;
 
 /// What ranks tell each other in the course of the passes; nothing on one rank.
-pub trait Others {
+pub trait OtherRanks {
     /// Appends the constraints of others that act on points which this rank answers for, and sends them those that act on
     /// theirs.
-    fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<State>);
+    fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>);
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
-    fn share(&mut self, moved: &mut [Moved]);
+    fn share(&mut self, moved: &mut [Response]);
     /// The largest of all ranks' values, of each kind.
     fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES];
     /// Replaces sums by those over all ranks.
@@ -23,12 +23,12 @@ pub trait Others {
 }
 
 /// There are no others.
-pub struct Alone;
+pub struct NoOtherRanks;
 
-impl Others for Alone {
-    fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<State>) {}
+impl OtherRanks for NoOtherRanks {
+    fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<ConstraintState>) {}
 
-    fn share(&mut self, _: &mut [Moved]) {}
+    fn share(&mut self, _: &mut [Response]) {}
 
     fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES] {
         values

@@ -1,6 +1,6 @@
 //! The faces of contact.
 
-use super::motion::Points;
+use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
 use crate::mesh::Connectivity;
@@ -123,7 +123,7 @@ impl Faces {
 
     /// Corner positions at the present state.
     #[inline]
-    pub fn start(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
+    pub fn start(&self, face: u32, points: &NodeMotion) -> [[f64; 3]; 4] {
         // Written out, as `map` would be a call for every corner.
         let [a, b, c, d] = self.corners[face as usize];
         [points.start(a), points.start(b), points.start(c), points.start(d)]
@@ -131,13 +131,13 @@ impl Faces {
 
     /// Corner positions at the end of the step without contact.
     #[inline]
-    pub fn end(&self, face: u32, points: &Points) -> [[f64; 3]; 4] {
+    pub fn end(&self, face: u32, points: &NodeMotion) -> [[f64; 3]; 4] {
         let [a, b, c, d] = self.corners[face as usize];
         [points.end(a), points.end(b), points.end(c), points.end(d)]
     }
 
     /// Sum of the area normals of the faces around a point: which way its body faces there.
-    pub fn point_normal(&self, point: u32, points: &Points) -> [f64; 3] {
+    pub fn point_normal(&self, point: u32, points: &NodeMotion) -> [f64; 3] {
         self.around(point).iter().fold([0.0; 3], |sum, &face| {
             let normal = area_normal(&self.start(face, points));
             [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]

@@ -1,6 +1,6 @@
 //! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
 
-use super::swept_box::{Bounds, Outside};
+use super::swept_box::{Outside, SweptBox};
 use crate::lanes::{InstructionSet, Vectors};
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.
@@ -9,14 +9,14 @@ pub type Four = [f64; 4];
 /// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
-struct Motion {
+struct PointMotion {
     /// Position at the present state.
     start: Four,
     /// Velocity over the coming step as it would be without contact.
     velocity: Four,
 }
 
-impl Motion {
+impl PointMotion {
     /// Position at the end of a step of length `drift`.
     #[inline(always)]
     fn end(&self, drift: f64) -> Four {
@@ -25,18 +25,18 @@ impl Motion {
 
     /// Box around the way to that end, seen from an origin.
     #[inline(always)]
-    fn way_to(&self, end: Four, origin: Four) -> Bounds {
+    fn way_to(&self, end: Four, origin: Four) -> SweptBox {
         let seen = |at: Four| std::array::from_fn(|i| at[i] - origin[i]);
-        Bounds::of_way(seen(self.start), seen(end))
+        SweptBox::of_way(seen(self.start), seen(end))
     }
 }
 
 /// Contact points, in the order of the mesh's nodes.
 #[derive(Debug, Clone, Default)]
-pub struct Points {
-    motion: Vec<Motion>,
+pub struct NodeMotion {
+    motion: Vec<PointMotion>,
     /// Box around the way over that step, seen from the origin.
-    pub ways: Vec<Bounds>,
+    pub ways: Vec<SweptBox>,
     /// Velocity over the step before.
     before: Vec<[f64; 3]>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
@@ -86,13 +86,13 @@ fn three([x, y, z, _]: Four) -> [f64; 3] {
     [x, y, z]
 }
 
-impl Points {
+impl NodeMotion {
     /// So many points, all at zero. Their boxes are seen from `origin`, near which they should be.
-    pub fn new(count: usize, origin: [f64; 3]) -> Points {
-        Points {
+    pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
+        NodeMotion {
             origin,
-            motion: vec![Motion::default(); count],
-            ways: vec![Bounds::EVERYTHING; count],
+            motion: vec![PointMotion::default(); count],
+            ways: vec![SweptBox::EVERYTHING; count],
             before: vec![[0.0; 3]; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
@@ -101,7 +101,7 @@ impl Points {
         }
     }
 
-    /// Near which they are; see [`Points::new`].
+    /// Near which they are; see [`NodeMotion::new`].
     pub fn origin(&self) -> [f64; 3] {
         self.origin
     }
@@ -125,7 +125,7 @@ impl Points {
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
         self.before[point] = before;
-        let motion = Motion { start: four(start), velocity: four(velocity) };
+        let motion = PointMotion { start: four(start), velocity: four(velocity) };
         let end = motion.end(self.drift);
         self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
         (self.motion[point], self.ways[point]) = (motion, motion.way_to(end, four(self.origin)));
@@ -133,7 +133,7 @@ impl Points {
 
     /// Puts a point where another of the same step is, and lets it go the same way.
     #[inline]
-    pub fn copy(&mut self, point: usize, others: &Points, other: usize) {
+    pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
         self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
         (self.motion[point], self.ways[point]) = (motion, others.ways[other]);
@@ -142,7 +142,7 @@ impl Points {
 
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
-    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
+    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[SweptBox]) -> bool {
         match self.instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
@@ -158,18 +158,22 @@ impl Points {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn set_all_avx2(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
+    unsafe fn set_all_avx2(
+        &mut self,
+        motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
+        homes: &[SweptBox],
+    ) -> bool {
         self.set_each(motions, homes)
     }
 
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[Bounds]) -> bool {
+    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[SweptBox]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
         let places = self.motion.iter_mut().zip(&mut self.ways).zip(&mut self.before).zip(&self.counts).zip(homes);
         for (((((before, way), slow), &counts), home), (start, velocity, last)) in places.zip(motions) {
-            let motion = Motion { start, velocity };
+            let motion = PointMotion { start, velocity };
             let end = motion.end(drift);
             longest.take([before.start, start, end], counts);
             *way = motion.way_to(end, origin);

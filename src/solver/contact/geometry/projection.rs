@@ -18,7 +18,7 @@ pub const TIE: f64 = 1e-3;
 
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stand {
+pub struct Projection {
     /// Distance along the normal, negative behind the face.
     pub gap: f64,
     /// Unit normal, outwards.
@@ -65,7 +65,7 @@ pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
 }
 
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
-pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
+pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
     let middle = centre(corners);
     // Written out: `map` of the arrays would be calls.
     let &[a, b, c, d] = corners;
@@ -105,7 +105,7 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Stand> {
         normal = blended;
         gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
     }
-    gap.is_finite().then_some(Stand { gap, normal, weights, outside, sector })
+    gap.is_finite().then_some(Projection { gap, normal, weights, outside, sector })
 }
 
 /// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
@@ -130,7 +130,7 @@ fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], no
 ///
 /// Forces act at the beginning of a step, on the positions there; along the normal of its end they have no moment when
 /// the shares are these. The gap at the end is the same with all shares of points in the plane.
-pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], stand: &Stand) -> Option<[f64; 4]> {
+pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], stand: &Projection) -> Option<[f64; 4]> {
     let middle = centre(corners);
     let next = (stand.sector + 1) % 4;
     let (e1, e2, r) =

@@ -8,7 +8,7 @@ const OUTWARDS: f32 = 4e-7;
 /// A box along the axes: its low corner, then its high corner with the sign changed, so that joining is a minimum and
 /// growing a difference in all places.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds([f32; 8]);
+pub struct SweptBox([f32; 8]);
 
 /// The smaller of two numbers, without a say for those that are none: half the instructions of `f32::min`.
 #[inline(always)]
@@ -16,19 +16,19 @@ fn smaller(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
 
-impl Bounds {
+impl SweptBox {
     /// The box that every other touches.
-    pub const EVERYTHING: Bounds = Bounds([f32::NEG_INFINITY; 8]);
+    pub const EVERYTHING: SweptBox = SweptBox([f32::NEG_INFINITY; 8]);
 
     /// A box around the way from one place to another.
     #[inline]
-    pub fn around(start: [f64; 3], end: [f64; 3]) -> Bounds {
-        Bounds::of_way(four(start), four(end))
+    pub fn around(start: [f64; 3], end: [f64; 3]) -> SweptBox {
+        SweptBox::of_way(four(start), four(end))
     }
 
     /// The same in whole vectors.
     #[inline(always)]
-    pub fn of_way(start: Four, end: Four) -> Bounds {
+    pub fn of_way(start: Four, end: Four) -> SweptBox {
         let single = |x: Four| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
         let (start, end) = (single(start), single(end));
         let outwards = |x: f32| x - x.abs() * OUTWARDS - f32::MIN_POSITIVE;
@@ -38,14 +38,14 @@ impl Bounds {
             low[i] = outwards(smaller(start[i], end[i]));
             high[i] = outwards(smaller(-start[i], -end[i]));
         }
-        Bounds(bounds)
+        SweptBox(bounds)
     }
 
     /// The box around four others, grown by a margin.
     #[inline]
-    pub fn joined([a, b, c, d]: [&Bounds; 4], margin: f32) -> Bounds {
+    pub fn joined([a, b, c, d]: [&SweptBox; 4], margin: f32) -> SweptBox {
         let margin = margin * (1.0 + OUTWARDS);
-        Bounds(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
+        SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
 
     /// Its low and its high corner.
@@ -58,7 +58,7 @@ impl Bounds {
     /// common. Boxes around what is not a number in single precision, coordinates beyond 1e38 among them, may be apart
     /// from nothing.
     #[inline]
-    pub fn distance(&self, other: &Bounds) -> f32 {
+    pub fn distance(&self, other: &SweptBox) -> f32 {
         // Without short cuts, so that it is a few instructions on vectors.
         let apart: [f32; 8] = std::array::from_fn(|i| self.0[i] + other.0[(i + 4) % 8]);
         let larger = |a: f32, b: f32| if b > a { b } else { a };
@@ -74,7 +74,7 @@ pub struct Outside([f32; 8]);
 impl Outside {
     /// Looks at a box and the one in which it is to be.
     #[inline(always)]
-    pub fn take(&mut self, own: &Bounds, home: &Bounds) {
+    pub fn take(&mut self, own: &SweptBox, home: &SweptBox) {
         for i in 0..8 {
             // What is not a number is not larger than anything, and so never chosen.
             let beyond = home.0[i] - own.0[i];
@@ -93,8 +93,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    impl Bounds {
-        fn meets(&self, other: &Bounds) -> bool {
+    impl SweptBox {
+        fn meets(&self, other: &SweptBox) -> bool {
             self.distance(other) <= 0.0
         }
     }
@@ -104,27 +104,27 @@ mod tests {
         fn what_touches_is_never_missed(
             a in prop::array::uniform3(-1e3..1e3), b in prop::array::uniform3(-1e3..1e3), margin in 0.0f32..10.0,
         ) {
-            let place = Bounds::around(a, a);
-            prop_assert!(place.meets(&Bounds::around(a, b)) && Bounds::around(b, a).meets(&place));
+            let place = SweptBox::around(a, a);
+            prop_assert!(place.meets(&SweptBox::around(a, b)) && SweptBox::around(b, a).meets(&place));
             // A face with one corner exactly the margin away.
-            let away = Bounds::around([a[0] + f64::from(margin), a[1], a[2]], [a[0] + f64::from(margin), a[1], a[2]]);
-            prop_assert!(Bounds::joined([&away; 4], margin).meets(&place));
+            let away = SweptBox::around([a[0] + f64::from(margin), a[1], a[2]], [a[0] + f64::from(margin), a[1], a[2]]);
+            prop_assert!(SweptBox::joined([&away; 4], margin).meets(&place));
         }
 
         #[test]
         fn what_is_apart_does_not_meet(a in prop::array::uniform3(-1.0..1.0), axis in 0usize..3, gap in 1e-5..10.0) {
             let mut b = a;
             b[axis] += gap;
-            let distance = f64::from(Bounds::around(a, a).distance(&Bounds::around(b, b)));
+            let distance = f64::from(SweptBox::around(a, a).distance(&SweptBox::around(b, b)));
             prop_assert!(distance > 0.0 && distance <= gap && distance > gap - 2e-5);
         }
     }
 
     #[test]
     fn what_is_not_a_number_meets_everything() {
-        let nowhere = Bounds::around([f64::NAN; 3], [f64::NAN; 3]);
-        assert!(nowhere.meets(&Bounds::around([0.0; 3], [1.0; 3])) && nowhere.meets(&nowhere));
-        assert!(Bounds::around([1e300; 3], [0.0; 3]).meets(&Bounds::around([1e40; 3], [1e50; 3])));
-        assert!(Bounds::around([1.0; 3], [1.0; 3]).meets(&Bounds::EVERYTHING));
+        let nowhere = SweptBox::around([f64::NAN; 3], [f64::NAN; 3]);
+        assert!(nowhere.meets(&SweptBox::around([0.0; 3], [1.0; 3])) && nowhere.meets(&nowhere));
+        assert!(SweptBox::around([1e300; 3], [0.0; 3]).meets(&SweptBox::around([1e40; 3], [1e50; 3])));
+        assert!(SweptBox::around([1.0; 3], [1.0; 3]).meets(&SweptBox::EVERYTHING));
     }
 }

@@ -3,24 +3,24 @@
 use super::regional::Regional;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
-use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::layout::{Layout, inverse};
-use crate::solver::contact::local_problem::{Arena, Cast};
-use crate::solver::contact::search::neighbourhood::Found;
+use crate::solver::contact::local_problem::{LocalProblem, Numbering};
+use crate::solver::contact::search::neighbourhood::SearchResult;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Who must know of whose points in the passes.
 #[derive(Default)]
-pub struct Contract {
+pub struct CommunicationPlan {
     /// Points that this rank is the home of, and on which constraints may act.
-    pub here: Chosen,
+    pub here: NumberSet,
     /// Points that go to each rank, and that come from each.
     pub send: BTreeMap<u32, BTreeSet<u32>>,
     pub receive: BTreeMap<u32, BTreeSet<u32>>,
     /// Ranks with constraints that act on points of both.
     pub partners: BTreeSet<u32>,
     /// Candidate faces, and homes of ends of candidate edges.
-    faces: Chosen,
+    faces: NumberSet,
     end_homes: BTreeMap<u32, u32>,
     /// Homes that must know points of another: which home has the point, which must know it, and the point.
     deliveries: Vec<(u32, u32, u32)>,
@@ -28,11 +28,11 @@ pub struct Contract {
 
 /// Some of the numbers below a bound.
 #[derive(Default)]
-pub struct Chosen(Vec<bool>);
+pub struct NumberSet(Vec<bool>);
 
-impl Chosen {
-    fn none_of(count: usize) -> Chosen {
-        Chosen(vec![false; count])
+impl NumberSet {
+    fn none_of(count: usize) -> NumberSet {
+        NumberSet(vec![false; count])
     }
 
     /// Chooses a number. Whether it was not chosen before.
@@ -47,13 +47,21 @@ impl Chosen {
     }
 }
 
-impl Contract {
+impl CommunicationPlan {
     /// From the candidates of this rank and what others say of theirs.
-    pub fn new(layout: &Layout, found: &Found, regional: &Regional, comm: &mut dyn Communicator) -> Contract {
+    pub fn new(
+        layout: &Layout,
+        found: &SearchResult,
+        regional: &Regional,
+        comm: &mut dyn Communicator,
+    ) -> CommunicationPlan {
         let me = comm.rank() as u32;
         let [points, faces] = [layout.nodes.len(), layout.faces.len()];
-        let mut contract =
-            Contract { here: Chosen::none_of(points), faces: Chosen::none_of(faces), ..Default::default() };
+        let mut contract = CommunicationPlan {
+            here: NumberSet::none_of(points),
+            faces: NumberSet::none_of(faces),
+            ..Default::default()
+        };
         let face_places = inverse(regional.faces.ids.iter().copied(), faces);
         for (i, &point) in found.watched.iter().enumerate() {
             contract.here.choose(point);
@@ -108,7 +116,7 @@ impl Contract {
     }
 
     /// The home of each point of an arena that constraints may act on, `me` for all others; by places in the arena.
-    pub fn homes(&self, me: u32, layout: &Layout, regional: &Regional, arena: &Arena) -> Vec<u32> {
+    pub fn homes(&self, me: u32, layout: &Layout, regional: &Regional, arena: &LocalProblem) -> Vec<u32> {
         let mut homes = vec![me; arena.cast.points.len() + arena.cast.ghosts.len()];
         let mut note = |point: u32, home: u32| {
             if let Some(of) = homes.get_mut(arena.place(point) as usize) {
@@ -143,9 +151,9 @@ impl Contract {
 }
 
 /// Everything that the check of these candidates looks at.
-pub fn cast(layout: &Layout, found: &Found, contract: &Contract, watches: &[PlanePoint]) -> Cast {
+pub fn cast(layout: &Layout, found: &SearchResult, contract: &CommunicationPlan, watches: &[PlaneNode]) -> Numbering {
     let faces = &layout.faces;
-    let [mut chosen, mut points] = [faces.len(), layout.nodes.len()].map(Chosen::none_of);
+    let [mut chosen, mut points] = [faces.len(), layout.nodes.len()].map(NumberSet::none_of);
     let mut edges: Vec<u32> = found.pairs.iter().flatten().copied().collect();
     edges.sort_unstable();
     edges.dedup();
@@ -162,5 +170,5 @@ pub fn cast(layout: &Layout, found: &Found, contract: &Contract, watches: &[Plan
     found.watched.iter().copied().chain(others).for_each(|point| _ = points.choose(point));
     let come = contract.receive.values().flatten().copied();
     let ghosts: BTreeSet<u32> = come.filter(|&point| !points.0[point as usize]).collect();
-    Cast { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }
+    Numbering { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }
 }

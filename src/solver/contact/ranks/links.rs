@@ -1,50 +1,56 @@
 //! Messages in the passes: what homes tell each other of constraints that act on points of both.
 
-use super::contract::Contract;
-use super::traffic::{Letters, Pattern};
+use super::contract::CommunicationPlan;
+use super::traffic::{MessagePattern, VariableMessages};
 use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::certificate::Sums;
-use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Moved, Origin, State};
-use crate::solver::contact::enforcement::other_ranks::{Others, VOTES};
-use crate::solver::contact::local_problem::Cast;
+use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState, MEMBERS, Origin, Response};
+use crate::solver::contact::enforcement::other_ranks::{OtherRanks, VOTES};
+use crate::solver::contact::local_problem::Numbering;
 
 /// What homes tell each other in a step.
 #[derive(Default)]
-pub struct Links {
+pub struct IterationMessages {
     rank: u32,
     /// Home of each point of the arena, where constraints may act on it.
     homes: Vec<u32>,
     /// Points by number of the layout: those of the arena, then its ghosts.
     points: Vec<u32>,
     ghosts: Vec<u32>,
-    shares: Pattern,
-    letters: Letters,
+    shares: MessagePattern,
+    letters: VariableMessages,
 }
 
-impl Links {
+impl IterationMessages {
     /// The messages of `contract` between points of an arena with this cast, whose homes are given by their places.
-    pub fn new(rank: u32, homes: Vec<u32>, cast: &Cast, shares: Pattern, contract: &Contract) -> Links {
-        let letters = Letters::new(contract.partners.iter().map(|&rank| rank as usize));
-        Links { rank, homes, points: cast.points.clone(), ghosts: cast.ghosts.clone(), shares, letters }
+    pub fn new(
+        rank: u32,
+        homes: Vec<u32>,
+        cast: &Numbering,
+        shares: MessagePattern,
+        contract: &CommunicationPlan,
+    ) -> IterationMessages {
+        let letters = VariableMessages::new(contract.partners.iter().map(|&rank| rank as usize));
+        IterationMessages { rank, homes, points: cast.points.clone(), ghosts: cast.ghosts.clone(), shares, letters }
     }
 
     /// With the means to send them.
-    pub fn over<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> Linked<'a> {
-        Linked { links: self, comm }
+    pub fn over<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> IterationExchange<'a> {
+        IterationExchange { links: self, comm }
     }
 }
 
 /// What homes tell each other, with the means to do it.
-pub struct Linked<'a> {
-    links: &'a mut Links,
+pub struct IterationExchange<'a> {
+    links: &'a mut IterationMessages,
     comm: &'a mut dyn Communicator,
 }
 
-impl Others for Linked<'_> {
-    fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<State>) {
-        let Links { rank, homes, points, ghosts, letters, .. } = &mut *self.links;
+impl OtherRanks for IterationExchange<'_> {
+    fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>) {
+        let IterationMessages { rank, homes, points, ghosts, letters, .. } = &mut *self.links;
         let number = |point: u32| match points.get(point as usize) {
             Some(&number) => number,
             None => ghosts[point as usize - points.len()],
@@ -58,7 +64,7 @@ impl Others for Linked<'_> {
             .filter(|(_, c)| c.parts().any(|(point, _)| homes[point] != *rank))
             .map(|(i, c)| (i, c.members.map(number)))
             .collect();
-        let mut come: Vec<(Constraint, State)> = Vec::new();
+        let mut come: Vec<(Constraint, ConstraintState)> = Vec::new();
         letters.exchange(
             |to, letter| {
                 for (i, members) in own.iter().filter(|(i, _)| acts_on(&constraints[*i], to as u32)) {
@@ -74,14 +80,14 @@ impl Others for Linked<'_> {
         }
     }
 
-    fn share(&mut self, moved: &mut [Moved]) {
+    fn share(&mut self, moved: &mut [Response]) {
         self.links.shares.exchange(
             moved,
             |moved, point| {
-                let Moved { change: [x, y, z], load } = moved[point as usize];
+                let Response { change: [x, y, z], load } = moved[point as usize];
                 [x, y, z, load]
             },
-            |moved, point, [x, y, z, load]| moved[point as usize] = Moved { change: [x, y, z], load },
+            |moved, point, [x, y, z, load]| moved[point as usize] = Response { change: [x, y, z], load },
             self.comm,
         );
     }
@@ -104,7 +110,7 @@ impl Others for Linked<'_> {
 /// Numbers of a constraint on its way.
 const COPY: usize = 36 + 2 * MEMBERS;
 
-fn pack(c: &Constraint, state: &State, members: [u32; MEMBERS]) -> [f64; COPY] {
+fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f64; COPY] {
     let mut v = Vec::with_capacity(COPY);
     v.extend(members.map(f64::from));
     v.extend(c.weights);
@@ -134,10 +140,10 @@ fn pack(c: &Constraint, state: &State, members: [u32; MEMBERS]) -> [f64; COPY] {
     v.try_into().unwrap_or([0.0; COPY])
 }
 
-fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, State) {
+fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, ConstraintState) {
     let three = |at: usize| [v[at], v[at + 1], v[at + 2]];
     let (a, b) = (v[29] as u32, v[30] as u32);
-    let mut state = State { strength: v[26], slip: three(16), closing: v[22], ..Default::default() };
+    let mut state = ConstraintState { strength: v[26], slip: three(16), closing: v[22], ..Default::default() };
     state.softness.as_flattened_mut().copy_from_slice(&v[31..31 + 2 * MEMBERS]);
     let constraint = Constraint {
         members: [0, 1, 2, 3, 4].map(|i| place(v[i] as u32)),

@@ -2,7 +2,7 @@
 
 use crate::comm::Communicator;
 use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
-use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
@@ -25,7 +25,7 @@ impl Regional {
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),
         layout: &Layout,
-        sites: &Sites,
+        sites: &ContactNodes,
         comm: &mut dyn Communicator,
     ) -> Regional {
         let size = comm.size();

@@ -6,21 +6,21 @@
 //! until the next search. In between, only motion travels to the homes, changes of velocity between homes in the passes,
 //! and forces back.
 //!
-//! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`Contract`] says who must know of whose
-//! points in the passes, and [`Links`] are these messages.
+//! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`CommunicationPlan`] says who must know of whose
+//! points in the passes, and [`IterationMessages`] are these messages.
 
-use super::contract::{Contract, cast};
-use super::links::{Linked, Links};
+use super::contract::{CommunicationPlan, cast};
+use super::links::{IterationExchange, IterationMessages};
 use super::regional::Regional;
 use super::routing::route;
-use super::traffic::{Lists, Pattern};
+use super::traffic::{Lists, MessagePattern};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
-use crate::solver::contact::check::planes::PlanePoint;
-use crate::solver::contact::contact_nodes::{ANSWER, FORCES, STATUS, Site, Sites};
+use crate::solver::contact::check::planes::PlaneNode;
+use crate::solver::contact::contact_nodes::{ANSWER, ContactNode, ContactNodes, FORCES, STATUS};
 use crate::solver::contact::layout::{ABSENT, Layout};
-use crate::solver::contact::local_problem::{Arena, History};
+use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::search::{Search, neighbourhood};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -48,18 +48,18 @@ pub struct Remote {
     /// How points are shared out, and the cuts of the last time.
     method: ContactDecomposition,
     cuts: Option<Bisection>,
-    motion: Pattern,
+    motion: MessagePattern,
     /// Ways of the answers to other ranks.
-    answers: Pattern,
+    answers: MessagePattern,
     /// For every point of the arena that may be pushed and is at home here, its site here; else [`ABSENT`].
     own: Vec<u32>,
-    links: Links,
+    links: IterationMessages,
 }
 
 impl Remote {
     /// Gets to know the others. `is_here` says whether the element of a face is on this rank. All ranks call it.
     pub fn new(
-        (layout, sites): (&Layout, &Sites),
+        (layout, sites): (&Layout, &ContactNodes),
         method: ContactDecomposition,
         is_here: impl Fn(u32) -> bool,
         comm: &mut dyn Communicator,
@@ -89,10 +89,10 @@ impl Remote {
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
             method,
             cuts: None,
-            motion: Pattern::default(),
-            answers: Pattern::default(),
+            motion: MessagePattern::default(),
+            answers: MessagePattern::default(),
             own: Vec::new(),
-            links: Links::default(),
+            links: IterationMessages::default(),
         }
     }
 
@@ -102,7 +102,13 @@ impl Remote {
     }
 
     /// Brings the motion of a step to the homes.
-    pub fn send_motion(&mut self, sites: &mut Sites, arena: &mut Arena, drift: f64, comm: &mut dyn Communicator) {
+    pub fn send_motion(
+        &mut self,
+        sites: &mut ContactNodes,
+        arena: &mut LocalProblem,
+        drift: f64,
+        comm: &mut dyn Communicator,
+    ) {
         arena.points.begin(drift);
         self.motion.exchange_others(
             &mut (sites, arena),
@@ -120,7 +126,7 @@ impl Remote {
     }
 
     /// Brings the forces that contact has found to the nodes.
-    pub fn send_forces(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
+    pub fn send_forces(&mut self, sites: &mut ContactNodes, arena: &LocalProblem, comm: &mut dyn Communicator) {
         sites.pushed.clear();
         self.answers.exchange(
             &mut (&mut *sites, arena),
@@ -150,7 +156,7 @@ impl Remote {
     }
 
     /// Brings the rest of what contact has found in this step to the nodes that other ranks push: only output asks for it.
-    pub fn send_rest(&mut self, sites: &mut Sites, arena: &Arena, comm: &mut dyn Communicator) {
+    pub fn send_rest(&mut self, sites: &mut ContactNodes, arena: &LocalProblem, comm: &mut dyn Communicator) {
         self.answers.exchange(
             &mut (sites, arena),
             |(_, arena), point| -> [f64; ANSWER - FORCES] {
@@ -162,7 +168,7 @@ impl Remote {
     }
 
     /// What homes tell each other, for one step.
-    pub fn others<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> Linked<'a> {
+    pub fn others<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> IterationExchange<'a> {
         self.links.over(comm)
     }
 
@@ -170,29 +176,29 @@ impl Remote {
     pub fn decompose(
         &mut self,
         search: &mut dyn Search,
-        problem: (&Layout, &[PlanePoint], f64),
-        sites: &mut Sites,
+        problem: (&Layout, &[PlaneNode], f64),
+        sites: &mut ContactNodes,
         history: History,
         comm: &mut dyn Communicator,
-    ) -> Arena {
+    ) -> LocalProblem {
         let (layout, watches, depth) = problem;
         sites.homes = self.find_homes(sites, comm);
         let history = self.forward(layout, sites, watches, history, comm);
         let regional = Regional::gather((&self.faces, &self.edges), layout, sites, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];
         let found = neighbourhood::find(search, lists, |edge| regional.own_edges.binary_search(&edge).is_ok(), layout);
-        let contract = Contract::new(layout, &found, &regional, comm);
-        let is_own = |watch: &&PlanePoint| regional.points.ids.binary_search(&watch.point).is_ok();
-        let watches: Vec<PlanePoint> = watches.iter().filter(is_own).copied().collect();
+        let contract = CommunicationPlan::new(layout, &found, &regional, comm);
+        let is_own = |watch: &&PlaneNode| regional.points.ids.binary_search(&watch.point).is_ok();
+        let watches: Vec<PlaneNode> = watches.iter().filter(is_own).copied().collect();
         let cast = cast(layout, &found, &contract, &watches);
-        let mut arena = Arena::new(cast, found, depth, layout, &watches);
+        let mut arena = LocalProblem::new(cast, found, depth, layout, &watches);
         self.connect((layout, sites), &mut arena, &contract, &regional, &watches, comm);
         arena.restore(history);
         arena
     }
 
     /// The new home of every site.
-    fn find_homes(&mut self, sites: &Sites, comm: &mut dyn Communicator) -> Vec<u32> {
+    fn find_homes(&mut self, sites: &ContactNodes, comm: &mut dyn Communicator) -> Vec<u32> {
         let axes = match self.method {
             ContactDecomposition::Bisection => Axes::Widest,
             ContactDecomposition::Slices => Axes::One,
@@ -211,7 +217,7 @@ impl Remote {
         let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
         let balanced = dynamic::balance(&places, &ids, &own_weights, axes, earlier, comm);
         let cuts = self.cuts.insert(balanced.bisection);
-        let owner = |(at, site): (u32, &Site)| cuts.owner(sites.points.start(at), site.point);
+        let owner = |(at, site): (u32, &ContactNode)| cuts.owner(sites.points.start(at), site.point);
         (0..).zip(&sites.list).map(owner).collect()
     }
 
@@ -219,8 +225,8 @@ impl Remote {
     fn forward(
         &self,
         layout: &Layout,
-        sites: &Sites,
-        watches: &[PlanePoint],
+        sites: &ContactNodes,
+        watches: &[PlaneNode],
         history: History,
         comm: &mut dyn Communicator,
     ) -> History {
@@ -233,11 +239,11 @@ impl Remote {
     /// Makes the patterns of messages until the next search.
     fn connect(
         &mut self,
-        (layout, sites): (&Layout, &Sites),
-        arena: &mut Arena,
-        contract: &Contract,
+        (layout, sites): (&Layout, &ContactNodes),
+        arena: &mut LocalProblem,
+        contract: &CommunicationPlan,
         regional: &Regional,
-        watches: &[PlanePoint],
+        watches: &[PlaneNode],
         comm: &mut dyn Communicator,
     ) {
         self.connect_motion(sites, arena, comm);
@@ -250,13 +256,19 @@ impl Remote {
         let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
             lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| arena.place(p)).collect())).collect()
         };
-        let shares = Pattern::new(places(&contract.send), places(&contract.receive), rank);
+        let shares = MessagePattern::new(places(&contract.send), places(&contract.receive), rank);
         let homes = contract.homes(rank as u32, layout, regional, arena);
-        self.links = Links::new(rank as u32, homes, &arena.cast, shares, contract);
+        self.links = IterationMessages::new(rank as u32, homes, &arena.cast, shares, contract);
     }
 
     /// Tells every other rank that has the node of a point which may be pushed that forces will come for it.
-    fn connect_answers(&mut self, pushed: &[u32], sites: &Sites, arena: &Arena, comm: &mut dyn Communicator) {
+    fn connect_answers(
+        &mut self,
+        pushed: &[u32],
+        sites: &ContactNodes,
+        arena: &LocalProblem,
+        comm: &mut dyn Communicator,
+    ) {
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(comm.size(), 0);
         let mut send = Lists::new();
@@ -269,7 +281,7 @@ impl Remote {
         let records = parcels.exchange(comm);
         let site = |point: &u32| sites.of(*point).map(|site| site as u32);
         let receive = by_sender(&records, |ids| ids.iter().filter_map(site).collect());
-        self.answers = Pattern::new(send, receive, comm.rank());
+        self.answers = MessagePattern::new(send, receive, comm.rank());
         // Few are pushed: those that are at home here need not all be asked.
         self.own = vec![ABSENT; arena.cast.points.len()];
         for point in pushed {
@@ -280,7 +292,7 @@ impl Remote {
     }
 
     /// Asks the owners for the motion of all points of the arena, and for their masses.
-    fn connect_motion(&mut self, sites: &Sites, arena: &mut Arena, comm: &mut dyn Communicator) {
+    fn connect_motion(&mut self, sites: &ContactNodes, arena: &mut LocalProblem, comm: &mut dyn Communicator) {
         let (rank, size) = (comm.rank(), comm.size());
         let mut parcels = Parcels::new(size, 0);
         let mut receive = Lists::new();
@@ -292,7 +304,7 @@ impl Remote {
         let records = parcels.exchange(comm);
         let site = |point: &u32| sites.of(*point).map(|site| site as u32);
         let send = by_sender(&records, |ids| ids.iter().filter_map(site).collect());
-        self.motion = Pattern::new(send, receive, rank);
+        self.motion = MessagePattern::new(send, receive, rank);
         self.motion.exchange(
             &mut (sites, arena),
             |(sites, _), site| sites.points.inverse_mass[site as usize],

@@ -2,11 +2,11 @@
 
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
-use crate::solver::contact::check::edge_edge::PastPair;
-use crate::solver::contact::check::node_face::{NONE, Past, TOUCHES, UNTOUCHED};
-use crate::solver::contact::check::planes::PlanePoint;
+use crate::solver::contact::check::edge_edge::EdgeContact;
+use crate::solver::contact::check::node_face::{FaceContact, NONE, TOUCHES, UNTOUCHED};
+use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::enforcement::carried::{Carried, WIDTH};
-use crate::solver::contact::local_problem::{History, Watched};
+use crate::solver::contact::local_problem::{History, PlaneHistory};
 use std::ops::Range;
 
 /// Numbers that tell what a point touches.
@@ -23,7 +23,7 @@ pub fn route(
     history: History,
     rank: impl Fn(u32) -> u32,
     end_of: impl Fn(u32) -> u32,
-    watches: &[PlanePoint],
+    watches: &[PlaneNode],
     comm: &mut dyn Communicator,
 ) -> History {
     let size = comm.size();
@@ -48,7 +48,7 @@ pub fn route(
     come.edges.extend((0..records.len()).map(|i| {
         let v = records.values(i);
         let pair = [records.ids[i], v[0] as u32];
-        PastPair { pair, sense: v[1], allowed: v[2], carried: Carried::from_slice(&v[3..]) }
+        EdgeContact { pair, sense: v[1], allowed: v[2], carried: Carried::from_slice(&v[3..]) }
     }));
     let of = |number: u32| rank(watches[number as usize].point);
     come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
@@ -57,10 +57,10 @@ pub fn route(
 
 /// Sends every watch of a plane to some `ranks`. All ranks call it.
 pub fn share_planes(
-    planes: &[Watched],
+    planes: &[PlaneHistory],
     ranks: impl Fn(u32) -> Range<u32>,
     comm: &mut dyn Communicator,
-) -> Vec<Watched> {
+) -> Vec<PlaneHistory> {
     let mut parcels = Parcels::new(comm.size(), WIDTH);
     for (number, carried) in planes {
         ranks(*number).for_each(|rank| parcels.add(rank, *number, &carried.to_array()));
@@ -70,13 +70,17 @@ pub fn share_planes(
     (0..records.len()).map(watched).collect()
 }
 
-fn pack_past(past: Past) -> [f64; PAST] {
+fn pack_past(past: FaceContact) -> [f64; PAST] {
     let [sunk, push, x, y, z] = past.carried.to_array();
     // The mark of no face is beyond all faces and exact in a double.
     [f64::from(past.face), past.allowed, sunk, push, x, y, z]
 }
 
-fn unpack_past(v: &[f64]) -> Past {
+fn unpack_past(v: &[f64]) -> FaceContact {
     let face = v[0] as u32;
-    Past { face: if face == u32::MAX { NONE } else { face }, allowed: v[1], carried: Carried::from_slice(&v[2..]) }
+    FaceContact {
+        face: if face == u32::MAX { NONE } else { face },
+        allowed: v[1],
+        carried: Carried::from_slice(&v[2..]),
+    }
 }

@@ -8,7 +8,7 @@ pub type Lists = BTreeMap<usize, Vec<u32>>;
 
 /// Which entries go where.
 #[derive(Debug, Clone, Default)]
-pub struct Pattern {
+pub struct MessagePattern {
     peers: Vec<Peer>,
     send: Vec<Vec<u32>>,
     receive: Vec<Vec<u32>>,
@@ -16,15 +16,15 @@ pub struct Pattern {
     own: Vec<(u32, u32)>,
 }
 
-impl Pattern {
+impl MessagePattern {
     /// A pattern that sends `send` and receives `receive`. Lists of this rank itself are copied.
-    pub fn new(mut send: Lists, mut receive: Lists, rank: usize) -> Pattern {
+    pub fn new(mut send: Lists, mut receive: Lists, rank: usize) -> MessagePattern {
         let [from, to] = [send.remove(&rank), receive.remove(&rank)].map(Option::unwrap_or_default);
         let mut ranks: Vec<usize> = send.keys().chain(receive.keys()).copied().collect();
         ranks.sort_unstable();
         ranks.dedup();
         let lists = |of: &mut Lists| ranks.iter().map(|rank| of.remove(rank).unwrap_or_default()).collect();
-        Pattern {
+        MessagePattern {
             own: from.into_iter().zip(to).collect(),
             send: lists(&mut send),
             receive: lists(&mut receive),
@@ -78,16 +78,16 @@ impl Pattern {
 
 /// Messages whose length differs from step to step, between ranks that know each other.
 #[derive(Debug, Clone, Default)]
-pub struct Letters {
+pub struct VariableMessages {
     peers: Vec<Peer>,
     lengths: Vec<Peer>,
 }
 
-impl Letters {
+impl VariableMessages {
     /// Between this rank and others, each of which names this one.
-    pub fn new(ranks: impl IntoIterator<Item = usize>) -> Letters {
+    pub fn new(ranks: impl IntoIterator<Item = usize>) -> VariableMessages {
         let peers: Vec<Peer> = ranks.into_iter().map(|rank| Peer { rank, ..Default::default() }).collect();
-        Letters { lengths: peers.clone(), peers }
+        VariableMessages { lengths: peers.clone(), peers }
     }
 
     /// Sends to each rank what `fill` writes for it, and hands what has come to `read`, by ascending rank.

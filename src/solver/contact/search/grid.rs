@@ -3,7 +3,7 @@
 
 use super::sizes::{CLASSES, Sizes, present};
 use super::{Box3, Candidates, Search, lowest_start};
-use crate::solver::contact::geometry::swept_box::Bounds;
+use crate::solver::contact::geometry::swept_box::SweptBox;
 
 /// Edge of a cell in typical sizes of the class that looks through it.
 const CELL: f64 = 0.7;
@@ -63,7 +63,7 @@ struct Cells {
     starts: Vec<u32>,
     /// Boxes by bucket: their indices, boxes around them in single precision, and their cells along y and z.
     members: Vec<u32>,
-    bounds: Vec<Bounds>,
+    bounds: Vec<SweptBox>,
     rows: Vec<[i32; 2]>,
     /// Members of a run that may overlap.
     hits: Vec<u32>,
@@ -100,14 +100,14 @@ impl Cells {
             *start = end;
         }
         self.members.resize(self.chosen.len(), 0);
-        self.bounds.resize(self.chosen.len(), Bounds::EVERYTHING);
+        self.bounds.resize(self.chosen.len(), SweptBox::EVERYTHING);
         self.rows.resize(self.chosen.len(), [0; 2]);
         for (index, bucket) in self.chosen.iter().rev() {
             let start = &mut self.starts[*bucket as usize];
             *start -= 1;
             self.members[*start as usize] = *index;
             let one = &boxes[*index as usize];
-            self.bounds[*start as usize] = Bounds::around(one.low, one.high);
+            self.bounds[*start as usize] = SweptBox::around(one.low, one.high);
             self.rows[*start as usize] = [cell(self.inverse, one.low[1]), cell(self.inverse, one.low[2])];
         }
     }
@@ -136,7 +136,7 @@ impl Cells {
                 visit(member);
             }
         };
-        let bounds = Bounds::around(of.low, of.high);
+        let bounds = SweptBox::around(of.low, of.high);
         let more = ((last[0] - first[0]) as u32).min(self.mask);
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
@@ -151,7 +151,7 @@ impl Cells {
     }
 
     /// Visits the boxes that may overlap `of` in buckets `from` to `to`, but for those of other rows in the same buckets.
-    fn visit_run(&mut self, from: u32, to: u32, row: [i32; 2], of: &Bounds, visit: &mut impl FnMut(u32)) {
+    fn visit_run(&mut self, from: u32, to: u32, row: [i32; 2], of: &SweptBox, visit: &mut impl FnMut(u32)) {
         let run = self.starts[from as usize] as usize..self.starts[to as usize + 1] as usize;
         if self.hits.len() < run.len() {
             self.hits.resize(run.len(), 0);

@@ -1,13 +1,13 @@
 //! Location: which points come near which faces, and which edges each other, in a step, of those that the last search has
 //! found.
 
-use super::neighbourhood::Found;
-use crate::solver::contact::check::node_face::{NONE, Past, TOUCHES};
+use super::neighbourhood::SearchResult;
+use crate::solver::contact::check::node_face::{FaceContact, NONE, TOUCHES};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::Points;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::area_normal;
-use crate::solver::contact::geometry::swept_box::Bounds;
+use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::vector::{dot, subtract};
 
 /// Points and faces that may touch.
@@ -32,7 +32,7 @@ pub enum Rule {
 
 /// A face near a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Near {
+pub struct Candidate {
     /// The face.
     pub face: u32,
     /// The interface to which the two belong.
@@ -59,11 +59,11 @@ pub struct Locator {
     /// Points with candidates, ascending, and where their candidates begin.
     watched: Vec<u32>,
     first: Vec<u32>,
-    near: Vec<Near>,
+    near: Vec<Candidate>,
     /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
-    outlooks: Vec<Outlook>,
+    outlooks: Vec<SleepState>,
     /// How far things must have gone in all until a watched point may have anything near at all.
     quiet: Vec<f64>,
     /// How far things have gone in all, counted as if the fastest point of each step were always the same.
@@ -79,7 +79,7 @@ pub struct Locator {
 
 /// What is to be expected of a watched point's candidates.
 #[derive(Debug, Clone, Copy, Default)]
-struct Outlook {
+struct SleepState {
     /// How far things must have gone in all until a candidate that sleeps may be near.
     due: f64,
     /// Candidates that do not sleep, a bit each. Those beyond the last bit never do.
@@ -107,7 +107,7 @@ const BORDER: f64 = 0.01;
 #[derive(Default)]
 struct CaptureBoxes {
     step: u32,
-    faces: Vec<(u32, Bounds)>,
+    faces: Vec<(u32, SweptBox)>,
 }
 
 impl CaptureBoxes {
@@ -116,18 +116,18 @@ impl CaptureBoxes {
         if self.step == 1 || self.faces.len() != faces {
             self.step = 1;
             self.faces.clear();
-            self.faces.resize(faces, (0, Bounds::EVERYTHING));
+            self.faces.resize(faces, (0, SweptBox::EVERYTHING));
         }
     }
 
     /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
     #[inline]
-    fn of(&mut self, face: u32, faces: &Faces, points: &Points, margin: f64) -> Bounds {
+    fn of(&mut self, face: u32, faces: &Faces, points: &NodeMotion, margin: f64) -> SweptBox {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
             let way = |point: u32| &points.ways[point as usize];
-            *bounds = Bounds::joined([way(a), way(b), way(c), way(d)], (margin * faces.depth[face as usize]) as f32);
+            *bounds = SweptBox::joined([way(a), way(b), way(c), way(d)], (margin * faces.depth[face as usize]) as f32);
             *step = self.step;
         }
         *bounds
@@ -136,7 +136,7 @@ impl CaptureBoxes {
 
 impl Locator {
     /// Takes over what a search has found, in numbers of the arena.
-    pub fn new(found: Found, depth: f64, points: &Points, faces: &Faces, edges: &[Edge]) -> Locator {
+    pub fn new(found: SearchResult, depth: f64, points: &NodeMotion, faces: &Faces, edges: &[Edge]) -> Locator {
         let mut is_moving = vec![false; points.len()];
         for &edge in found.pairs.iter().flatten() {
             edges[edge as usize].ends.iter().for_each(|&end| is_moving[end as usize] = true);
@@ -147,7 +147,7 @@ impl Locator {
         }
         Locator {
             depth,
-            outlooks: vec![Outlook::default(); found.watched.len()],
+            outlooks: vec![SleepState::default(); found.watched.len()],
             quiet: vec![0.0; found.watched.len()],
             moving: (0..points.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
             watched: found.watched,
@@ -161,7 +161,7 @@ impl Locator {
     }
 
     /// Begins a step.
-    pub fn step(&mut self, points: &Points, faces: &Faces) {
+    pub fn step(&mut self, points: &NodeMotion, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
         // On one rank what counts in the longest way is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
@@ -171,7 +171,7 @@ impl Locator {
     }
 
     /// The farthest that a point which matters will go in this step, along an axis.
-    fn longest_way(&self, points: &Points) -> f64 {
+    fn longest_way(&self, points: &NodeMotion) -> f64 {
         let ways = self.moving.iter().flat_map(|&point| points.path(point).1).map(f64::abs);
         // A way that is not a number leaves nobody at rest.
         ways.fold(0.0, |longest, way| if way <= f64::MAX { way.max(longest) } else { f64::INFINITY })
@@ -189,21 +189,28 @@ impl Locator {
 
     /// Finds the candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
-    pub fn near(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES], near: &mut Vec<Near>) {
+    pub fn near(
+        &mut self,
+        i: usize,
+        points: &NodeMotion,
+        faces: &Faces,
+        past: &[FaceContact; TOUCHES],
+        near: &mut Vec<Candidate>,
+    ) {
         near.clear();
         // Written so that it does not rest where what has gone is not a number.
         let rests = self.gone + self.last_way < self.outlooks[i].due;
         if !rests {
             self.look_out(i, points, faces, past);
         }
-        let Outlook { mut awake, held, .. } = self.outlooks[i];
+        let SleepState { mut awake, held, .. } = self.outlooks[i];
         let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
         let own = points.ways[self.watched[i] as usize];
         let capture_boxes = &mut self.capture_boxes;
-        let mut look = |candidate: &Near| {
+        let mut look = |candidate: &Candidate| {
             let way = capture_boxes.of(candidate.face, faces, points, self.depth);
             if own.distance(&way) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
@@ -232,7 +239,7 @@ impl Locator {
         let outlook = &mut self.outlooks[i];
         if outlook.held != held {
             // Other candidates matter to it than before.
-            *outlook = Outlook { held, ..Outlook::default() };
+            *outlook = SleepState { held, ..SleepState::default() };
             self.quiet[i] = 0.0;
         }
     }
@@ -253,7 +260,7 @@ impl Locator {
     }
 
     /// Finds which candidates of the `i`-th watched point may sleep, and for how long.
-    fn look_out(&mut self, i: usize, points: &Points, faces: &Faces, past: &[Past; TOUCHES]) {
+    fn look_out(&mut self, i: usize, points: &NodeMotion, faces: &Faces, past: &[FaceContact; TOUCHES]) {
         let point = self.watched[i];
         let held = past[0].face != NONE;
         let own = points.ways[point as usize];
@@ -282,7 +289,7 @@ impl Locator {
             rest = rest.min(LOOK * sleep);
         }
         let due = self.gone + rest;
-        self.outlooks[i] = Outlook { due, awake, held };
+        self.outlooks[i] = SleepState { due, awake, held };
         self.quiet[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
     }
 
@@ -297,7 +304,7 @@ impl Locator {
 ///
 /// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
 /// later, as long as nobody has gone half this distance.
-fn separation([point, face]: [u32; 2], points: &Points, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
+fn separation([point, face]: [u32; 2], points: &NodeMotion, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
     let (start, end) = (faces.start(face, points), faces.end(face, points));
     let normal = area_normal(&start);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -1,8 +1,8 @@
 //! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
 
-use super::locate::{Interface, Near};
+use super::locate::{Candidate, Interface};
 use crate::solver::contact::check::edge_edge;
-use crate::solver::contact::contact_nodes::Sites;
+use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::{Box3, Candidates, Search};
@@ -26,25 +26,25 @@ impl Boxes {
 
 /// What a search finds, by the numbers of the layout.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// Points with candidates, ascending.
     pub watched: Vec<u32>,
     /// Where the candidates of each begin in `near`; one more than there are points.
     pub first: Vec<u32>,
     /// Candidates, faces ascending.
-    pub near: Vec<Near>,
+    pub near: Vec<Candidate>,
     /// Pairs of edges that may cross, ascending; the first stands out, and has the lower number where both do.
     pub pairs: Vec<[u32; 2]>,
 }
 
 /// Box in which a site stays until the next search.
-fn around(sites: &Sites, site: usize) -> Box3 {
+fn around(sites: &ContactNodes, site: usize) -> Box3 {
     let [low, high] = sites.reach(site);
     Box3 { low, high }
 }
 
 /// Boxes of some sites.
-pub fn point_boxes(sites: &Sites) -> Boxes {
+pub fn point_boxes(sites: &ContactNodes) -> Boxes {
     let mut points = Boxes::default();
     for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
         points.push(site.point, around(sites, i));
@@ -53,7 +53,7 @@ pub fn point_boxes(sites: &Sites) -> Boxes {
 }
 
 /// Boxes of some faces, whose corners are sites.
-pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
+pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for face in faces {
         let corners = layout.faces.corners[face as usize].map(|corner| sites.of(corner));
@@ -64,7 +64,7 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &Sit
 }
 
 /// Boxes of those of some edges that take part, whose ends are sites.
-pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &Sites) -> Boxes {
+pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for edge in edges.filter(|&edge| layout.takes_part(edge)) {
         let one = &layout.edges[edge as usize];
@@ -81,16 +81,16 @@ pub fn find(
     [points, faces, edges]: [&Boxes; 3],
     mine: impl Fn(u32) -> bool,
     layout: &Layout,
-) -> Found {
+) -> SearchResult {
     let candidates: Vec<(Vec<u32>, Candidates)> =
         (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
-    let mut found = Found { pairs: crossings(search, edges, mine, layout), ..Default::default() };
+    let mut found = SearchResult { pairs: crossings(search, edges, mine, layout), ..Default::default() };
     for (place, &point) in points.ids.iter().enumerate() {
         let begin = found.near.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
             let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
             let strangers = near.filter(|&face| !layout.faces.same_element(face, point));
-            found.near.extend(strangers.map(|face| Near { face, interface: number as u32 }));
+            found.near.extend(strangers.map(|face| Candidate { face, interface: number as u32 }));
         }
         if found.near.len() > begin {
             keep_first(&mut found.near, begin);
@@ -127,7 +127,7 @@ fn of_interface(
 }
 
 /// Puts the candidates of one point in order. Of interfaces that name the same pair, the first holds.
-fn keep_first(near: &mut Vec<Near>, begin: usize) {
+fn keep_first(near: &mut Vec<Candidate>, begin: usize) {
     near[begin..].sort_by_key(|near| (near.face, near.interface));
     let mut kept = begin + 1;
     for i in begin + 1..near.len() {

@@ -2,7 +2,7 @@
 
 use super::{Symptom, When};
 use crate::comm::{Communicator, numbers_of_others};
-use crate::solver::contact::Sunk;
+use crate::solver::contact::EmbeddedNode;
 use crate::solver::health::finding::{Evidence, Spot};
 use crate::solver::health::place::{elements, first_of_all, node_id};
 use crate::solver::health::watch::Exam;
@@ -32,7 +32,7 @@ const DEEP: f64 = 0.5;
 
 /// What has sunk into elements of this rank. A node between elements is as deep as the element says in which it is least
 /// so: at a hollow edge the others have no outer face near it.
-fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Sunk> {
+fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
     let domain = &exam.solver.domain;
     let Some(contact) = &domain.contact else { return Vec::new() };
     let outer = contact.outer_elements();
@@ -52,7 +52,8 @@ fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Sunk> {
     if count[0] == 0 {
         return Vec::new();
     }
-    let (deep, shallow): (Vec<Sunk>, Vec<Sunk>) = found.into_iter().partition(|sunk| sunk.depth >= DEEP);
+    let (deep, shallow): (Vec<EmbeddedNode>, Vec<EmbeddedNode>) =
+        found.into_iter().partition(|sunk| sunk.depth >= DEEP);
     let shallow = of_all(shallow.iter().map(|sunk| sunk.node).collect(), comm);
     deep.into_iter().filter(|sunk| shallow.binary_search(&sunk.node).is_err()).collect()
 }

@@ -1,7 +1,7 @@
 //! Candidates that sleep change nothing: small bodies fly, meet, slide and rest with sleep and without, and every
 //! constraint, force and position must have the same bits.
 
-use super::{Locator, Outlook};
+use super::{Locator, SleepState};
 use crate::comm::Serial;
 use crate::deck::Source;
 use crate::lanes::{Force, Row};
@@ -32,7 +32,7 @@ impl Locator {
             let candidates = self.first[i + 1] - self.first[i];
             let awake = u64::MAX.checked_shr(64 - candidates.min(64)).unwrap_or(0);
             let held = held.binary_search(&self.watched[i]).is_ok();
-            *outlook = Outlook { due: f64::INFINITY, awake, held };
+            *outlook = SleepState { due: f64::INFINITY, awake, held };
         }
         self.quiet.fill(f64::NEG_INFINITY);
         self.pairs_due.fill(f64::NEG_INFINITY);
