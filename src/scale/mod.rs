@@ -79,14 +79,14 @@ pub fn count(
 /// Takes the steps on one rank.
 fn count_rank(solver: &mut Solver, steps: u64, comm: &mut Counted) -> Result<RankWork, Stop> {
     let mut work = RankWork { elements: solver.domain.element_file.len() as u64, ..RankWork::default() };
-    let mut passes = 0;
+    let mut iterations = 0;
     for _ in 0..steps {
         solver.prepare(Request::Continue, comm)?;
         if let Some(contact) = solver.domain.contact.as_ref().map(Contact::work) {
             work.contact_points += contact.points;
             work.candidates += contact.candidates;
-            work.corrections += contact.constraints * (contact.passes - passes);
-            passes = contact.passes;
+            work.corrections += contact.constraints * (contact.iterations - iterations);
+            iterations = contact.iterations;
         }
         solver.advance();
     }

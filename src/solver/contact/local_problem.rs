@@ -5,7 +5,7 @@
 
 use super::check::edge_edge::{EdgeCheck, EdgeContact, EdgeVerdict};
 use super::check::node_face;
-use super::check::node_face::{DetectedContact, FaceContact, NONE, NodeFaceCheck, TOUCHES, UNTOUCHED};
+use super::check::node_face::{DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
 use super::contact_nodes::ANSWER;
 use super::enforcement::carried::Carried;
@@ -30,7 +30,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
     /// Points and what they touch.
-    pub points: Vec<(u32, [FaceContact; TOUCHES])>,
+    pub points: Vec<(u32, [FaceContact; MAX_FACES])>,
     /// Pairs of edges that touch.
     pub edges: Vec<EdgeContact>,
     /// Watches of planes and their forces.
@@ -68,7 +68,7 @@ pub struct LocalProblem {
     edges: Vec<Edge>,
     point_block: Vec<u32>,
     rules: Vec<Rule>,
-    history: Vec<[FaceContact; TOUCHES]>,
+    history: Vec<[FaceContact; MAX_FACES]>,
     edge_history: Vec<EdgeContact>,
     planes: Vec<PlaneNode>,
     /// Constraints of this step.
@@ -81,7 +81,7 @@ pub struct LocalProblem {
     near: Vec<Candidate>,
     near_faces: Vec<u32>,
     strict: Vec<bool>,
-    touches: Vec<DetectedContact>,
+    contacts: Vec<DetectedContact>,
 }
 
 /// What a step needs to know of the problem.
@@ -142,7 +142,7 @@ impl LocalProblem {
             edges,
             point_block: cast.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
-            history: vec![UNTOUCHED; points],
+            history: vec![NO_CONTACT; points],
             planes,
             places,
             enforcer: Enforcer::new(all),
@@ -164,7 +164,7 @@ impl LocalProblem {
         for (point, past) in self.history.iter_mut().enumerate() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
             if watched.next_if(|&&next| next as usize == point).is_none() {
-                *past = UNTOUCHED;
+                *past = NO_CONTACT;
             }
         }
         self.locator = Locator::new(found, depth, &self.points, &self.faces, &self.edges);
@@ -173,7 +173,7 @@ impl LocalProblem {
     /// What is carried from step to step.
     pub fn history(&self) -> History {
         let face = |face: u32| if face == NONE { NONE } else { self.cast.faces[face as usize] };
-        let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != UNTOUCHED);
+        let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != NO_CONTACT);
         let points =
             touching.map(|(past, &point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
         let edges = self.edge_history.iter();
@@ -247,7 +247,7 @@ impl LocalProblem {
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     fn check(&mut self, pairings: &Pairings) {
         let LocalProblem { points, faces, point_block, rules, locator, history, .. } = self;
-        let LocalProblem { constraints, near, near_faces, strict, touches, .. } = self;
+        let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
         let check = NodeFaceCheck { points, faces };
         for i in 0..locator.watched().len() {
             if locator.is_quiet(i) {
@@ -258,7 +258,7 @@ impl LocalProblem {
             locator.near(i, points, faces, past, near);
             if near.is_empty() {
                 if locator.is_held(i) {
-                    *past = UNTOUCHED;
+                    *past = NO_CONTACT;
                     locator.set_held(i, false);
                 }
                 continue;
@@ -268,23 +268,23 @@ impl LocalProblem {
             strict.clear();
             strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
             // The history of the many that nothing holds need not be fetched.
-            let before = if locator.is_held(i) { *past } else { UNTOUCHED };
-            check.point(point, near_faces, strict, &before, touches);
-            if touches.is_empty() && !locator.is_held(i) {
+            let before = if locator.is_held(i) { *past } else { NO_CONTACT };
+            check.point(point, near_faces, strict, &before, contacts);
+            if contacts.is_empty() && !locator.is_held(i) {
                 continue;
             }
-            locator.set_held(i, !touches.is_empty());
-            *past = UNTOUCHED;
-            for (place, touch) in touches.iter().enumerate() {
-                let interface = near.iter().find(|near| near.face == touch.face).map_or(0, |near| near.interface);
+            locator.set_held(i, !contacts.is_empty());
+            *past = NO_CONTACT;
+            for (place, contact) in contacts.iter().enumerate() {
+                let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
-                let pairing = pairings.of(rule, point_block[point as usize], faces.block[touch.face as usize]);
-                if let Some(mut constraint) = node_face::constraint(faces, pairing, point, touch) {
-                    constraint.carried = carried_before(faces, &before, touches, touch);
+                let pairing = pairings.of(rule, point_block[point as usize], faces.block[contact.face as usize]);
+                if let Some(mut constraint) = node_face::constraint(faces, pairing, point, contact) {
+                    constraint.carried = carried_before(faces, &before, contacts, contact);
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
-                past[place] = FaceContact { face: touch.face, allowed: touch.allowed, ..UNTOUCHED[0] };
+                past[place] = FaceContact { face: contact.face, tolerated: contact.tolerated, ..NO_CONTACT[0] };
             }
         }
     }
@@ -364,7 +364,7 @@ impl LocalProblem {
     /// face), the face, and the force of planes.
     fn answer(&mut self) {
         self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
-        for c in self.constraints.iter().filter(|c| c.carried.push > 0.0) {
+        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
             for (point, _) in c.parts() {
                 let answer = &mut self.answers[point];
                 if answer[7] == 0.0 {
@@ -383,9 +383,8 @@ impl LocalProblem {
                         (first[7], first[8]) = (2.0, f64::from(self.faces.number[past as usize]));
                     }
                 }
-                Origin::Plane(_) => {
-                    (0..3).for_each(|i| first[9 + i] += c.carried.push * c.normal[i] + c.carried.drag[i])
-                }
+                Origin::Plane(_) => (0..3)
+                    .for_each(|i| first[9 + i] += c.carried.normal_force * c.normal[i] + c.carried.tangential_force[i]),
                 Origin::Edges(..) => (),
             }
         }
@@ -411,18 +410,18 @@ fn place(list: &[u32], number: u32) -> u32 {
 /// What a touch carries from the last step. A point that has slid on to the next face takes it along.
 fn carried_before(
     faces: &Faces,
-    before: &[FaceContact; TOUCHES],
-    touches: &[DetectedContact],
-    touch: &DetectedContact,
+    before: &[FaceContact; MAX_FACES],
+    contacts: &[DetectedContact],
+    contact: &DetectedContact,
 ) -> Carried {
-    let same = before.iter().find(|past| past.face == touch.face);
-    let left = |past: &&FaceContact| past.face != NONE && touches.iter().all(|touch| touch.face != past.face);
-    let beside = || before.iter().filter(left).find(|past| faces.touch(past.face, touch.face));
+    let same = before.iter().find(|past| past.face == contact.face);
+    let left = |past: &&FaceContact| past.face != NONE && contacts.iter().all(|contact| contact.face != past.face);
+    let beside = || before.iter().filter(left).find(|past| faces.adjacent(past.face, contact.face));
     same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
 }
 
 /// Pasts with the faces that are left first.
-fn tidy(mut pasts: [FaceContact; TOUCHES]) -> [FaceContact; TOUCHES] {
+fn tidy(mut pasts: [FaceContact; MAX_FACES]) -> [FaceContact; MAX_FACES] {
     pasts.sort_by_key(|past| past.face == NONE);
     pasts
 }

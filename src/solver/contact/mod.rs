@@ -284,14 +284,14 @@ impl Contact {
         }
     }
 
-    fn count(&mut self, Outcome { passes, left, deepest, depth, motion }: Outcome) {
+    fn count(&mut self, Outcome { iterations, left, deepest, depth, motion }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(motion);
         if depth > 0.0 {
             self.tally.motions = self.tally.motions.max(depth / self.tally.farthest);
         }
-        self.tally.steps += u64::from(passes > 0);
-        self.tally.passes += u64::from(passes);
+        self.tally.steps += u64::from(iterations > 0);
+        self.tally.iterations += u64::from(iterations);
         self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(left);
     }
@@ -374,12 +374,12 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
 fn limits(model: &Model, watched: &[Vec<u32>]) -> Limits {
     let control = &model.contact.control;
     if model.contact.is_some() {
-        return Limits { passes: control.passes, tolerance: control.tolerance };
+        return Limits { iterations: control.passes, tolerance: control.tolerance };
     }
     let mut nodes = watched.concat();
     nodes.sort_unstable();
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
-    Limits { passes: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
+    Limits { iterations: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
 }
 
 fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {

@@ -28,7 +28,7 @@ pub struct Tally {
     /// Steps in which anything was enforced.
     pub steps: u64,
     /// Passes in all of them.
-    pub passes: u64,
+    pub iterations: u64,
     /// Steps in which the passes ran out.
     pub capped: u64,
     /// Largest overlap that was left, as a part of the face's size.
@@ -51,7 +51,7 @@ pub struct Work {
     /// Constraints of the last step.
     pub constraints: u64,
     /// Passes over the constraints of each step, in all steps so far.
-    pub passes: u64,
+    pub iterations: u64,
 }
 
 impl Contact {
@@ -109,7 +109,7 @@ impl Contact {
             points: self.arena.cast.points.len() as u64,
             candidates: candidates as u64,
             constraints: self.arena.constraints.len() as u64,
-            passes: self.tally.passes,
+            iterations: self.tally.iterations,
         }
     }
 }

@@ -5,7 +5,7 @@
 //! that answers for the node; every rank loads all and keeps what it answers for, until the next search shares it out.
 
 use super::check::edge_edge::EdgeContact;
-use super::check::node_face::{FaceContact, NONE, UNTOUCHED};
+use super::check::node_face::{FaceContact, NO_CONTACT, NONE};
 use super::enforcement::carried::{Carried, WIDTH};
 use super::enforcement::certificate::Bank;
 use super::geometry::edges::Shape;
@@ -39,7 +39,7 @@ impl Contact {
             sites: _,
             watches: _,
             lost_work: _,
-            tally: Tally { steps, passes, capped, left, deepest, motions, farthest },
+            tally: Tally { steps, iterations, capped, left, deepest, motions, farthest },
             bank: Bank { balance, asked, work, gain: excess },
             gain,
             searches,
@@ -65,7 +65,7 @@ impl Contact {
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
             archive.count("CONTSTEPS", steps);
-            archive.count("CONTPASSES", passes);
+            archive.count("CONTPASSES", iterations);
             archive.count("CONTCAPPED", capped);
             archive.number("CONTLEFT", left);
             archive.number("CONTDEEPEST", deepest);
@@ -152,13 +152,13 @@ impl Contact {
     fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [FaceContact; 3])> {
         let mut rows = Vec::new();
         for (point, pasts) in &now.points {
-            for (slot, FaceContact { face, allowed, carried }) in
+            for (slot, FaceContact { face, tolerated, carried }) in
                 pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
             {
                 let node = f64::from(self.layout.nodes[*point as usize]);
                 rows.extend([node, slot as f64]);
                 rows.extend(self.face_key(*face));
-                rows.push(*allowed);
+                rows.push(*tolerated);
                 rows.extend(carried.to_array());
             }
         }
@@ -174,12 +174,12 @@ impl Contact {
         for row in rows.chunks_exact(TOUCH) {
             let point = self.layout.point(row[0] as u32);
             if points.last().is_none_or(|(last, _)| *last != point) {
-                points.push((point, UNTOUCHED));
+                points.push((point, NO_CONTACT));
             }
             let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
             let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
             if let (Ok(face), Some(past)) = (face, pasts) {
-                *past = FaceContact { face: faces[face].1, allowed: row[4], carried: Carried::from_slice(&row[5..]) };
+                *past = FaceContact { face: faces[face].1, tolerated: row[4], carried: Carried::from_slice(&row[5..]) };
             }
         }
         points
@@ -193,10 +193,10 @@ impl Contact {
 
     fn visit_pairs(&self, archive: &mut dyn Archive, now: &History) -> Vec<EdgeContact> {
         let mut rows = Vec::new();
-        for EdgeContact { pair, sense, allowed, carried } in &now.edges {
+        for EdgeContact { pair, sense, tolerated, carried } in &now.edges {
             let [[a, b], [c, d]] = pair.map(|edge| self.layout.edges[edge as usize].ends);
             rows.extend([a, b, c, d].map(|point| f64::from(self.layout.nodes[point as usize])));
-            rows.extend([*sense, *allowed]);
+            rows.extend([*sense, *tolerated]);
             rows.extend(carried.to_array());
         }
         archive.list("CONTEDGES", PAIR, &mut rows);
@@ -206,7 +206,7 @@ impl Contact {
         let edge = |ends: [f64; 2]| self.layout.edge(ends.map(|node| node as u32));
         let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
             let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
-            Some(EdgeContact { pair, sense: row[4], allowed: row[5], carried: Carried::from_slice(&row[6..]) })
+            Some(EdgeContact { pair, sense: row[4], tolerated: row[5], carried: Carried::from_slice(&row[6..]) })
         });
         pairs.collect()
     }

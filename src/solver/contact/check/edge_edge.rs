@@ -43,7 +43,7 @@ pub struct EdgeContact {
     /// +1 or −1.
     pub sense: f64,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
-    pub allowed: f64,
+    pub tolerated: f64,
     /// What the contact carries: forces on the first edge.
     pub carried: Carried,
 }
@@ -190,10 +190,10 @@ impl EdgeCheck<'_> {
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
-            Some(past) => EdgeContact { allowed: past.allowed.max((past.sense * end.gap).min(0.0)), ..*past },
+            Some(past) => EdgeContact { tolerated: past.tolerated.max((past.sense * end.gap).min(0.0)), ..*past },
             None => self.newcomer(pair, &end)?,
         };
-        let gap = now.sense * end.gap - now.allowed;
+        let gap = now.sense * end.gap - now.tolerated;
         let reach = end.shorter();
         if !end.between_ends((-gap).max(0.0)) || gap > KEEP * reach || gap < -DEEP * reach {
             return None;
@@ -245,16 +245,16 @@ impl EdgeCheck<'_> {
         }
         let now = match past {
             // To be pushed out would give it velocity: it is left where it is until it goes by itself.
-            Some(past) => EdgeContact { sense, allowed: past.allowed.max(gap).min(tolerated), ..*past },
+            Some(past) => EdgeContact { sense, tolerated: past.tolerated.max(gap).min(tolerated), ..*past },
             None => {
                 let before = self.gap_before(pair, &end, sense)?;
                 if gap >= tolerated || before <= -SUNK * scale {
                     return None;
                 }
-                EdgeContact { pair, sense, allowed: before.min(tolerated), carried: Carried::NOTHING }
+                EdgeContact { pair, sense, tolerated: before.min(tolerated), carried: Carried::NOTHING }
             }
         };
-        let beyond = gap - now.allowed;
+        let beyond = gap - now.tolerated;
         if beyond > SLACK * scale || beyond < -DEEP * scale {
             return None;
         }
@@ -290,7 +290,7 @@ impl EdgeCheck<'_> {
             sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
         let sense = start.gap.signum();
-        let touch = |sense, allowed| EdgeContact { pair, sense, allowed, carried: Carried::NOTHING };
+        let touch = |sense, tolerated| EdgeContact { pair, sense, tolerated, carried: Carried::NOTHING };
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
             return self.meets(pair).then_some(touch(sense, 0.0));
         }
@@ -335,7 +335,7 @@ impl EdgeCheck<'_> {
             count: MEMBERS - 1,
             normal: scaled(end.normal, now.sense),
             gap,
-            held: now.carried != Carried::NOTHING,
+            persists: now.carried != Carried::NOTHING,
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,

@@ -44,7 +44,7 @@ impl Contact {
 
     /// The nodes of all ranks that are in some of these elements, those of this rank; a node is told once for each element
     /// that it is in. All ranks call it.
-    pub fn sunk(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
+    pub fn embedded_nodes(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
         let points = self.points_of_all(nodes, comm);
         let corners = |outer: &Outer| outer.1.map(|node| nodes.position(node));
         let boxes: Vec<Box3> = elements.iter().map(|outer| Box3::around(&corners(outer))).collect();
@@ -84,8 +84,8 @@ impl Contact {
             let face = of_side.map(|corner| corners[corner]);
             let area = projection::area_normal(&face);
             // A face without area says nothing.
-            let Some(stand) = projection::stand(&face, point) else { continue };
-            least = least.min(-stand.gap * dot(area, area).sqrt() / volume);
+            let Some(projection) = projection::project(&face, point) else { continue };
+            least = least.min(-projection.gap * dot(area, area).sqrt() / volume);
         }
         least.is_finite().then_some(least)
     }

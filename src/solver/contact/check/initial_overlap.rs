@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::node_face;
-use super::node_face::{NodeFaceCheck, UNTOUCHED};
+use super::node_face::{NO_CONTACT, NodeFaceCheck};
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
@@ -140,13 +140,13 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         for c in &constraints {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
-        let limits = Limits { passes: 100, tolerance: 0.1 * NOTHING };
+        let limits = Limits { iterations: 100, tolerance: 0.1 * NOTHING };
         enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Unlimited);
         enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             let node = layout.nodes[point] as usize;
-            let there = add(points.start(point as u32), enforcer.change(point, &points, still.kick));
+            let there = add(points.start(point as u32), enforcer.velocity_change(point, &points, still.kick));
             positions[node] = within(there, mesh.coordinates[node], farthest[point]);
         }
     }
@@ -226,7 +226,8 @@ fn left(body: &Body, layout: &Layout) -> DeepOverlap {
 fn touches_a_side(body: &Body, layout: &Layout, element: u32, point: [f64; 3]) -> bool {
     let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
     let gap = |face: u32| {
-        projection::stand(&corners_of(body, layout, face), point).map_or(f64::NEG_INFINITY, |stand| stand.gap)
+        projection::project(&corners_of(body, layout, face), point)
+            .map_or(f64::NEG_INFINITY, |projection| projection.gap)
     };
     faces.into_iter().any(|face| gap(face) > -CLEARLY * layout.faces.depth[face as usize])
 }
@@ -258,8 +259,9 @@ fn bodies_of(body: &Body) -> Vec<u32> {
 /// Distance of a point to the nearest of some faces behind which it is.
 fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
     let behind = |face: u32| {
-        let stand = projection::stand(&corners_of(body, layout, face), point)?;
-        (stand.gap < 0.0 && stand.outside <= -stand.gap).then(|| stand.gap.hypot(stand.outside))
+        let projection = projection::project(&corners_of(body, layout, face), point)?;
+        (projection.gap < 0.0 && projection.outside <= -projection.gap)
+            .then(|| projection.gap.hypot(projection.outside))
     };
     let nearest = faces.filter_map(behind).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() { nearest } else { 0.0 }
@@ -307,22 +309,22 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &NodeMotion) -> Vec<Co
     let mut locator = Locator::new(found, 1.0, points, &layout.faces, &layout.edges);
     locator.step(points, &layout.faces);
     let check = NodeFaceCheck { points, faces: &layout.faces };
-    let (mut touches, mut constraints) = (Vec::new(), Vec::new());
+    let (mut contacts, mut constraints) = (Vec::new(), Vec::new());
     let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.watched().len() {
         let point = locator.watched()[i];
-        locator.near(i, points, &layout.faces, &UNTOUCHED, &mut near);
+        locator.near(i, points, &layout.faces, &NO_CONTACT, &mut near);
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
-        check.point(point, &faces, &vec![true; faces.len()], &UNTOUCHED, &mut touches);
-        for touch in &mut touches {
-            touch.allowed = 0.0;
-            let size = layout.faces.size[touch.face as usize];
-            let Some(near) = near.iter().find(|near| near.face == touch.face) else { continue };
+        check.point(point, &faces, &vec![true; faces.len()], &NO_CONTACT, &mut contacts);
+        for contact in &mut contacts {
+            contact.tolerated = 0.0;
+            let size = layout.faces.size[contact.face as usize];
+            let Some(near) = near.iter().find(|near| near.face == contact.face) else { continue };
             let rule = layout.interfaces[near.interface as usize].rule;
-            let face = layout.faces.block[touch.face as usize];
+            let face = layout.faces.block[contact.face as usize];
             let pairing = pairings.of(rule, layout.point_block[point as usize], face);
-            if touch.stand.gap < -NOTHING * size {
-                constraints.extend(node_face::constraint(&layout.faces, pairing, point, touch));
+            if contact.projection.gap < -NOTHING * size {
+                constraints.extend(node_face::constraint(&layout.faces, pairing, point, contact));
             }
         }
     }

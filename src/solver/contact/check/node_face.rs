@@ -17,7 +17,7 @@ use crate::vector::{add, dot, scaled, subtract};
 pub const NONE: u32 = u32::MAX;
 
 /// Faces that one point can touch at a time: three planes hold a point.
-pub const TOUCHES: usize = 3;
+pub const MAX_FACES: usize = 3;
 
 /// A point that has left its face by less than this part of half an element is still watched by it.
 pub const KEEP: f64 = 0.05;
@@ -48,14 +48,14 @@ pub struct FaceContact {
     /// The face, or [`NONE`].
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion; at most 0.
-    pub allowed: f64,
+    pub tolerated: f64,
     /// What the contact carries.
     pub carried: Carried,
 }
 
 /// Of a point that touches nothing.
-pub const UNTOUCHED: [FaceContact; TOUCHES] =
-    [FaceContact { face: NONE, allowed: 0.0, carried: Carried::NOTHING }; TOUCHES];
+pub const NO_CONTACT: [FaceContact; MAX_FACES] =
+    [FaceContact { face: NONE, tolerated: 0.0, carried: Carried::NOTHING }; MAX_FACES];
 
 /// A point on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,9 +67,9 @@ pub struct DetectedContact {
     /// Cosine between the normals of point and face, −1 where they are opposed.
     pub opposition: f64,
     /// Where the point would be at the end of the step; the weights are those of the forces, see `projection::shares_along`.
-    pub stand: Projection,
+    pub projection: Projection,
     /// Overlap that stays.
-    pub allowed: f64,
+    pub tolerated: f64,
 }
 
 /// How far in front of a face a point that has left it is still watched.
@@ -86,7 +86,7 @@ pub struct NodeFaceCheck<'a> {
 }
 
 impl NodeFaceCheck<'_> {
-    /// Fills `touches` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
+    /// Fills `contacts` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
     /// this step meet the point's; `past` the faces touched before.
     /// `strict[i]` says whether the `i`-th of them is met only by points one of whose own faces looks at it; the nodes of a
     /// side set do not bring all the faces of their body.
@@ -95,154 +95,168 @@ impl NodeFaceCheck<'_> {
         point: u32,
         near: &[u32],
         strict: &[bool],
-        past: &[FaceContact; TOUCHES],
-        touches: &mut Vec<DetectedContact>,
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
     ) {
-        touches.clear();
+        contacts.clear();
         if past[0].face != NONE {
-            self.watched(point, near, past, touches);
+            self.watched(point, near, past, contacts);
         }
-        let held = touches.len();
+        let held = contacts.len();
         for (&face, &strict) in near.iter().zip(strict) {
             // Faces around those that hold the point have had their turn.
-            if touches[..held].iter().all(|touch| touch.face != face && !self.faces.touch(touch.face, face)) {
-                touches.extend(self.newcomer(point, face, strict));
+            if contacts[..held].iter().all(|contact| contact.face != face && !self.faces.adjacent(contact.face, face)) {
+                contacts.extend(self.newcomer(point, face, strict));
             }
         }
-        if touches.len() > 1 {
-            self.choose(point, touches);
+        if contacts.len() > 1 {
+            self.choose(point, contacts);
         }
-        for touch in touches.iter_mut() {
-            self.blend(near, touch);
-            let (corners, start) = (self.faces.start(touch.face, self.points), self.points.start(point));
-            if let Some(shares) = projection::shares_along(&corners, start, &touch.stand) {
-                let end = self.faces.end(touch.face, self.points);
+        for contact in contacts.iter_mut() {
+            self.blend(near, contact);
+            let (corners, start) = (self.faces.start(contact.face, self.points), self.points.start(point));
+            if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
+                let end = self.faces.end(contact.face, self.points);
                 let foot = projection::foot(&end, &shares);
-                touch.stand.weights = shares;
-                touch.stand.gap = dot(subtract(self.points.end(point), foot), touch.stand.normal);
+                contact.projection.weights = shares;
+                contact.projection.gap = dot(subtract(self.points.end(point), foot), contact.projection.normal);
             }
         }
     }
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
-    fn blend(&self, near: &[u32], touch: &mut DetectedContact) {
+    fn blend(&self, near: &[u32], contact: &mut DetectedContact) {
         // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
-        if touch.stand.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
+        if contact.projection.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
             return;
         }
-        let corners = self.faces.corners[touch.face as usize];
+        let corners = self.faces.corners[contact.face as usize];
         let unit = |face: u32| {
             let normal = projection::area_normal(&self.faces.end(face, self.points));
             scaled(normal, 1.0 / dot(normal, normal).sqrt())
         };
         let shared = |face: u32| -> f64 {
             let other = self.faces.corners[face as usize];
-            corners.iter().zip(touch.stand.weights).filter(|(corner, _)| other.contains(corner)).map(|(_, w)| w).sum()
+            corners
+                .iter()
+                .zip(contact.projection.weights)
+                .filter(|(corner, _)| other.contains(corner))
+                .map(|(_, w)| w)
+                .sum()
         };
         let mut sum = [0.0; 3];
         for &face in near.iter().filter(|&&face| shared(face) > 1.0 - projection::TIE) {
             let normal = unit(face);
-            if dot(normal, touch.stand.normal) > SAME_WAY {
+            if dot(normal, contact.projection.normal) > SAME_WAY {
                 sum = add(sum, normal);
             }
         }
         let length = dot(sum, sum).sqrt();
         // The face itself is one of them.
         if length > 1.5 {
-            touch.stand.normal = scaled(sum, 1.0 / length);
+            contact.projection.normal = scaled(sum, 1.0 / length);
         }
     }
 
     fn related(&self, past: u32, face: u32) -> bool {
-        past != NONE && self.faces.touch(past, face)
+        past != NONE && self.faces.adjacent(past, face)
     }
 
-    fn stand_at_end(&self, point: u32, face: u32) -> Option<Projection> {
-        projection::stand(&self.faces.end(face, self.points), self.points.end(point))
+    fn projection_at_end(&self, point: u32, face: u32) -> Option<Projection> {
+        projection::project(&self.faces.end(face, self.points), self.points.end(point))
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
-    fn watched(&self, point: u32, near: &[u32], past: &[FaceContact; TOUCHES], touches: &mut Vec<DetectedContact>) {
+    fn watched(&self, point: u32, near: &[u32], past: &[FaceContact; MAX_FACES], contacts: &mut Vec<DetectedContact>) {
         let mut left: Option<(u32, f64, Projection)> = None;
         for past in past.iter().filter(|past| past.face != NONE && near.contains(&past.face)) {
-            let Some(stand) = self.stand_at_end(point, past.face) else { continue };
-            if stand.outside == 0.0 {
-                if self.in_reach(past.face, &stand, past.allowed) {
-                    touches.push(self.held(past.face, stand, past.allowed));
+            let Some(projection) = self.projection_at_end(point, past.face) else { continue };
+            if projection.outside == 0.0 {
+                if self.in_reach(past.face, &projection, past.tolerated) {
+                    contacts.push(self.held(past.face, projection, past.tolerated));
                 }
             } else if left.is_none() {
-                left = Some((past.face, past.allowed, stand));
+                left = Some((past.face, past.tolerated, projection));
             }
         }
-        let Some((old, allowed, stand)) = left.filter(|_| touches.is_empty()) else {
+        let Some((old, tolerated, projection)) = left.filter(|_| contacts.is_empty()) else {
             // Held where it was; of the faces around only those that fold towards the point can hold it as well.
-            return self.folds(point, near, touches);
+            return self.folds(point, near, contacts);
         };
-        let slightly = stand.outside <= HOLD * self.faces.size[old as usize];
+        let slightly = projection.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
         let mut next: Option<(u32, Projection)> = None;
         for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
-            let Some(stand) =
-                self.stand_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &stand, next))
+            let Some(projection) = self
+                .projection_at_end(point, face)
+                .filter(|next| !slightly || self.goes_on(old, face, &projection, next))
             else {
                 continue;
             };
-            behind += u32::from(stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs());
-            if stand.outside == 0.0
-                && self.in_reach(face, &stand, allowed)
-                && next.is_none_or(|(_, best)| stand.gap.abs() < best.gap.abs())
+            behind += u32::from(projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs());
+            if projection.outside == 0.0
+                && self.in_reach(face, &projection, tolerated)
+                && next.is_none_or(|(_, best)| projection.gap.abs() < best.gap.abs())
             {
-                next = Some((face, stand));
+                next = Some((face, projection));
             }
         }
         match next {
-            Some((face, stand)) => touches.push(self.held(face, stand, allowed)),
+            Some((face, projection)) => contacts.push(self.held(face, projection, tolerated)),
             // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
-            None if (slightly || behind > 0 && stand.gap < 0.0 && stand.outside <= 2.0 * stand.gap.abs())
-                && self.in_reach(old, &stand, allowed) =>
+            None if (slightly
+                || behind > 0 && projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs())
+                && self.in_reach(old, &projection, tolerated) =>
             {
-                touches.push(self.held(old, stand, allowed));
+                contacts.push(self.held(old, projection, tolerated));
             }
             None => (),
         }
     }
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
-    fn goes_on(&self, old: u32, face: u32, stand: &Projection, next: &Projection) -> bool {
+    fn goes_on(&self, old: u32, face: u32, projection: &Projection, next: &Projection) -> bool {
         let middle = |face| projection::centre(&self.faces.end(face, self.points));
-        dot(stand.normal, next.normal) > SAME_WAY || dot(subtract(middle(face), middle(old)), stand.normal) > 0.0
+        dot(projection.normal, next.normal) > SAME_WAY
+            || dot(subtract(middle(face), middle(old)), projection.normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
-    fn folds(&self, point: u32, near: &[u32], touches: &mut Vec<DetectedContact>) {
-        let held = touches.len();
+    fn folds(&self, point: u32, near: &[u32], contacts: &mut Vec<DetectedContact>) {
+        let held = contacts.len();
         for i in 0..held {
-            let old = touches[i];
+            let old = contacts[i];
             let middle = projection::centre(&self.faces.end(old.face, self.points));
-            for &face in near.iter().filter(|&&face| face != old.face && self.faces.touch(old.face, face)) {
+            for &face in near.iter().filter(|&&face| face != old.face && self.faces.adjacent(old.face, face)) {
                 let corners = self.faces.end(face, self.points);
-                let hollow = dot(subtract(projection::centre(&corners), middle), old.stand.normal) > 0.0;
-                if !hollow || self.is_in_front(point, face) || touches.iter().any(|touch| touch.face == face) {
+                let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
+                if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
                     continue;
                 }
-                let Some(stand) = projection::stand(&corners, self.points.end(point)) else { continue };
-                if stand.outside == 0.0 && stand.gap < 0.0 && self.in_reach(face, &stand, 0.0) {
-                    touches.push(self.held(face, stand, 0.0));
+                let Some(projection) = projection::project(&corners, self.points.end(point)) else { continue };
+                if projection.outside == 0.0 && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
+                    contacts.push(self.held(face, projection, 0.0));
                 }
             }
         }
     }
 
-    fn held(&self, face: u32, stand: Projection, allowed: f64) -> DetectedContact {
+    fn held(&self, face: u32, projection: Projection, tolerated: f64) -> DetectedContact {
         // What has opened does not close again for nothing.
-        DetectedContact { face, time: -1.0, opposition: 0.0, allowed: allowed.max(stand.gap.min(0.0)), stand }
+        DetectedContact {
+            face,
+            time: -1.0,
+            opposition: 0.0,
+            tolerated: tolerated.max(projection.gap.min(0.0)),
+            projection,
+        }
     }
 
     /// Neither away from the face nor so deep that it must have come from elsewhere.
-    fn in_reach(&self, face: u32, stand: &Projection, allowed: f64) -> bool {
-        stand.gap < keep(self.faces, face) + allowed && stand.gap > -self.faces.depth[face as usize]
+    fn in_reach(&self, face: u32, projection: &Projection, tolerated: f64) -> bool {
+        projection.gap < keep(self.faces, face) + tolerated && projection.gap > -self.faces.depth[face as usize]
     }
 
     /// A point that this face has not seen before.
@@ -250,15 +264,15 @@ impl NodeFaceCheck<'_> {
         if self.is_in_front(point, face) {
             return None;
         }
-        let end = projection::stand(&self.faces.end(face, self.points), self.points.end(point))
-            .filter(|stand| stand.gap < 0.0)?;
-        let start = projection::stand(&self.faces.start(face, self.points), self.points.start(point))?;
-        let touch = |time, allowed| DetectedContact { face, time, opposition: 0.0, stand: end, allowed };
+        let end = projection::project(&self.faces.end(face, self.points), self.points.end(point))
+            .filter(|projection| projection.gap < 0.0)?;
+        let start = projection::project(&self.faces.start(face, self.points), self.points.start(point))?;
+        let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
             let time = projection::first_crossing(&corners, self.points.path(point))?;
             let comes = !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
-            return comes.then(|| touch(time, 0.0));
+            return comes.then(|| contact(time, 0.0));
         }
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
@@ -267,7 +281,7 @@ impl NodeFaceCheck<'_> {
             && self.opposition(point, &end) < 0.0
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &end);
-        inside.then(|| touch(0.0, start.gap))
+        inside.then(|| contact(0.0, start.gap))
     }
 
     /// Whether a point surely is in front of a face at the end of the step.
@@ -282,7 +296,7 @@ impl NodeFaceCheck<'_> {
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
         self.beside(face).any(|other| {
-            let start = projection::stand(&self.faces.start(other, self.points), self.points.start(point));
+            let start = projection::project(&self.faces.start(other, self.points), self.points.start(point));
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
     }
@@ -319,55 +333,57 @@ impl NodeFaceCheck<'_> {
         let foot = projection::foot(&corners, &end.weights);
         self.beside(face).any(|other| {
             let (corners, reach) = (self.faces.start(other, self.points), SEAM * self.faces.size[other as usize]);
-            let near = |position| projection::stand(&corners, position).filter(|stand| stand.gap.abs() <= reach);
-            near(foot).is_some() && near(at).is_some_and(|stand| self.most_opposed(point, &stand.normal) < -FLUSH)
+            let near =
+                |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
+            near(foot).is_some()
+                && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
         })
     }
 
-    fn opposition(&self, point: u32, stand: &Projection) -> f64 {
+    fn opposition(&self, point: u32, projection: &Projection) -> f64 {
         let normal = self.faces.point_normal(point, self.points);
         let length = dot(normal, normal).sqrt();
         // A free node faces everything.
-        if length > 0.0 { dot(normal, stand.normal) / length } else { -1.0 }
+        if length > 0.0 { dot(normal, projection.normal) / length } else { -1.0 }
     }
 
     /// Puts touches in order and keeps those that push in ways of their own.
-    fn choose(&self, point: u32, touches: &mut Vec<DetectedContact>) {
-        for touch in touches.iter_mut() {
-            touch.opposition = self.opposition(point, &touch.stand);
+    fn choose(&self, point: u32, contacts: &mut Vec<DetectedContact>) {
+        for contact in contacts.iter_mut() {
+            contact.opposition = self.opposition(point, &contact.projection);
         }
-        let number = |touch: &DetectedContact| self.faces.number[touch.face as usize];
-        touches.sort_by(|a, b| {
+        let number = |contact: &DetectedContact| self.faces.number[contact.face as usize];
+        contacts.sort_by(|a, b| {
             a.time.total_cmp(&b.time).then(a.opposition.total_cmp(&b.opposition)).then(number(a).cmp(&number(b)))
         });
         let mut kept = 0;
-        for i in 0..touches.len() {
-            let touch = touches[i];
-            if kept < TOUCHES && touches[..kept].iter().all(|other| self.apart(other, &touch)) {
-                touches[kept] = touch;
+        for i in 0..contacts.len() {
+            let contact = contacts[i];
+            if kept < MAX_FACES && contacts[..kept].iter().all(|other| self.apart(other, &contact)) {
+                contacts[kept] = contact;
                 kept += 1;
             }
         }
-        touches.truncate(kept);
+        contacts.truncate(kept);
     }
 
     /// Whether a face holds a point in a way that the one chosen before does not: it pushes another way, and does not
     /// merely lie around the corner of the same body.
     fn apart(&self, first: &DetectedContact, second: &DetectedContact) -> bool {
-        if dot(first.stand.normal, second.stand.normal) > SAME_WAY {
+        if dot(first.projection.normal, second.projection.normal) > SAME_WAY {
             return false;
         }
-        if !self.faces.touch(first.face, second.face) {
+        if !self.faces.adjacent(first.face, second.face) {
             return true;
         }
         let middle = |face| projection::centre(&self.faces.end(face, self.points));
-        dot(subtract(middle(second.face), middle(first.face)), first.stand.normal) > 0.0
+        dot(subtract(middle(second.face), middle(first.face)), first.projection.normal) > 0.0
     }
 }
 
 /// The constraint of a point on a face. `None` where the point is to be the master only.
-pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &DetectedContact) -> Option<Constraint> {
-    let face = touch.face as usize;
+pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, contact: &DetectedContact) -> Option<Constraint> {
+    let face = contact.face as usize;
     // A point without faces of its own cannot be the master of anything.
     let share = if faces.around(point).is_empty() { 1.0 } else { pairing.share };
     if share <= 0.0 {
@@ -377,9 +393,9 @@ pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &DetectedC
         members: [point; MEMBERS],
         weights: [1.0; MEMBERS],
         count: MEMBERS,
-        normal: touch.stand.normal,
-        gap: touch.stand.gap - touch.allowed,
-        held: touch.time < 0.0,
+        normal: contact.projection.normal,
+        gap: contact.projection.gap - contact.tolerated,
+        persists: contact.time < 0.0,
         size: faces.size[face],
         share,
         friction: pairing.friction,
@@ -387,7 +403,7 @@ pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, touch: &DetectedC
         origin: Origin::Face(point, 0),
     };
     constraint.members[1..].copy_from_slice(&faces.corners[face]);
-    for (weight, n) in constraint.weights[1..].iter_mut().zip(touch.stand.weights) {
+    for (weight, n) in constraint.weights[1..].iter_mut().zip(contact.projection.weights) {
         *weight = -n;
     }
     Some(constraint)

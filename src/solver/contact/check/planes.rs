@@ -17,7 +17,7 @@ pub struct PlaneNode {
     pub plane: u32,
     /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
-    pub(in crate::solver::contact) allowed: f64,
+    pub(in crate::solver::contact) tolerated: f64,
     pub(in crate::solver::contact) carried: Carried,
 }
 
@@ -32,7 +32,7 @@ impl PlaneNode {
             number: 0,
             point,
             plane: number as u32,
-            allowed: gap(plane, position).min(0.0),
+            tolerated: gap(plane, position).min(0.0),
             carried: Carried::NOTHING,
         }
     }
@@ -48,7 +48,7 @@ impl PlaneNode {
     ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
         let end = points.end(self.point);
-        let gap = gap(plane, end) - self.allowed;
+        let gap = gap(plane, end) - self.tolerated;
         if gap >= 0.0 && !always {
             self.carried = Carried::NOTHING;
             return None;
@@ -59,7 +59,7 @@ impl PlaneNode {
             count: 1,
             normal: plane.normal,
             gap,
-            held: self.carried != Carried::NOTHING,
+            persists: self.carried != Carried::NOTHING,
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),

@@ -10,31 +10,31 @@ pub const WIDTH: usize = 5;
 pub struct Carried {
     /// Overlap that motion has made, a length of at least 0. Only so much may be taken out by a force: what jumped in
     /// otherwise, as when a normal turns, nobody has paid for.
-    pub sunk: f64,
+    pub penetration: f64,
     /// Normal force of the last step.
-    pub push: f64,
+    pub normal_force: f64,
     /// Friction force of the last step on the first member.
-    pub drag: [f64; 3],
+    pub tangential_force: [f64; 3],
 }
 
 impl Carried {
     /// Of a contact that is new.
-    pub const NOTHING: Carried = Carried { sunk: 0.0, push: 0.0, drag: [0.0; 3] };
+    pub const NOTHING: Carried = Carried { penetration: 0.0, normal_force: 0.0, tangential_force: [0.0; 3] };
 
     /// As numbers.
     pub fn to_array(self) -> [f64; WIDTH] {
-        let [x, y, z] = self.drag;
-        [self.sunk, self.push, x, y, z]
+        let [x, y, z] = self.tangential_force;
+        [self.penetration, self.normal_force, x, y, z]
     }
 
     /// From the first numbers of a row; missing ones are zero.
     pub fn from_slice(row: &[f64]) -> Carried {
         let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
-        Carried { sunk: at(0), push: at(1), drag: [at(2), at(3), at(4)] }
+        Carried { penetration: at(0), normal_force: at(1), tangential_force: [at(2), at(3), at(4)] }
     }
 
     /// The same contact seen from the other side.
     pub fn reversed(self) -> Carried {
-        Carried { drag: scaled(self.drag, -1.0), ..self }
+        Carried { tangential_force: scaled(self.tangential_force, -1.0), ..self }
     }
 }

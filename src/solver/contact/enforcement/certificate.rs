@@ -87,22 +87,22 @@ pub struct Terms(pub [f64; COUNT]);
 impl Terms {
     /// The terms of one constraint whose forces are final; `change` is the relative velocity that all forces give it.
     pub fn of(c: &Constraint, state: &ConstraintState, change: [f64; 3]) -> Terms {
-        let (push, drag) = (c.carried.push, c.carried.drag);
+        let (normal_force, tangential_force) = (c.carried.normal_force, c.carried.tangential_force);
         let along = dot(change, c.normal);
         let mut terms = [0.0; COUNT];
-        terms[0] = push * (state.target.least - state.free);
-        terms[1] = push * state.target.rest;
-        terms[2] = push * state.target.lift;
+        terms[0] = normal_force * (state.target.least - state.free);
+        terms[1] = normal_force * state.target.rest;
+        terms[2] = normal_force * state.target.lift;
         if state.target.lands {
-            terms[3] = 0.5 * push * (state.before + state.target.least).min(0.0);
+            terms[3] = 0.5 * normal_force * (state.before + state.target.least).min(0.0);
         }
-        terms[4] = push * along;
-        terms[6] = push * (state.before + state.free);
-        if drag != [0.0; 3] {
+        terms[4] = normal_force * along;
+        terms[6] = normal_force * (state.before + state.free);
+        if tangential_force != [0.0; 3] {
             // Friction that goes with the sliding of before may at most turn it round.
-            terms[0] -= dot(drag, state.slip_before).max(0.0) + dot(drag, state.slip);
-            terms[5] = dot(drag, change);
-            terms[7] = dot(drag, state.slip_before) + dot(drag, state.slip);
+            terms[0] -= dot(tangential_force, state.slip_before).max(0.0) + dot(tangential_force, state.slip);
+            terms[5] = dot(tangential_force, change);
+            terms[7] = dot(tangential_force, state.slip_before) + dot(tangential_force, state.slip);
         }
         Terms(terms)
     }
@@ -166,18 +166,18 @@ impl Target {
     /// The target of a constraint that would go with velocity `free` over a step of length `drift`, and has had the velocity
     /// `before`.
     pub fn of(c: &Constraint, [before, free]: [f64; 2], drift: f64) -> Target {
-        let (gap, sunk) = (c.gap, c.carried.sunk);
+        let (gap, penetration) = (c.gap, c.carried.penetration);
         let now = gap - drift * free;
-        let wanted = if now >= 0.0 || sunk >= -now {
+        let wanted = if now >= 0.0 || penetration >= -now {
             // What closes the gap exactly.
             free - gap / drift
         } else {
-            sunk / drift
+            penetration / drift
         };
         let at_rest = wanted.min(0.0);
         // Below −u⁻ work is negative for any force.
         let least = at_rest.min(-before);
-        Target { least, rest: at_rest - least, lift: wanted - at_rest, lands: now >= 0.0 && !c.held }
+        Target { least, rest: at_rest - least, lift: wanted - at_rest, lands: now >= 0.0 && !c.persists }
     }
 
     /// The target with these parts granted.
@@ -192,7 +192,7 @@ impl Target {
 }
 
 /// Overlap that motion has made, after a step to `gap` in which the contact went with velocity `after`.
-pub fn sunk(before: f64, gap: f64, after: f64, drift: f64) -> f64 {
+pub fn penetration_after(before: f64, gap: f64, after: f64, drift: f64) -> f64 {
     (before - drift * after).min(-gap).max(0.0)
 }
 

@@ -1,7 +1,7 @@
 //! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the passes.
 
 use super::carried::Carried;
-use super::certificate::{Target, sunk};
+use super::certificate::{Target, penetration_after};
 use crate::model::Friction;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};
@@ -23,7 +23,7 @@ pub struct Constraint {
     /// Gap at the end of the step without contact.
     pub gap: f64,
     /// Whether it was there in the step before; else its members meet anew.
-    pub held: bool,
+    pub persists: bool,
     /// Length that the gap is small against.
     pub size: f64,
     /// Weight of this constraint where points share their mass among several: the slave share of the partition.
@@ -63,16 +63,17 @@ impl Constraint {
     }
 
     /// Relative velocity that forces give its members.
-    pub fn change(&self, moved: &[Response]) -> [f64; 3] {
-        self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(moved[point].change, w)))
+    pub fn velocity_change(&self, responses: &[Response]) -> [f64; 3] {
+        self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(responses[point].velocity_change, w)))
     }
 
     /// Goes only a part of the way along the ray of the forces, which give it the velocity `change` in all.
-    pub fn shorten(&mut self, state: &ConstraintState, change: [f64; 3], ray: f64, drift: f64) {
-        let Carried { sunk: before, push, drag } = self.carried;
+    pub fn scale_along_ray(&mut self, state: &ConstraintState, change: [f64; 3], ray: f64, drift: f64) {
+        let Carried { penetration: before, normal_force, tangential_force } = self.carried;
         let along = ray * dot(change, self.normal);
-        let sunk = sunk(before, self.gap + drift * along, state.free + along, drift);
-        self.carried = Carried { sunk, push: ray * push, drag: scaled(drag, ray) };
+        let penetration = penetration_after(before, self.gap + drift * along, state.free + along, drift);
+        self.carried =
+            Carried { penetration, normal_force: ray * normal_force, tangential_force: scaled(tangential_force, ray) };
     }
 }
 
@@ -80,7 +81,7 @@ impl Constraint {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
     /// Change of velocity that the forces make.
-    pub change: [f64; 3],
+    pub velocity_change: [f64; 3],
     /// Sum of what the active constraints weigh at the point.
     pub load: f64,
 }

@@ -47,7 +47,7 @@ pub struct Enforcer {
     pub normal_force: Vec<[f64; 3]>,
     /// Friction forces on the points.
     pub friction_force: Vec<[f64; 3]>,
-    pub(super) moved: Vec<Response>,
+    pub(super) responses: Vec<Response>,
     /// Forces and loads while they are summed.
     sums: Vec<Response>,
     pub(super) states: Vec<ConstraintState>,
@@ -69,7 +69,7 @@ impl Enforcer {
         Enforcer {
             normal_force: vec![[0.0; 3]; points],
             friction_force: vec![[0.0; 3]; points],
-            moved: vec![Response::default(); points],
+            responses: vec![Response::default(); points],
             sums: vec![Response::default(); points],
             is_member: vec![false; points],
             ..Default::default()
@@ -89,26 +89,26 @@ impl Enforcer {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
         for (c, state) in constraints.iter().zip(&mut self.states) {
-            state.last = (c.carried.push, c.carried.drag);
-            state.active = state.strength > 0.0 && (c.carried.push > 0.0 || state.closing < 0.0);
+            state.last = (c.carried.normal_force, c.carried.tangential_force);
+            state.active = state.strength > 0.0 && (c.carried.normal_force > 0.0 || state.closing < 0.0);
         }
         // Where nothing overlaps there is nothing to do. One pass is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
         let wanted = self.states.iter().any(|state| state.closing < 0.0);
         let outcome = if wanted || others.are_there() {
-            self.passes(constraints, points, times, limits, wanted, others)
+            self.iterate(constraints, points, times, limits, wanted, others)
         } else {
             None
         };
         if outcome.is_some() {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
-                (c.carried.push, c.carried.drag) = state.last;
+                (c.carried.normal_force, c.carried.tangential_force) = state.last;
             }
             self.settle(constraints, points, times, ledger, others);
         } else {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
-                c.shorten(state, [0.0; 3], 0.0, times.drift);
+                c.scale_along_ray(state, [0.0; 3], 0.0, times.drift);
             }
         }
         self.sum_forces(constraints);
@@ -132,12 +132,14 @@ impl Enforcer {
         let mut all = Sums::default();
         self.rays.clear();
         if let Ledger::EachNode = ledger {
-            self.rays.resize(self.moved.len(), Terms::default());
+            self.rays.resize(self.responses.len(), Terms::default());
         }
-        for (c, state) in constraints.iter().zip(&self.states).filter(|(c, _)| c.carried.push > 0.0) {
+        for (c, state) in constraints.iter().zip(&self.states).filter(|(c, _)| c.carried.normal_force > 0.0) {
             match ledger {
-                Ledger::EachNode => self.rays[c.members[0] as usize].add(&Terms::of(c, state, c.change(&self.moved))),
-                _ if state.own => all.add(&Terms::of(c, state, c.change(&self.moved))),
+                Ledger::EachNode => {
+                    self.rays[c.members[0] as usize].add(&Terms::of(c, state, c.velocity_change(&self.responses)))
+                }
+                _ if state.own => all.add(&Terms::of(c, state, c.velocity_change(&self.responses))),
                 _ => (),
             }
         }
@@ -150,12 +152,12 @@ impl Enforcer {
         };
         for (c, state) in constraints.iter_mut().zip(&self.states) {
             let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(granted).min(1.0));
-            c.shorten(state, c.change(&self.moved), ray, times.drift);
+            c.scale_along_ray(state, c.velocity_change(&self.responses), ray, times.drift);
         }
     }
 
     /// Change of velocity that the forces make at a point.
-    pub fn change(&self, point: usize, points: &NodeMotion, kick: f64) -> [f64; 3] {
+    pub fn velocity_change(&self, point: usize, points: &NodeMotion, kick: f64) -> [f64; 3] {
         let (force, m) = (add(self.normal_force[point], self.friction_force[point]), points.inverse_mass[point]);
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
     }
@@ -184,8 +186,9 @@ impl Enforcer {
         self.states.clear();
         let granted = ledger.granted();
         for c in constraints {
-            let Carried { push, drag, .. } = c.carried;
-            (c.carried.push, c.carried.drag) = (BEGINNING * push, scaled(drag, BEGINNING));
+            let Carried { normal_force, tangential_force, .. } = c.carried;
+            (c.carried.normal_force, c.carried.tangential_force) =
+                (BEGINNING * normal_force, scaled(tangential_force, BEGINNING));
             let mut state = ConstraintState { own: true, ..Default::default() };
             let (mut inverse, mut isotropic) = (0.0, 0.0);
             for (i, (point, w)) in c.parts().enumerate() {
@@ -207,13 +210,13 @@ impl Enforcer {
                 state.strength = c.share.max(LEAST_SHARE) / inverse;
                 state.closing = drift * (state.free - state.target.with(granted));
             } else {
-                (c.carried.push, c.carried.drag) = (0.0, [0.0; 3]);
+                (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
             }
             if c.friction.is_some() {
                 (state.slip, state.slip_before) = (tangential(free, c.normal), tangential(before, c.normal));
-                c.carried.drag = tangential(c.carried.drag, c.normal);
+                c.carried.tangential_force = tangential(c.carried.tangential_force, c.normal);
             } else {
-                c.carried.drag = [0.0; 3];
+                c.carried.tangential_force = [0.0; 3];
             }
             self.states.push(state);
         }
@@ -240,10 +243,10 @@ impl Enforcer {
         others: &mut dyn OtherRanks,
     ) {
         for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
-            let force = add(scaled(c.normal, c.carried.push), c.carried.drag);
+            let force = add(scaled(c.normal, c.carried.normal_force), c.carried.tangential_force);
             for (point, w) in c.parts() {
                 let sum = &mut self.sums[point];
-                sum.change = add(sum.change, scaled(force, w));
+                sum.velocity_change = add(sum.velocity_change, scaled(force, w));
                 sum.load += w.abs() * state.strength;
             }
         }
@@ -252,10 +255,11 @@ impl Enforcer {
             let sum = std::mem::take(&mut self.sums[p]);
             // What others answer for comes from them.
             let Some(m) = points.inverse_mass.get(p) else { continue };
-            let ([x, y, z], k) = (sum.change, times.kick);
-            self.moved[p] = Response { change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
+            let ([x, y, z], k) = (sum.velocity_change, times.kick);
+            self.responses[p] =
+                Response { velocity_change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
         }
-        others.share(&mut self.moved);
+        others.share(&mut self.responses);
     }
 
     /// Sums the forces that were found, in the order of the constraints.
@@ -263,10 +267,10 @@ impl Enforcer {
         for &point in &self.members {
             (self.normal_force[point as usize], self.friction_force[point as usize]) = ([0.0; 3], [0.0; 3]);
         }
-        for c in constraints.iter().filter(|c| c.carried.push > 0.0) {
+        for c in constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
             for (point, w) in c.parts() {
-                self.normal_force[point] = add(self.normal_force[point], scaled(c.normal, w * c.carried.push));
-                self.friction_force[point] = add(self.friction_force[point], scaled(c.carried.drag, w));
+                self.normal_force[point] = add(self.normal_force[point], scaled(c.normal, w * c.carried.normal_force));
+                self.friction_force[point] = add(self.friction_force[point], scaled(c.carried.tangential_force, w));
             }
         }
     }

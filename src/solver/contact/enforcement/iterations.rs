@@ -16,7 +16,7 @@ const SETTLED: f64 = 0.002;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest number of passes.
-    pub passes: u32,
+    pub iterations: u32,
     /// Overlap that is left alone, as a part of the face's size.
     pub tolerance: f64,
 }
@@ -25,7 +25,7 @@ pub struct Limits {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Outcome {
     /// Passes made.
-    pub passes: u32,
+    pub iterations: u32,
     /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
     pub left: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
@@ -47,7 +47,7 @@ pub(super) struct Times {
 impl Enforcer {
     /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is
     /// nearly always, it costs nothing.
-    pub(super) fn passes(
+    pub(super) fn iterate(
         &mut self,
         constraints: &mut [Constraint],
         points: &NodeMotion,
@@ -63,7 +63,7 @@ impl Enforcer {
             let ahead = momentum.next();
             let (mut worst, mut farthest) = (0.0, 0.0);
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
-                let way = correct(c, state, &self.moved, times, ahead);
+                let way = correct(c, state, &self.responses, times, ahead);
                 (worst, farthest) = (f64::max(worst, way / c.size), f64::max(farthest, way));
             }
             let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion, farthest]);
@@ -72,9 +72,9 @@ impl Enforcer {
                 return None;
             }
             let [_, _, deepest, depth, motion, farthest] = votes;
-            outcome = Outcome { left, passes: outcome.passes + 1, deepest, depth, motion };
+            outcome = Outcome { left, iterations: outcome.iterations + 1, deepest, depth, motion };
             let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * motion;
-            if settled || outcome.passes == limits.passes {
+            if settled || outcome.iterations == limits.iterations {
                 return Some(outcome);
             }
         }
@@ -84,8 +84,8 @@ impl Enforcer {
     fn extent(&self, constraints: &[Constraint], drift: f64) -> [f64; 3] {
         let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
         own.fold([0.0; 3], |[deepest, depth, motion], (c, state)| {
-            let sunk = c.carried.sunk;
-            [(sunk / c.size).max(deepest), sunk.max(depth), (drift * state.free).abs().max(motion)]
+            let penetration = c.carried.penetration;
+            [(penetration / c.size).max(deepest), penetration.max(depth), (drift * state.free).abs().max(motion)]
         })
     }
 }
@@ -107,36 +107,37 @@ impl Momentum {
 
 /// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
 /// part `ahead`. How far it moves, a length.
-fn correct(c: &mut Constraint, state: &mut ConstraintState, moved: &[Response], times: Times, ahead: f64) -> f64 {
-    let change = c.change(moved);
+fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Response], times: Times, ahead: f64) -> f64 {
+    let change = c.velocity_change(responses);
     let gap = state.closing + times.drift * dot(change, c.normal);
-    let Carried { push: tried, drag: tried_drag, .. } = c.carried;
+    let Carried { normal_force: tried, tangential_force: tried_tangential, .. } = c.carried;
     if tried == 0.0 && gap >= 0.0 {
-        (c.carried.drag, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
+        (c.carried.tangential_force, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
         return 0.0;
     }
     let (mut inverse, mut sliding) = (0.0, 0.0);
     for ((point, w), softness) in c.parts().zip(&state.softness) {
         // A constraint that has just become active is not yet in the load.
         let own = if state.active { 0.0 } else { w.abs() };
-        let share = moved[point].load / state.strength + own;
+        let share = responses[point].load / state.strength + own;
         inverse += share * softness[0];
         sliding += share * softness[1];
     }
-    let push = (tried - gap / (times.both * inverse)).max(0.0);
-    let mut way = (push - tried).abs() * times.both * inverse;
-    let push_ahead = further(tried, push, state.last.0, ahead).max(0.0);
+    let normal_force = (tried - gap / (times.both * inverse)).max(0.0);
+    let mut way = (normal_force - tried).abs() * times.both * inverse;
+    let normal_ahead = further(tried, normal_force, state.last.0, ahead).max(0.0);
     if c.friction.is_some() {
         let slip = add(state.slip, tangential(change, c.normal));
-        let wanted = subtract(tried_drag, scaled(slip, 1.0 / (times.kick * sliding)));
-        let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * push);
-        let drag = if size > most { scaled(wanted, most / size) } else { wanted };
-        let turn = subtract(drag, tried_drag);
+        let wanted = subtract(tried_tangential, scaled(slip, 1.0 / (times.kick * sliding)));
+        let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
+        let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
+        let turn = subtract(tangential_force, tried_tangential);
         way = way.max(dot(turn, turn).sqrt() * times.both * sliding);
-        c.carried.drag = [0, 1, 2].map(|i| further(tried_drag[i], drag[i], state.last.1[i], ahead));
-        state.last.1 = drag;
+        c.carried.tangential_force =
+            [0, 1, 2].map(|i| further(tried_tangential[i], tangential_force[i], state.last.1[i], ahead));
+        state.last.1 = tangential_force;
     }
-    (c.carried.push, state.last.0, state.active) = (push_ahead, push, true);
+    (c.carried.normal_force, state.last.0, state.active) = (normal_ahead, normal_force, true);
     way
 }
 

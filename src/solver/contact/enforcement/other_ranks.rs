@@ -13,7 +13,7 @@ pub trait OtherRanks {
     /// theirs.
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>);
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
-    fn share(&mut self, moved: &mut [Response]);
+    fn share(&mut self, responses: &mut [Response]);
     /// The largest of all ranks' values, of each kind.
     fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES];
     /// Replaces sums by those over all ranks.

@@ -116,7 +116,7 @@ impl Faces {
     }
 
     /// Whether two faces have a corner in common.
-    pub fn touch(&self, a: u32, b: u32) -> bool {
+    pub fn adjacent(&self, a: u32, b: u32) -> bool {
         let other = self.corners[b as usize];
         self.corners[a as usize].iter().any(|corner| other.contains(corner))
     }

@@ -29,7 +29,7 @@ pub struct Projection {
     /// How far the foot lies beyond the border; 0 on the face.
     pub outside: f64,
     /// Number of the triangle in which the foot is.
-    sector: usize,
+    triangle: usize,
 }
 
 /// Mean of four corners.
@@ -65,7 +65,7 @@ pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
 }
 
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
-pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
+pub fn project(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
     let middle = centre(corners);
     // Written out: `map` of the arrays would be calls.
     let &[a, b, c, d] = corners;
@@ -75,9 +75,9 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
     let mean = area_normal(corners);
     let turn_at = |arm| dot(r, cross(mean, arm));
     let turn = [turn_at(arms[0]), turn_at(arms[1]), turn_at(arms[2]), turn_at(arms[3])];
-    let sector = (0..4).find(|&k| turn[k] >= 0.0 && turn[(k + 1) % 4] < 0.0).unwrap_or(0);
-    let next = (sector + 1) % 4;
-    let (e1, e2) = (arms[sector], arms[next]);
+    let triangle = (0..4).find(|&k| turn[k] >= 0.0 && turn[(k + 1) % 4] < 0.0).unwrap_or(0);
+    let next = (triangle + 1) % 4;
+    let (e1, e2) = (arms[triangle], arms[next]);
     let normal = cross(e1, e2);
     let square = dot(normal, normal);
     if square.is_nan() || square <= 0.0 {
@@ -97,25 +97,25 @@ pub fn stand(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
     };
     let rest = 0.25 * (1.0 - b1 - b2).max(0.0);
     let mut weights = [rest; 4];
-    weights[sector] += b1;
+    weights[triangle] += b1;
     weights[next] += b2;
     let mut gap = dot(r, normal) / length;
     let mut normal = scaled(normal, 1.0 / length);
-    if let Some(blended) = between_triangles(&arms, sector, [b1, b2], normal) {
+    if let Some(blended) = between_triangles(&arms, triangle, [b1, b2], normal) {
         normal = blended;
         gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
     }
-    gap.is_finite().then_some(Projection { gap, normal, weights, outside, sector })
+    gap.is_finite().then_some(Projection { gap, normal, weights, outside, triangle })
 }
 
 /// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not
 /// choose one, or what is symmetric would not stay so. `None` elsewhere.
-fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], normal: [f64; 3]) -> Option<[f64; 3]> {
+fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], normal: [f64; 3]) -> Option<[f64; 3]> {
     let other = match (b1 < TIE, b2 < TIE) {
         (false, false) => return None,
-        (true, true) => (sector + 2) % 4,
-        (true, false) => (sector + 1) % 4,
-        (false, true) => (sector + 3) % 4,
+        (true, true) => (triangle + 2) % 4,
+        (true, false) => (triangle + 1) % 4,
+        (false, true) => (triangle + 3) % 4,
     };
     let second = cross(arms[other], arms[(other + 1) % 4]);
     let sum = add(normal, scaled(second, 1.0 / dot(second, second).sqrt()));
@@ -130,19 +130,19 @@ fn between_triangles(arms: &[[f64; 3]; 4], sector: usize, [b1, b2]: [f64; 2], no
 ///
 /// Forces act at the beginning of a step, on the positions there; along the normal of its end they have no moment when
 /// the shares are these. The gap at the end is the same with all shares of points in the plane.
-pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], stand: &Projection) -> Option<[f64; 4]> {
+pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], projection: &Projection) -> Option<[f64; 4]> {
     let middle = centre(corners);
-    let next = (stand.sector + 1) % 4;
+    let next = (projection.triangle + 1) % 4;
     let (e1, e2, r) =
-        (subtract(corners[stand.sector], middle), subtract(corners[next], middle), subtract(point, middle));
-    let volume = dot(stand.normal, cross(e1, e2));
-    let (b1, b2) = (dot(stand.normal, cross(r, e2)) / volume, dot(stand.normal, cross(e1, r)) / volume);
+        (subtract(corners[projection.triangle], middle), subtract(corners[next], middle), subtract(point, middle));
+    let volume = dot(projection.normal, cross(e1, e2));
+    let (b1, b2) = (dot(projection.normal, cross(r, e2)) / volume, dot(projection.normal, cross(e1, r)) / volume);
     let near = |b: f64| (-0.5..=1.5).contains(&b);
     if volume <= 0.0 || !(near(b1) && near(b2) && near(b1 + b2)) {
         return None;
     }
     let mut shares = [0.25 * (1.0 - b1 - b2); 4];
-    shares[stand.sector] += b1;
+    shares[projection.triangle] += b1;
     shares[next] += b2;
     Some(shares)
 }
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn the_foot_of_the_perpendicular() {
-        let s = stand(&SQUARE, [0.3, 0.6, -0.1]).expect("a face");
+        let s = project(&SQUARE, [0.3, 0.6, -0.1]).expect("a face");
         let foot = (0..4).fold([0.0; 3], |sum, i| add(sum, scaled(SQUARE[i], s.weights[i])));
         assert!((s.gap + 0.1).abs() < 1e-15 && s.outside == 0.0 && s.normal == [0.0, 0.0, 1.0]);
         assert!(subtract(foot, [0.3, 0.6, 0.0]).iter().all(|d| d.abs() < 1e-15), "{foot:?}");
@@ -212,27 +212,27 @@ mod tests {
 
     #[test]
     fn beyond_the_border_the_nearest_point_of_it() {
-        let s = stand(&SQUARE, [1.25, 0.5, 0.5]).expect("a face");
+        let s = project(&SQUARE, [1.25, 0.5, 0.5]).expect("a face");
         assert!((s.outside - 0.25).abs() < 1e-15 && (s.gap - 0.5).abs() < 1e-15);
         assert_eq!(s.weights, [0.0, 0.5, 0.5, 0.0]);
-        let corner = stand(&SQUARE, [2.0, 2.5, 0.0]).expect("a face");
+        let corner = project(&SQUARE, [2.0, 2.5, 0.0]).expect("a face");
         assert_eq!(corner.weights, [0.0, 0.0, 1.0, 0.0]);
     }
 
     #[test]
     fn within_the_margin_of_the_border_a_point_is_on_the_face() {
         for beyond in [0.0, 1e-12, 0.4e-6] {
-            let s = stand(&SQUARE, [1.0 + beyond, 0.3, 0.0]).expect("a face");
+            let s = project(&SQUARE, [1.0 + beyond, 0.3, 0.0]).expect("a face");
             assert!(s.outside == 0.0 && s.weights.iter().sum::<f64>() == 1.0, "{s:?}");
         }
-        assert!(stand(&SQUARE, [1.0 + 1e-6, 0.3, 0.0]).is_some_and(|s| s.outside > 0.0));
+        assert!(project(&SQUARE, [1.0 + 1e-6, 0.3, 0.0]).is_some_and(|s| s.outside > 0.0));
     }
 
     #[test]
     fn shares_along_a_direction_have_no_arm_across_it() {
         // A face that turns and a point that slides: the shares are those of the beginning, along the normal of the end.
         let end = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]];
-        let s = stand(&end, [0.7, 0.4, 0.0]).expect("a face");
+        let s = project(&end, [0.7, 0.4, 0.0]).expect("a face");
         let shares = shares_along(&SQUARE, [0.65, 0.45, 0.02], &s).expect("near the face");
         let foot = (0..4).fold([0.0; 3], |sum, i| add(sum, scaled(SQUARE[i], shares[i])));
         let arm = cross(subtract([0.65, 0.45, 0.02], foot), s.normal);
@@ -244,10 +244,10 @@ mod tests {
     #[test]
     fn triangles_and_faces_without_area() {
         let triangle = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[2]];
-        let s = stand(&triangle, [0.7, 0.3, 0.2]).expect("a face");
+        let s = project(&triangle, [0.7, 0.3, 0.2]).expect("a face");
         assert!((s.gap - 0.2).abs() < 1e-15 && s.outside == 0.0);
-        assert_eq!(stand(&[SQUARE[0]; 4], [0.0; 3]), None);
-        assert_eq!(stand(&SQUARE, [f64::NAN; 3]).map(|s| s.outside), None);
+        assert_eq!(project(&[SQUARE[0]; 4], [0.0; 3]), None);
+        assert_eq!(project(&SQUARE, [f64::NAN; 3]).map(|s| s.outside), None);
     }
 
     #[test]

@@ -80,14 +80,16 @@ impl OtherRanks for IterationExchange<'_> {
         }
     }
 
-    fn share(&mut self, moved: &mut [Response]) {
+    fn share(&mut self, responses: &mut [Response]) {
         self.links.shares.exchange(
-            moved,
-            |moved, point| {
-                let Response { change: [x, y, z], load } = moved[point as usize];
+            responses,
+            |responses, point| {
+                let Response { velocity_change: [x, y, z], load } = responses[point as usize];
                 [x, y, z, load]
             },
-            |moved, point, [x, y, z, load]| moved[point as usize] = Response { change: [x, y, z], load },
+            |responses, point, [x, y, z, load]| {
+                responses[point as usize] = Response { velocity_change: [x, y, z], load }
+            },
             self.comm,
         );
     }
@@ -115,7 +117,7 @@ fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f6
     v.extend(members.map(f64::from));
     v.extend(c.weights);
     v.extend(c.normal);
-    v.extend(c.carried.drag);
+    v.extend(c.carried.tangential_force);
     v.extend(state.slip);
     let Friction { at_rest, high_speed, decay } = c.friction;
     let (kind, a, b) = match c.origin {
@@ -130,7 +132,7 @@ fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f6
         state.closing,
         c.size,
         c.share,
-        c.carried.push,
+        c.carried.normal_force,
         state.strength,
         c.count as f64,
     ]);
@@ -152,10 +154,10 @@ fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, ConstraintState
         friction: Friction { at_rest: v[19], high_speed: v[20], decay: v[21] },
         // Only its own rank asks for these.
         gap: 0.0,
-        held: true,
+        persists: true,
         size: v[23],
         share: v[24],
-        carried: Carried { sunk: 0.0, push: v[25], drag: three(13) },
+        carried: Carried { penetration: 0.0, normal_force: v[25], tangential_force: three(13) },
         count: v[27] as usize,
         origin: match v[28] as u32 {
             0 => Origin::Face(a, b),

@@ -3,14 +3,14 @@
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use crate::solver::contact::check::edge_edge::EdgeContact;
-use crate::solver::contact::check::node_face::{FaceContact, NONE, TOUCHES, UNTOUCHED};
+use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NO_CONTACT, NONE};
 use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::enforcement::carried::{Carried, WIDTH};
 use crate::solver::contact::local_problem::{History, PlaneHistory};
 use std::ops::Range;
 
 /// Numbers that tell what a point touches.
-const PASTS: usize = PAST * TOUCHES;
+const PASTS: usize = PAST * MAX_FACES;
 
 /// Numbers of one of them: the face, the tolerated overlap, and what is carried.
 const PAST: usize = 2 + WIDTH;
@@ -33,14 +33,14 @@ pub fn route(
         points.add(rank(*point), *point, &values);
     }
     for past in &history.edges {
-        let own = [f64::from(past.pair[1]), past.sense, past.allowed];
+        let own = [f64::from(past.pair[1]), past.sense, past.tolerated];
         let values = [own.as_slice(), &past.carried.to_array()].concat();
         edges.add(rank(end_of(past.pair[0])), past.pair[0], &values);
     }
     let mut come = History::default();
     let records = points.exchange(comm);
     for i in 0..records.len() {
-        let mut pasts = UNTOUCHED;
+        let mut pasts = NO_CONTACT;
         pasts.iter_mut().zip(records.values(i).chunks_exact(PAST)).for_each(|(past, v)| *past = unpack_past(v));
         come.points.push((records.ids[i], pasts));
     }
@@ -48,7 +48,7 @@ pub fn route(
     come.edges.extend((0..records.len()).map(|i| {
         let v = records.values(i);
         let pair = [records.ids[i], v[0] as u32];
-        EdgeContact { pair, sense: v[1], allowed: v[2], carried: Carried::from_slice(&v[3..]) }
+        EdgeContact { pair, sense: v[1], tolerated: v[2], carried: Carried::from_slice(&v[3..]) }
     }));
     let of = |number: u32| rank(watches[number as usize].point);
     come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
@@ -71,16 +71,16 @@ pub fn share_planes(
 }
 
 fn pack_past(past: FaceContact) -> [f64; PAST] {
-    let [sunk, push, x, y, z] = past.carried.to_array();
+    let [penetration, normal_force, x, y, z] = past.carried.to_array();
     // The mark of no face is beyond all faces and exact in a double.
-    [f64::from(past.face), past.allowed, sunk, push, x, y, z]
+    [f64::from(past.face), past.tolerated, penetration, normal_force, x, y, z]
 }
 
 fn unpack_past(v: &[f64]) -> FaceContact {
     let face = v[0] as u32;
     FaceContact {
         face: if face == u32::MAX { NONE } else { face },
-        allowed: v[1],
+        tolerated: v[1],
         carried: Carried::from_slice(&v[2..]),
     }
 }

@@ -2,7 +2,7 @@
 //! found.
 
 use super::neighbourhood::SearchResult;
-use crate::solver::contact::check::node_face::{FaceContact, NONE, TOUCHES};
+use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
@@ -194,7 +194,7 @@ impl Locator {
         i: usize,
         points: &NodeMotion,
         faces: &Faces,
-        past: &[FaceContact; TOUCHES],
+        past: &[FaceContact; MAX_FACES],
         near: &mut Vec<Candidate>,
     ) {
         near.clear();
@@ -260,7 +260,7 @@ impl Locator {
     }
 
     /// Finds which candidates of the `i`-th watched point may sleep, and for how long.
-    fn look_out(&mut self, i: usize, points: &NodeMotion, faces: &Faces, past: &[FaceContact; TOUCHES]) {
+    fn look_out(&mut self, i: usize, points: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.watched[i];
         let held = past[0].face != NONE;
         let own = points.ways[point as usize];

@@ -46,7 +46,7 @@ fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
     let here: Vec<(u32, [u32; 8])> = here
         .filter_map(|(_, group, i)| Some((domain.element_canonical[group.places[i] as usize], group.all_nodes(i)?)))
         .collect();
-    let found = contact.sunk(&here, &domain.nodes, comm);
+    let found = contact.embedded_nodes(&here, &domain.nodes, comm);
     let mut count = [found.iter().filter(|sunk| sunk.depth >= DEEP).count() as u64];
     comm.all_sum(&mut count);
     if count[0] == 0 {
