@@ -89,7 +89,7 @@ impl FieldList {
         let wanted = |field: NodalField| self.nodal.contains(&field);
         let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
         let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
-        let homes = if wanted(NodalField::ContactRank) { contact_ranks(solver) } else { Vec::new() };
+        let owner_ranks = if wanted(NodalField::ContactRank) { contact_ranks(solver) } else { Vec::new() };
         let mut values = Vec::new();
         for field in &self.nodal {
             let first = values.len();
@@ -100,7 +100,7 @@ impl FieldList {
                 let components: &[f64] = match field {
                     NodalField::Reaction => &reactions[node as usize],
                     NodalField::Contact => &contact[node as usize],
-                    NodalField::ContactRank => &homes[node as usize..=node as usize],
+                    NodalField::ContactRank => &owner_ranks[node as usize..=node as usize],
                     _ => &vector,
                 };
                 for c in 0..count {
@@ -177,7 +177,7 @@ fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
 /// Rank that computes the contact of each local node, −1 where there is none.
 fn contact_ranks(solver: &Solver) -> Vec<f64> {
     let mut ranks = vec![-1.0; solver.domain.nodes.len()];
-    for (node, rank) in solver.domain.contact.iter().flat_map(|contact| contact.homes()) {
+    for (node, rank) in solver.domain.contact.iter().flat_map(|contact| contact.owner_ranks()) {
         ranks[node as usize] = f64::from(rank);
     }
     ranks

@@ -39,18 +39,18 @@ pub struct ContactNodes {
     /// For each axis of each, the constraint that holds the node, or [`ABSENT`].
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
-    pub points: NodeMotion,
+    pub motion: NodeMotion,
     /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
-    stays: Vec<SweptBox>,
+    search_boxes: Vec<SweptBox>,
     /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
     /// What contact says of each.
     pub answers: Vec<[f64; ANSWER]>,
     /// Sites with a force now, ascending.
-    pub pushed: Vec<u32>,
+    pub loaded: Vec<u32>,
     /// Rank that computes the contact of each; empty on one rank.
-    pub homes: Vec<u32>,
+    pub owner_ranks: Vec<u32>,
     /// Work of normal and of friction forces so far.
     pub works: Vec<[f64; 2]>,
 }
@@ -63,38 +63,39 @@ impl ContactNodes {
         held: &[[u32; 3]],
         nodes: &Nodes,
     ) -> ContactNodes {
-        let site = |point: u32| {
+        let contact_node = |point: u32| {
             let node = here(point);
             (node != ABSENT).then(|| ContactNode { point, node, owned: nodes.owned[node as usize] })
         };
-        let list: Vec<ContactNode> = (0..points as u32).filter_map(site).collect();
+        let list: Vec<ContactNode> = (0..points as u32).filter_map(contact_node).collect();
         let count = list.len();
-        let held = |site: &ContactNode| held.get(site.node as usize).copied().unwrap_or([ABSENT; 3]);
-        let mut sites = ContactNodes {
+        let held = |contact_node: &ContactNode| held.get(contact_node.node as usize).copied().unwrap_or([ABSENT; 3]);
+        let mut contact_nodes = ContactNodes {
             holders: list.iter().map(held).collect(),
-            places: inverse(list.iter().map(|site| site.point), points),
+            places: inverse(list.iter().map(|contact_node| contact_node.point), points),
             list,
-            points: NodeMotion::new(count, origin),
+            motion: NodeMotion::new(count, origin),
             answers: vec![[0.0; ANSWER]; count],
             works: vec![[0.0; 2]; count],
             ..Default::default()
         };
-        for (i, site) in sites.list.iter().enumerate() {
-            let inverse = nodes.rows[site.node as usize].0[7];
-            sites.points.inverse_mass[i] = sites.holders[i].map(|holder| if holder == ABSENT { inverse } else { 0.0 });
+        for (i, contact_node) in contact_nodes.list.iter().enumerate() {
+            let inverse = nodes.rows[contact_node.node as usize].0[7];
+            contact_nodes.motion.inverse_mass[i] =
+                contact_nodes.holders[i].map(|holder| if holder == ABSENT { inverse } else { 0.0 });
         }
-        sites
+        contact_nodes
     }
 
     /// All points as sites at rest.
-    pub fn still(points: &NodeMotion) -> ContactNodes {
-        let site = |point: u32| ContactNode { point, node: point, owned: true };
-        let list: Vec<ContactNode> = (0..points.len() as u32).map(site).collect();
+    pub fn still(motion: &NodeMotion) -> ContactNodes {
+        let contact_node = |point: u32| ContactNode { point, node: point, owned: true };
+        let list: Vec<ContactNode> = (0..motion.len() as u32).map(contact_node).collect();
         let holders = vec![[ABSENT; 3]; list.len()];
-        let places = (0..points.len() as u32).collect();
-        let mut sites = ContactNodes { list, places, holders, points: points.clone(), ..Default::default() };
-        sites.renew(1.0, 0.0);
-        sites
+        let places = (0..motion.len() as u32).collect();
+        let mut contact_nodes = ContactNodes { list, places, holders, motion: motion.clone(), ..Default::default() };
+        contact_nodes.renew(1.0, 0.0);
+        contact_nodes
     }
 
     /// The site of a point.
@@ -105,14 +106,14 @@ impl ContactNodes {
 
     /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
-        self.stays.resize(self.list.len(), SweptBox::EVERYTHING);
-        self.points.begin(step.drift);
-        let motion = |site: &ContactNode| {
-            let (row, force) = (&nodes.rows[site.node as usize].0, &nodes.forces[site.node as usize].0);
+        self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
+        self.motion.begin(step.drift);
+        let motion = |contact_node: &ContactNode| {
+            let (row, force) = (&nodes.rows[contact_node.node as usize].0, &nodes.forces[contact_node.node as usize].0);
             let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
             ([row[0], row[1], row[2], row[3]], velocity, [row[4], row[5], row[6]])
         };
-        let leaves = self.points.set_all(self.list.iter().map(motion), &self.stays);
+        let leaves = self.motion.set_all(self.list.iter().map(motion), &self.search_boxes);
         self.expired = leaves || !self.searched;
     }
 
@@ -120,35 +121,35 @@ impl ContactNodes {
     /// for a turn, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
         self.searched = true;
-        self.stays.clear();
-        for site in 0..self.list.len() as u32 {
-            let (start, way) = self.points.path(site);
-            let half = scaled(way, 0.5 * steps);
-            let longest = half.iter().fold(0.0, |longest, way| larger(way.abs(), longest));
+        self.search_boxes.clear();
+        for contact_node in 0..self.list.len() as u32 {
+            let (start, path) = self.motion.path(contact_node);
+            let half = scaled(path, 0.5 * steps);
+            let longest = half.iter().fold(0.0, |longest, half| larger(half.abs(), longest));
             let room = larger(SIDE * longest, least);
-            let centre = subtract(add(start, half), self.points.origin());
-            let side = half.map(|way| way.abs() + room);
-            self.stays.push(SweptBox::around(subtract(centre, side), add(centre, side)));
+            let centre = subtract(add(start, half), self.motion.origin());
+            let side = half.map(|half| half.abs() + room);
+            self.search_boxes.push(SweptBox::around(subtract(centre, side), add(centre, side)));
         }
     }
 
     /// Low and high corner of the box in which a site stays until the next search, seen from the origin of the points.
-    pub fn reach(&self, site: usize) -> [[f64; 3]; 2] {
-        self.stays[site].corners()
+    pub fn reach(&self, contact_node: usize) -> [[f64; 3]; 2] {
+        self.search_boxes[contact_node].corners()
     }
 
     /// Force on a site, normal and friction apart.
-    pub fn forces(&self, site: usize) -> [[f64; 3]; 2] {
-        let a = &self.answers[site];
+    pub fn forces(&self, contact_node: usize) -> [[f64; 3]; 2] {
+        let a = &self.answers[contact_node];
         [[a[0], a[1], a[2]], [a[3], a[4], a[5]]]
     }
 
     /// Adds the forces to the nodes; what a constraint holds, its reaction takes up.
     pub fn hand_over(&self, nodes: &mut Nodes, mut react: impl FnMut(u32, f64)) {
-        for &i in &self.pushed {
-            let (site, answer) = (&self.list[i as usize], &self.answers[i as usize]);
+        for &i in &self.loaded {
+            let (contact_node, answer) = (&self.list[i as usize], &self.answers[i as usize]);
             let holders = &self.holders[i as usize];
-            let sum = &mut nodes.forces[site.node as usize].0;
+            let sum = &mut nodes.forces[contact_node.node as usize].0;
             for axis in 0..3 {
                 let force = answer[axis] + answer[3 + axis];
                 match holders[axis] {
@@ -161,7 +162,7 @@ impl ContactNodes {
 
     /// Books half the step's work with the present velocities.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        for &i in &self.pushed {
+        for &i in &self.loaded {
             let v = nodes.velocity(self.list[i as usize].node);
             let [normal, friction] = self.forces(i as usize);
             let work = &mut self.works[i as usize];

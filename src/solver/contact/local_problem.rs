@@ -57,11 +57,11 @@ pub struct Numbering {
 #[derive(Default)]
 pub struct LocalProblem {
     /// The points.
-    pub points: NodeMotion,
+    pub motion: NodeMotion,
     /// Candidates.
     pub locator: Locator,
     /// Who is here.
-    pub cast: Numbering,
+    pub numbering: Numbering,
     /// Where each point of the layout is here.
     places: Vec<u32>,
     faces: Arc<Faces>,
@@ -77,7 +77,7 @@ pub struct LocalProblem {
     /// What has come out for each point, and of which points that is not nothing.
     pub answers: Vec<[f64; ANSWER]>,
     /// Points with a force now, ascending.
-    pub pushed: Vec<u32>,
+    pub loaded: Vec<u32>,
     near: Vec<Candidate>,
     near_faces: Vec<u32>,
     strict: Vec<bool>,
@@ -97,50 +97,51 @@ pub struct StepInput<'a> {
 }
 
 impl LocalProblem {
-    /// An arena with this cast. `found` is in numbers of the layout, as is `watches`, the planes' points that this rank
+    /// An arena with this cast. `found` is in numbers of the layout, as is `plane_nodes`, the planes' points that this rank
     /// answers for.
     pub fn new(
-        cast: Numbering,
+        numbering: Numbering,
         found: SearchResult,
         depth: f64,
         layout: &Layout,
-        watches: &[PlaneNode],
+        plane_nodes: &[PlaneNode],
     ) -> LocalProblem {
-        let points = cast.points.len();
-        let mut places = inverse(cast.points.iter().copied(), layout.nodes.len());
-        let face_places = inverse(cast.faces.iter().copied(), layout.faces.len());
-        let whole = points == layout.nodes.len() && cast.faces.len() == layout.faces.len();
+        let points = numbering.points.len();
+        let mut places = inverse(numbering.points.iter().copied(), layout.nodes.len());
+        let face_places = inverse(numbering.faces.iter().copied(), layout.faces.len());
+        let whole = points == layout.nodes.len() && numbering.faces.len() == layout.faces.len();
         let faces = if whole {
             layout.faces.clone()
         } else {
-            Arc::new(layout.faces.subset(&cast.faces, |point| places[point as usize], points))
+            Arc::new(layout.faces.subset(&numbering.faces, |point| places[point as usize], points))
         };
         let local = |point: u32| places[point as usize];
-        let edges = cast.edges.iter().map(|&edge| {
+        let edges = numbering.edges.iter().map(|&edge| {
             let edge = layout.edges[edge as usize];
             let faces = edge.faces.map(|face| face_places[face as usize]);
             Edge { ends: edge.ends.map(local), faces, ..edge }
         });
         let edges: Vec<Edge> = edges.collect();
         let found = SearchResult {
-            watched: found.watched.into_iter().map(local).collect(),
+            slave_nodes: found.slave_nodes.into_iter().map(local).collect(),
             first: found.first,
-            near: found
-                .near
+            candidates: found
+                .candidates
                 .into_iter()
                 .map(|near| Candidate { face: face_places[near.face as usize], ..near })
                 .collect(),
-            pairs: found.pairs.into_iter().map(|pair| pair.map(|edge| place(&cast.edges, edge))).collect(),
+            pairs: found.pairs.into_iter().map(|pair| pair.map(|edge| place(&numbering.edges, edge))).collect(),
         };
-        let planes = watches.iter().map(|watch| PlaneNode { point: local(watch.point), ..*watch }).collect();
-        (points as u32..).zip(&cast.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
-        let all = points + cast.ghosts.len();
+        let planes =
+            plane_nodes.iter().map(|plane_node| PlaneNode { point: local(plane_node.point), ..*plane_node }).collect();
+        (points as u32..).zip(&numbering.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
+        let all = points + numbering.ghosts.len();
         let values = NodeMotion::new(points, layout.origin);
         LocalProblem {
             locator: Locator::new(found, depth, &values, &faces, &edges),
-            points: values,
+            motion: values,
             edges,
-            point_block: cast.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
+            point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
             history: vec![NO_CONTACT; points],
             planes,
@@ -148,7 +149,7 @@ impl LocalProblem {
             enforcer: Enforcer::new(all),
             answers: vec![[0.0; ANSWER]; all],
             faces,
-            cast,
+            numbering,
             ..Default::default()
         }
     }
@@ -160,51 +161,51 @@ impl LocalProblem {
 
     /// The candidates of the last search are replaced; history is kept of points that still have any.
     pub fn renew(&mut self, found: SearchResult, depth: f64) {
-        let mut watched = found.watched.iter().peekable();
+        let mut slave_nodes = found.slave_nodes.iter().peekable();
         for (point, past) in self.history.iter_mut().enumerate() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
-            if watched.next_if(|&&next| next as usize == point).is_none() {
+            if slave_nodes.next_if(|&&next| next as usize == point).is_none() {
                 *past = NO_CONTACT;
             }
         }
-        self.locator = Locator::new(found, depth, &self.points, &self.faces, &self.edges);
+        self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
     }
 
     /// What is carried from step to step.
     pub fn history(&self) -> History {
-        let face = |face: u32| if face == NONE { NONE } else { self.cast.faces[face as usize] };
-        let touching = self.history.iter().zip(&self.cast.points).filter(|(past, _)| **past != NO_CONTACT);
+        let face = |face: u32| if face == NONE { NONE } else { self.numbering.faces[face as usize] };
+        let touching = self.history.iter().zip(&self.numbering.points).filter(|(past, _)| **past != NO_CONTACT);
         let points =
             touching.map(|(past, &point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
         let edges = self.edge_history.iter();
-        let planes = self.planes.iter().filter(|watch| watch.carried != Carried::NOTHING);
+        let planes = self.planes.iter().filter(|plane_node| plane_node.carried != Carried::NOTHING);
         History {
             points: points.collect(),
             edges: edges
-                .map(|past| EdgeContact { pair: past.pair.map(|e| self.cast.edges[e as usize]), ..*past })
+                .map(|past| EdgeContact { pair: past.pair.map(|e| self.numbering.edges[e as usize]), ..*past })
                 .collect(),
-            planes: planes.map(|watch| (watch.number, watch.carried)).collect(),
+            planes: planes.map(|plane_node| (plane_node.number, plane_node.carried)).collect(),
         }
     }
 
     /// Puts back what was carried, as far as it concerns what is here.
     pub fn restore(&mut self, mut history: History) {
         for (point, pasts) in history.points {
-            let here = place(&self.cast.points, point);
+            let here = place(&self.numbering.points, point);
             if let Some(mine) = self.history.get_mut(here as usize) {
-                *mine = tidy(pasts.map(|past| FaceContact { face: place(&self.cast.faces, past.face), ..past }));
+                *mine = tidy(pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past }));
             }
         }
         history.edges.sort_by_key(|past| past.pair);
-        let edge = |edge: u32| self.cast.edges.binary_search(&edge).ok().map(|edge| edge as u32);
+        let edge = |edge: u32| self.numbering.edges.binary_search(&edge).ok().map(|edge| edge as u32);
         let pairs = history.edges.into_iter().filter_map(|past| {
             let [first, second] = past.pair;
             Some(EdgeContact { pair: [edge(first)?, edge(second)?], ..past })
         });
         self.edge_history = pairs.collect();
         for (number, carried) in history.planes {
-            if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
-                self.planes[watch].carried = carried;
+            if let Ok(plane_node) = self.planes.binary_search_by_key(&number, |plane_node| plane_node.number) {
+                self.planes[plane_node].carried = carried;
             }
         }
     }
@@ -219,13 +220,13 @@ impl LocalProblem {
     ) -> Outcome {
         self.constraints.clear();
         if !self.rules.is_empty() {
-            self.locator.step(&self.points, &self.faces);
+            self.locator.step(&self.motion, &self.faces);
             self.check(setting.pairings);
             self.check_edges(setting.pairings);
         }
         let always = !self.rules.is_empty();
-        for watch in &mut self.planes {
-            self.constraints.extend(watch.constraint(setting.planes, &self.points, setting.mean_size, always));
+        for plane_node in &mut self.planes {
+            self.constraints.extend(plane_node.constraint(setting.planes, &self.motion, setting.mean_size, always));
         }
         self.origins();
         let outcome = self.enforce(setting, step, bank, others);
@@ -237,8 +238,10 @@ impl LocalProblem {
     fn origins(&mut self) {
         for c in &mut self.constraints {
             c.origin = match c.origin {
-                Origin::Face(point, place) => Origin::Face(self.cast.points[point as usize], place),
-                Origin::Edges(a, b) => Origin::Edges(self.cast.edges[a as usize], self.cast.edges[b as usize]),
+                Origin::Face(point, place) => Origin::Face(self.numbering.points[point as usize], place),
+                Origin::Edges(a, b) => {
+                    Origin::Edges(self.numbering.edges[a as usize], self.numbering.edges[b as usize])
+                }
                 Origin::Plane(number) => Origin::Plane(number),
             };
         }
@@ -246,16 +249,16 @@ impl LocalProblem {
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     fn check(&mut self, pairings: &Pairings) {
-        let LocalProblem { points, faces, point_block, rules, locator, history, .. } = self;
+        let LocalProblem { motion, faces, point_block, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
-        let check = NodeFaceCheck { points, faces };
-        for i in 0..locator.watched().len() {
+        let check = NodeFaceCheck { motion, faces };
+        for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
                 continue;
             }
-            let point = locator.watched()[i];
+            let point = locator.slave_nodes()[i];
             let past = &mut history[point as usize];
-            locator.near(i, points, faces, past, near);
+            locator.locate(i, motion, faces, past, near);
             if near.is_empty() {
                 if locator.is_held(i) {
                     *past = NO_CONTACT;
@@ -291,8 +294,8 @@ impl LocalProblem {
 
     /// The check of every pair of edges that may cross.
     fn check_edges(&mut self, pairings: &Pairings) {
-        let LocalProblem { points, faces, locator, edges, edge_history, constraints, .. } = self;
-        let check = EdgeCheck { points, faces, edges };
+        let LocalProblem { motion, faces, locator, edges, edge_history, constraints, .. } = self;
+        let check = EdgeCheck { motion, faces, edges };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
         let mut past = before.iter().peekable();
@@ -323,14 +326,14 @@ impl LocalProblem {
         bank: &mut Bank,
         others: &mut dyn OtherRanks,
     ) -> Outcome {
-        let LocalProblem { constraints, enforcer, points, rules, .. } = self;
+        let LocalProblem { constraints, enforcer, motion, rules, .. } = self;
         // Of planes alone each rank knows its own.
         let ledger = if rules.is_empty() { Ledger::EachNode } else { Ledger::Bank(bank) };
-        enforcer.prepare(constraints, points, step.drift, &ledger);
+        enforcer.prepare(constraints, motion, step.drift, &ledger);
         let own = constraints.len();
         others.copy(constraints, enforcer.states());
         let order = enforcer.merge(constraints, own);
-        let outcome = enforcer.solve(constraints, points, step, setting.limits, (ledger, others));
+        let outcome = enforcer.solve(constraints, motion, step, setting.limits, (ledger, others));
         match order {
             None => (0..own).for_each(|i| self.remember(i)),
             Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
@@ -347,14 +350,14 @@ impl LocalProblem {
                 past.carried = c.carried;
             }
             Origin::Edges(first, second) => {
-                let pair = [first, second].map(|edge| place(&self.cast.edges, edge));
+                let pair = [first, second].map(|edge| place(&self.numbering.edges, edge));
                 if let Ok(i) = self.edge_history.binary_search_by(|past| past.pair.cmp(&pair)) {
                     self.edge_history[i].carried = c.carried;
                 }
             }
             Origin::Plane(number) => {
-                if let Ok(watch) = self.planes.binary_search_by_key(&number, |watch| watch.number) {
-                    self.planes[watch].carried = c.carried;
+                if let Ok(plane_node) = self.planes.binary_search_by_key(&number, |plane_node| plane_node.number) {
+                    self.planes[plane_node].carried = c.carried;
                 }
             }
         }
@@ -363,12 +366,12 @@ impl LocalProblem {
     /// Says what contact does to each point: forces, gap, status (0 free, 1 pushed, 2 pushed by its own contact with a
     /// face), the face, and the force of planes.
     fn answer(&mut self) {
-        self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+        self.loaded.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
         for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
             for (point, _) in c.parts() {
                 let answer = &mut self.answers[point];
                 if answer[7] == 0.0 {
-                    self.pushed.push(point as u32);
+                    self.loaded.push(point as u32);
                     let ([a, b, c], [d, e, f]) =
                         (self.enforcer.normal_force[point], self.enforcer.friction_force[point]);
                     answer[..8].copy_from_slice(&[a, b, c, d, e, f, 0.0, 1.0]);
@@ -388,12 +391,12 @@ impl LocalProblem {
                 Origin::Edges(..) => (),
             }
         }
-        self.pushed.sort_unstable();
+        self.loaded.sort_unstable();
     }
 
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
-        self.pushed.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+        self.loaded.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
         self.constraints.clear();
     }
 }

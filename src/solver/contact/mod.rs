@@ -53,8 +53,8 @@ pub struct Contact {
     skin: Skin,
     pairings: Pairings,
     /// Points that are nodes here.
-    sites: ContactNodes,
-    arena: LocalProblem,
+    contact_nodes: ContactNodes,
+    problem: LocalProblem,
     /// The other ranks, where there are any that this one must know.
     remote: Option<Remote>,
     /// What the next search puts back, where the arena has been given up.
@@ -70,7 +70,7 @@ pub struct Contact {
     /// Mean size of the faces: what overlaps with planes are small against.
     mean_size: f64,
     /// All points that planes watch.
-    watches: Vec<PlaneNode>,
+    plane_nodes: Vec<PlaneNode>,
     limits: Limits,
     /// Work of normal and friction forces at points that are gone, those of this rank.
     lost_work: Vec<[f64; 2]>,
@@ -103,13 +103,13 @@ impl Contact {
         if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
             return None;
         }
-        let watched: Vec<Vec<u32>> =
+        let plane_node_sets: Vec<Vec<u32>> =
             model.rigid_surfaces.iter().map(|plane| mesh.side_set_nodes(plane.side_set)).collect();
-        let skin = Skin::new(mesh, model, body, watched.concat());
+        let skin = Skin::new(mesh, model, body, plane_node_sets.concat());
         let layout = skin.layout();
         let mut contact = Contact {
-            sites: ContactNodes::default(),
-            arena: LocalProblem::default(),
+            contact_nodes: ContactNodes::default(),
+            problem: LocalProblem::default(),
             remote: None,
             carried: None,
             search: kind(model.contact.control.search).make(),
@@ -117,8 +117,8 @@ impl Contact {
             reach: reach(model, &layout),
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
-            watches: plane_points(&watched, model, body, &layout),
-            limits: limits(model, &watched),
+            plane_nodes: plane_points(&plane_node_sets, model, body, &layout),
+            limits: limits(model, &plane_node_sets),
             lost_work: Vec::new(),
             bank: Bank::default(),
             gain: Gain::default(),
@@ -140,37 +140,39 @@ impl Contact {
     fn meet(&mut self, local: impl Fn(u32) -> u32, nodes: &Nodes, comm: &mut dyn Communicator) {
         let Contact { layout, held, elements, .. } = self;
         let here = |point: u32| local(layout.nodes[point as usize]);
-        self.sites = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
+        self.contact_nodes = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes. Where there was more before, their forces were known at homes only.
             if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
                 let all = 0..comm.size() as u32;
                 history.planes = share_planes(&history.planes, |_| all.clone(), comm);
             }
-            self.arena = alone(layout, &self.sites, &self.watches, Default::default(), 0.0);
+            self.problem = alone(layout, &self.contact_nodes, &self.plane_nodes, Default::default(), 0.0);
             // Nor a search, which would put history back.
-            self.arena.restore(self.carried.take().unwrap_or_default());
+            self.problem.restore(self.carried.take().unwrap_or_default());
         } else if comm.size() > 1 {
             let is_here = |face: u32| elements.binary_search(&(face / 6)).is_ok();
-            self.remote = Some(Remote::new((layout, &self.sites), self.decomposition, is_here, comm));
+            self.remote = Some(Remote::new((layout, &self.contact_nodes), self.decomposition, is_here, comm));
         }
     }
 
     /// Lets the surface grow inwards after elements have gone: `dead` are their canonical numbers, ascending.
     pub fn erode(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, comm: &mut dyn Communicator) {
-        let history = self.carried.take().unwrap_or_else(|| self.arena.history());
+        let history = self.carried.take().unwrap_or_else(|| self.problem.history());
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
         reshape::take_over(&mut self.layout, &old);
-        let old_sites = std::mem::take(&mut self.sites);
+        let old_contact_nodes = std::mem::take(&mut self.contact_nodes);
         let new = &self.layout;
-        self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
+        self.plane_nodes
+            .iter_mut()
+            .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
         self.carried = Some(renumbered(history, &old, new));
         self.meet(|node| erosion.local()[node as usize], nodes, comm);
-        for (site, work) in old_sites.list.iter().zip(&old_sites.works) {
-            match self.sites.of(self.layout.point(old.nodes[site.point as usize])) {
-                Some(now) => self.sites.works[now] = *work,
-                None if site.owned => self.lost_work.push(*work),
+        for (contact_node, work) in old_contact_nodes.list.iter().zip(&old_contact_nodes.works) {
+            match self.contact_nodes.of(self.layout.point(old.nodes[contact_node.point as usize])) {
+                Some(now) => self.contact_nodes.works[now] = *work,
+                None if contact_node.owned => self.lost_work.push(*work),
                 None => (),
             }
         }
@@ -191,36 +193,36 @@ impl Contact {
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
         self.bring_forces(comm);
-        self.sites.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
+        self.contact_nodes.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
     }
 
     /// Finds where the nodes would go, searches if that is due, and brings their motion to the arena.
     fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
-        self.sites.predict(nodes, step);
+        self.contact_nodes.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
         let reshaped = self.reshape(comm);
         if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
             self.search(comm);
         }
         comm.enter(Traffic::ContactMotion);
-        let Contact { sites, arena, remote, .. } = self;
+        let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_motion(sites, arena, step.drift, comm),
+            Some(remote) => remote.send_motion(contact_nodes, problem, step.drift, comm),
             // The arena's points are the sites: lent, not copied.
-            None => std::mem::swap(&mut arena.points, &mut sites.points),
+            None => std::mem::swap(&mut problem.motion, &mut contact_nodes.motion),
         }
     }
 
     /// Brings the forces that the arena has found to the sites.
     fn bring_forces(&mut self, comm: &mut dyn Communicator) {
-        let Contact { sites, arena, remote, .. } = self;
+        let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_forces(sites, arena, comm),
+            Some(remote) => remote.send_forces(contact_nodes, problem, comm),
             None => {
-                std::mem::swap(&mut arena.points, &mut sites.points);
-                sites.pushed.clone_from(&arena.pushed);
-                for &point in &arena.pushed {
-                    sites.answers[point as usize] = arena.answers[point as usize];
+                std::mem::swap(&mut problem.motion, &mut contact_nodes.motion);
+                contact_nodes.loaded.clone_from(&problem.loaded);
+                for &point in &problem.loaded {
+                    contact_nodes.answers[point as usize] = problem.answers[point as usize];
                 }
             }
         }
@@ -229,15 +231,15 @@ impl Contact {
     /// Brings what [`Contact::node_values`] and [`Contact::plane_forces`] tell beside forces to the nodes; before them,
     /// and all ranks call it.
     pub fn complete(&mut self, comm: &mut dyn Communicator) {
-        let Contact { sites, arena, remote, .. } = self;
+        let Contact { contact_nodes, problem, remote, .. } = self;
         if let Some(remote) = remote {
-            remote.send_rest(sites, arena, comm);
+            remote.send_rest(contact_nodes, problem, comm);
         }
     }
 
     /// Whether any rank needs a search.
     fn expired(&self, comm: &mut dyn Communicator) -> bool {
-        let expired = self.sites.expired;
+        let expired = self.contact_nodes.expired;
         if self.remote.is_none() {
             return expired;
         }
@@ -248,45 +250,45 @@ impl Contact {
 
     /// Finds all candidates anew.
     fn search(&mut self, comm: &mut dyn Communicator) {
-        let Contact { layout, sites, arena, remote, carried, search, watches, .. } = self;
+        let Contact { layout, contact_nodes, problem, remote, carried, search, plane_nodes, .. } = self;
         let depth = self.reach.depth;
         self.searches += 1;
-        sites.renew(self.reach.steps, self.reach.least);
+        contact_nodes.renew(self.reach.steps, self.reach.least);
         if let Some(remote) = remote {
-            let history = carried.take().unwrap_or_else(|| arena.history());
-            *arena = remote.decompose(&mut **search, (layout, watches, depth), sites, history, comm);
+            let history = carried.take().unwrap_or_else(|| problem.history());
+            *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
         } else {
-            let points = neighbourhood::point_boxes(sites);
-            let faces = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, sites);
-            let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, sites);
+            let points = neighbourhood::point_boxes(contact_nodes);
+            let faces = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
+            let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
             let found = neighbourhood::find(&mut **search, [&points, &faces, &edges], |_| true, layout);
             if carried.is_some() || self.searches == 1 {
-                *arena = alone(layout, sites, watches, found, depth);
-                arena.restore(carried.take().unwrap_or_default());
+                *problem = alone(layout, contact_nodes, plane_nodes, found, depth);
+                problem.restore(carried.take().unwrap_or_default());
             } else {
-                arena.renew(found, depth);
+                problem.renew(found, depth);
             }
         }
-        let points = if remote.is_some() { &mut arena.points } else { &mut sites.points };
-        points.count(arena.locator.moving().iter().copied());
-        self.counts = self.arena.locator.counts().map(|count| count as u64);
+        let motion = if remote.is_some() { &mut problem.motion } else { &mut contact_nodes.motion };
+        motion.count(problem.locator.moving().iter().copied());
+        self.counts = self.problem.locator.counts().map(|count| count as u64);
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);
         }
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
-        let Contact { arena, remote, pairings, planes, mean_size, limits, bank, .. } = self;
+        let Contact { problem, remote, pairings, planes, mean_size, limits, bank, .. } = self;
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits };
         match remote {
-            Some(remote) => arena.step(&setting, step, bank, &mut remote.others(comm)),
-            None => arena.step(&setting, step, bank, &mut NoOtherRanks),
+            Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),
+            None => problem.step(&setting, step, bank, &mut NoOtherRanks),
         }
     }
 
-    fn count(&mut self, Outcome { iterations, left, deepest, depth, motion }: Outcome) {
+    fn count(&mut self, Outcome { iterations, left, deepest, depth, travel }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
-        self.tally.farthest = self.tally.farthest.max(motion);
+        self.tally.farthest = self.tally.farthest.max(travel);
         if depth > 0.0 {
             self.tally.motions = self.tally.motions.max(depth / self.tally.farthest);
         }
@@ -298,32 +300,33 @@ impl Contact {
 
     /// Books half the step's work with the present velocities.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        self.sites.book(nodes, half_step);
+        self.contact_nodes.book(nodes, half_step);
     }
 
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
-        self.sites.pushed.clear();
-        self.arena.forget();
+        self.contact_nodes.loaded.clear();
+        self.problem.forget();
     }
 }
 
 /// An arena that holds what this rank has, and everything when there is no other.
 fn alone(
     layout: &Layout,
-    sites: &ContactNodes,
-    watches: &[PlaneNode],
+    contact_nodes: &ContactNodes,
+    plane_nodes: &[PlaneNode],
     found: neighbourhood::SearchResult,
     depth: f64,
 ) -> LocalProblem {
-    let cast = Numbering {
-        points: sites.list.iter().map(|site| site.point).collect(),
+    let numbering = Numbering {
+        points: contact_nodes.list.iter().map(|contact_node| contact_node.point).collect(),
         ghosts: Vec::new(),
         faces: (0..layout.faces.len() as u32).collect(),
         edges: (0..layout.edges.len() as u32).collect(),
     };
-    let here: Vec<PlaneNode> = watches.iter().filter(|watch| sites.of(watch.point).is_some()).copied().collect();
-    LocalProblem::new(cast, found, depth, layout, &here)
+    let here: Vec<PlaneNode> =
+        plane_nodes.iter().filter(|plane_node| contact_nodes.of(plane_node.point).is_some()).copied().collect();
+    LocalProblem::new(numbering, found, depth, layout, &here)
 }
 
 /// A history in the numbers of a new layout.
@@ -371,24 +374,24 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
 
 /// How far the passes go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
 /// stops at the same pass; planes alone are each rank's own, and get as many passes as they can need.
-fn limits(model: &Model, watched: &[Vec<u32>]) -> Limits {
+fn limits(model: &Model, plane_node_sets: &[Vec<u32>]) -> Limits {
     let control = &model.contact.control;
     if model.contact.is_some() {
         return Limits { iterations: control.passes, tolerance: control.tolerance };
     }
-    let mut nodes = watched.concat();
+    let mut nodes = plane_node_sets.concat();
     nodes.sort_unstable();
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
     Limits { iterations: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
 }
 
-fn plane_points(watched: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {
+fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {
     let mut list = Vec::new();
-    for (number, (plane, nodes)) in model.rigid_surfaces.iter().zip(watched).enumerate() {
+    for (number, (plane, nodes)) in model.rigid_surfaces.iter().zip(plane_node_sets).enumerate() {
         for &node in nodes {
             if let Ok(point) = layout.nodes.binary_search(&node) {
-                let watch = PlaneNode::new(point as u32, number, plane, body.positions[node as usize]);
-                list.push(PlaneNode { number: list.len() as u32, ..watch });
+                let plane_node = PlaneNode::new(point as u32, number, plane, body.positions[node as usize]);
+                list.push(PlaneNode { number: list.len() as u32, ..plane_node });
             }
         }
     }

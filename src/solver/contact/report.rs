@@ -57,7 +57,12 @@ pub struct Work {
 impl Contact {
     /// Work of normal and of friction forces so far, at every point that this rank owns, and of points now gone.
     pub fn works(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let owned = self.sites.list.iter().zip(&self.sites.works).filter(|(site, _)| site.owned);
+        let owned = self
+            .contact_nodes
+            .list
+            .iter()
+            .zip(&self.contact_nodes.works)
+            .filter(|(contact_node, _)| contact_node.owned);
         owned.map(|(_, work)| *work).chain(self.lost_work.iter().copied())
     }
 
@@ -67,8 +72,8 @@ impl Contact {
     }
 
     fn answers(&self) -> impl Iterator<Item = (u32, &[f64; contact_nodes::ANSWER])> + '_ {
-        let sites = &self.sites;
-        sites.pushed.iter().map(|&i| (sites.list[i as usize].node, &sites.answers[i as usize]))
+        let contact_nodes = &self.contact_nodes;
+        contact_nodes.loaded.iter().map(|&i| (contact_nodes.list[i as usize].node, &contact_nodes.answers[i as usize]))
     }
 
     /// At each local node that is pushed: contact force, overlap that contact closes in the coming step, status (0 free,
@@ -83,9 +88,9 @@ impl Contact {
     }
 
     /// Local nodes on the surface, and the ranks that compute their contact.
-    pub fn homes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let homes = self.sites.homes.iter().copied().chain(std::iter::repeat(0));
-        self.sites.list.iter().map(|site| site.node).zip(homes)
+    pub fn owner_ranks(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let owner_ranks = self.contact_nodes.owner_ranks.iter().copied().chain(std::iter::repeat(0));
+        self.contact_nodes.list.iter().map(|contact_node| contact_node.node).zip(owner_ranks)
     }
 
     /// What the log tells at the end; nothing of planes alone, of which each rank knows its own only.
@@ -104,11 +109,11 @@ impl Contact {
 
     /// What contact has asked of this rank.
     pub fn work(&self) -> Work {
-        let [_, candidates] = self.arena.locator.counts();
+        let [_, candidates] = self.problem.locator.counts();
         Work {
-            points: self.arena.cast.points.len() as u64,
+            points: self.problem.numbering.points.len() as u64,
             candidates: candidates as u64,
-            constraints: self.arena.constraints.len() as u64,
+            constraints: self.problem.constraints.len() as u64,
             iterations: self.tally.iterations,
         }
     }

@@ -36,7 +36,7 @@ impl Contact {
         for change in changed {
             self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
         }
-        let mut history = self.carried.take().unwrap_or_else(|| self.arena.history());
+        let mut history = self.carried.take().unwrap_or_else(|| self.problem.history());
         history.edges =
             history.edges.into_iter().filter_map(|past| edge_edge::in_order(past, &self.layout.edges)).collect();
         self.carried = Some(history);
@@ -67,7 +67,7 @@ impl Contact {
         }
         let mut corners = [[0.0; 3]; 4];
         for (corner, &point) in corners.iter_mut().zip(&self.layout.faces.corners[face as usize]) {
-            *corner = self.sites.points.start(self.sites.of(point)? as u32);
+            *corner = self.contact_nodes.motion.start(self.contact_nodes.of(point)? as u32);
         }
         Some(edges::side(&corners))
     }

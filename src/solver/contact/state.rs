@@ -34,10 +34,10 @@ impl Contact {
     pub fn visit_state(&mut self, archive: &mut dyn Archive, dead: &[u32], erosion: Option<&Erosion>, nodes: &Nodes) {
         let Contact {
             // Visited below.
-            arena: _,
+            problem: _,
             carried: _,
-            sites: _,
-            watches: _,
+            contact_nodes: _,
+            plane_nodes: _,
             lost_work: _,
             tally: Tally { steps, iterations, capped, left, deepest, motions, farthest },
             bank: Bank { balance, asked, work, gain: excess },
@@ -103,7 +103,9 @@ impl Contact {
         self.skin.free = free;
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
         let new = &self.layout;
-        self.watches.iter_mut().for_each(|watch| watch.point = new.point(old.nodes[watch.point as usize]));
+        self.plane_nodes
+            .iter_mut()
+            .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
         self.meet(|node| erosion.local()[node as usize], nodes, archive.comm());
     }
 
@@ -130,7 +132,7 @@ impl Contact {
 
     /// What touches, in the arena or on its way to the next.
     fn visit_history(&mut self, archive: &mut dyn Archive) {
-        let now = self.carried.clone().unwrap_or_else(|| self.arena.history());
+        let now = self.carried.clone().unwrap_or_else(|| self.problem.history());
         let mut come = History {
             points: self.visit_touches(archive, &now),
             edges: self.visit_pairs(archive, &now),
@@ -140,12 +142,14 @@ impl Contact {
             return;
         }
         if self.layout.interfaces.is_empty() {
-            return self.arena.restore(come);
+            return self.problem.restore(come);
         }
-        let mine = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
+        let mine = |point: u32| {
+            self.contact_nodes.of(point).is_some_and(|contact_node| self.contact_nodes.list[contact_node].owned)
+        };
         come.points.retain(|(point, _)| mine(*point));
         come.edges.retain(|past| mine(self.layout.edges[past.pair[0] as usize].ends[0]));
-        come.planes.retain(|(number, ..)| mine(self.watches[*number as usize].point));
+        come.planes.retain(|(number, ..)| mine(self.plane_nodes[*number as usize].point));
         self.carried = Some(come);
     }
 
@@ -214,12 +218,14 @@ impl Contact {
     fn visit_planes(&self, archive: &mut dyn Archive, now: &History) -> Vec<PlaneHistory> {
         // Planes alone are with every rank that has the node.
         let alone = self.layout.interfaces.is_empty();
-        let answers = |point: u32| self.sites.of(point).is_some_and(|site| self.sites.list[site].owned);
+        let answers = |point: u32| {
+            self.contact_nodes.of(point).is_some_and(|contact_node| self.contact_nodes.list[contact_node].owned)
+        };
         let mut rows = Vec::new();
         for (number, carried) in &now.planes {
-            let watch = &self.watches[*number as usize];
-            if !alone || answers(watch.point) {
-                rows.extend([f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)]);
+            let plane_node = &self.plane_nodes[*number as usize];
+            if !alone || answers(plane_node.point) {
+                rows.extend([f64::from(self.layout.nodes[plane_node.point as usize]), f64::from(plane_node.plane)]);
                 rows.extend(carried.to_array());
             }
         }
@@ -228,19 +234,19 @@ impl Contact {
             return Vec::new();
         }
         let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
-        let force = |watch: &super::PlaneNode| {
-            let key = [f64::from(self.layout.nodes[watch.point as usize]), f64::from(watch.plane)];
+        let force = |plane_node: &super::PlaneNode| {
+            let key = [f64::from(self.layout.nodes[plane_node.point as usize]), f64::from(plane_node.plane)];
             let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
-            Some((watch.number, Carried::from_slice(&row[2..])))
+            Some((plane_node.number, Carried::from_slice(&row[2..])))
         };
-        self.watches.iter().filter_map(force).collect()
+        self.plane_nodes.iter().filter_map(force).collect()
     }
 
     fn visit_works(&mut self, archive: &mut dyn Archive) {
         let mut rows = Vec::new();
-        for (site, work) in self.sites.list.iter().zip(&self.sites.works) {
-            if site.owned && *work != [0.0; 2] {
-                rows.extend([f64::from(self.layout.nodes[site.point as usize]), work[0], work[1]]);
+        for (contact_node, work) in self.contact_nodes.list.iter().zip(&self.contact_nodes.works) {
+            if contact_node.owned && *work != [0.0; 2] {
+                rows.extend([f64::from(self.layout.nodes[contact_node.point as usize]), work[0], work[1]]);
             }
         }
         archive.list("CONTWORK", WORK, &mut rows);
@@ -249,10 +255,10 @@ impl Contact {
         if !archive.loading() {
             return;
         }
-        self.sites.works.fill([0.0; 2]);
+        self.contact_nodes.works.fill([0.0; 2]);
         for row in rows.chunks_exact(WORK) {
-            if let Some(site) = self.sites.of(self.layout.point(row[0] as u32)) {
-                self.sites.works[site] = [row[1], row[2]];
+            if let Some(contact_node) = self.contact_nodes.of(self.layout.point(row[0] as u32)) {
+                self.contact_nodes.works[contact_node] = [row[1], row[2]];
             }
         }
         // Sums do not depend on which rank keeps these.

@@ -119,7 +119,7 @@ struct QuickCrossing {
 /// The check of edges against edges.
 pub struct EdgeCheck<'a> {
     /// Points.
-    pub points: &'a NodeMotion,
+    pub motion: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
     /// Edges.
@@ -129,16 +129,16 @@ pub struct EdgeCheck<'a> {
 impl EdgeCheck<'_> {
     fn start(&self, edge: u32) -> [[f64; 3]; 2] {
         let [a, b] = self.edges[edge as usize].ends;
-        [self.points.start(a), self.points.start(b)]
+        [self.motion.start(a), self.motion.start(b)]
     }
 
     fn end(&self, edge: u32) -> [[f64; 3]; 2] {
         let [a, b] = self.edges[edge as usize].ends;
-        [self.points.end(a), self.points.end(b)]
+        [self.motion.end(a), self.motion.end(b)]
     }
 
     /// Box around the way of an edge over the step.
-    fn way(&self, edge: u32) -> Box3 {
+    fn swept_box(&self, edge: u32) -> Box3 {
         let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
         Box3::around(&[a, b, c, d])
     }
@@ -147,7 +147,7 @@ impl EdgeCheck<'_> {
     fn apart(&self, pair: [u32; 2]) -> f64 {
         let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
         let bounds = |edge: u32, margin: f64| {
-            let [a, b] = self.edges[edge as usize].ends.map(|end| &self.points.ways[end as usize]);
+            let [a, b] = self.edges[edge as usize].ends.map(|end| &self.motion.swept_boxes[end as usize]);
             SweptBox::joined([a, b, a, b], margin as f32)
         };
         f64::from(bounds(pair[0], margins[0].max(margins[1])).distance(&bounds(pair[1], 0.0)))
@@ -162,8 +162,8 @@ impl EdgeCheck<'_> {
                 return EdgeVerdict::Apart(apart);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
-            let Some(glance) = self.at_a_glance(pair) else { return EdgeVerdict::Apart(0.0) };
-            if !stand_out && self.is_above(pair[1], &glance) {
+            let Some(crossing) = self.quick_crossing(pair) else { return EdgeVerdict::Apart(0.0) };
+            if !stand_out && self.is_above(pair[1], &crossing) {
                 return EdgeVerdict::Apart(0.0);
             }
         }
@@ -184,7 +184,7 @@ impl EdgeCheck<'_> {
         pairing: Pairing,
     ) -> Option<(EdgeContact, Constraint)> {
         let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
-        if !self.way(pair[0]).grown(margin).overlaps(&self.way(pair[1])) {
+        if !self.swept_box(pair[0]).grown(margin).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
@@ -202,7 +202,7 @@ impl EdgeCheck<'_> {
     }
 
     /// How two edges cross at the end of the step; `None` where they do not between their ends.
-    fn at_a_glance(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
+    fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
         let [a, b] = pair.map(|edge| self.end(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
@@ -215,7 +215,7 @@ impl EdgeCheck<'_> {
     /// Whether the edge that crosses a line does so on the outside, or hardly inside.
     fn is_above(&self, line: u32, &QuickCrossing { product, square, fall }: &QuickCrossing) -> bool {
         let slack = SLACK * self.scale(line);
-        let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.points)));
+        let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.motion)));
         fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
     }
 
@@ -228,7 +228,7 @@ impl EdgeCheck<'_> {
         pairing: Pairing,
     ) -> Option<(EdgeContact, Constraint)> {
         let scale = self.scale(pair[1]);
-        if !self.way(pair[0]).grown(SUNK * scale).overlaps(&self.way(pair[1])) {
+        if !self.swept_box(pair[0]).grown(SUNK * scale).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
@@ -274,7 +274,7 @@ impl EdgeCheck<'_> {
 
     /// Sum of the normals of the faces at an edge, at the beginning of the step.
     fn outwards(&self, edge: u32) -> [f64; 3] {
-        let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.points)));
+        let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.motion)));
         add(a, b)
     }
 
@@ -303,7 +303,7 @@ impl EdgeCheck<'_> {
 
     /// Whether the edges come into one plane within the step, and there between their ends.
     fn meets(&self, pair: [u32; 2]) -> bool {
-        let path = |edge: u32, end: usize| self.points.path(self.edges[edge as usize].ends[end]);
+        let path = |edge: u32, end: usize| self.motion.path(self.edges[edge as usize].ends[end]);
         let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
         let volume = crossing::coplanarity(
             crossing::relative(b[0], a[0]),

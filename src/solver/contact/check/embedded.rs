@@ -93,8 +93,13 @@ impl Contact {
     /// Points that CONTACT MATERIAL lets touch, of all ranks, and where they are; on each rank.
     fn points_of_all(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<(u32, [f64; 3])> {
         let Some(automatic) = self.layout.automatic() else { return Vec::new() };
-        let own = self.sites.list.iter().filter(|site| site.owned && automatic.points[site.point as usize]);
-        let mut points: Vec<(u32, [f64; 3])> = own.map(|site| (site.point, nodes.position(site.node))).collect();
+        let own = self
+            .contact_nodes
+            .list
+            .iter()
+            .filter(|contact_node| contact_node.owned && automatic.points[contact_node.point as usize]);
+        let mut points: Vec<(u32, [f64; 3])> =
+            own.map(|contact_node| (contact_node.point, nodes.position(contact_node.node))).collect();
         if comm.size() > 1 {
             let parcel = |(point, at): &(u32, [f64; 3])| {
                 let bytes = at.iter().flat_map(|x| x.to_le_bytes());

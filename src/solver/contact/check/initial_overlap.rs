@@ -120,19 +120,19 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         return Overlap { left: left(body, &layout), ..Default::default() };
     }
     let pairings = Pairings::new(mesh, model, body);
-    let mut points = NodeMotion::new(layout.nodes.len(), layout.origin);
-    weigh(mesh, model, body, &layout, &mut points);
+    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    weigh(mesh, model, body, &layout, &mut motion);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
-    let mut enforcer = Enforcer::new(points.len());
+    let mut enforcer = Enforcer::new(motion.len());
     // The deepest overlap that each point takes part in: no farther is it moved.
-    let mut farthest = vec![0.0; points.len()];
+    let mut farthest = vec![0.0; motion.len()];
     let mut stuck = Stuck::default();
     for round in 0..=ROUNDS {
-        points.begin(0.0);
+        motion.begin(0.0);
         for (point, &node) in layout.nodes.iter().enumerate() {
-            points.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
+            motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
         }
-        let mut constraints = overlaps(&layout, &pairings, &points);
+        let mut constraints = overlaps(&layout, &pairings, &motion);
         stuck = Stuck::of(&constraints, &layout);
         if constraints.is_empty() || round == ROUNDS {
             break;
@@ -141,12 +141,12 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
         let limits = Limits { iterations: 100, tolerance: 0.1 * NOTHING };
-        enforcer.prepare(&mut constraints, &points, still.drift, &Ledger::Unlimited);
-        enforcer.solve(&mut constraints, &points, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
+        enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited);
+        enforcer.solve(&mut constraints, &motion, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions = Arc::make_mut(&mut body.positions);
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             let node = layout.nodes[point] as usize;
-            let there = add(points.start(point as u32), enforcer.velocity_change(point, &points, still.kick));
+            let there = add(motion.start(point as u32), enforcer.velocity_change(point, &motion, still.kick));
             positions[node] = within(there, mesh.coordinates[node], farthest[point]);
         }
     }
@@ -170,9 +170,9 @@ impl Stuck {
 
 /// The place nearest to `there` that is no farther than `most` from `from`.
 fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
-    let way = subtract(there, from);
-    let length = dot(way, way).sqrt();
-    if length > most { add(from, scaled(way, most / length)) } else { there }
+    let path = subtract(there, from);
+    let length = dot(path, path).sqrt();
+    if length > most { add(from, scaled(path, most / length)) } else { there }
 }
 
 /// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
@@ -284,36 +284,36 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
 }
 
 /// Inverse masses; none in directions that the deck holds.
-fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, points: &mut NodeMotion) {
+fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut NodeMotion) {
     for (point, &node) in layout.nodes.iter().enumerate() {
-        points.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
+        motion.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
     }
     let still = model.no_displacements.iter().map(|held| (held.node_set, held.direction));
     let driven = model.prescribed_motions.iter().map(|motion| (motion.node_set, motion.direction));
     for (set, direction) in still.chain(driven) {
         for node in mesh.node_set(set).map_or(&[][..], |set| &set.nodes) {
             if let Ok(point) = layout.nodes.binary_search(node) {
-                points.inverse_mass[point][direction.axis()] = 0.0;
+                motion.inverse_mass[point][direction.axis()] = 0.0;
             }
         }
     }
 }
 
 /// Every point behind a face that faces it.
-fn overlaps(layout: &Layout, pairings: &Pairings, points: &NodeMotion) -> Vec<Constraint> {
-    let sites = ContactNodes::still(points);
-    let all = neighbourhood::point_boxes(&sites);
-    let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &sites);
+fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
+    let contact_nodes = ContactNodes::still(motion);
+    let all = neighbourhood::point_boxes(&contact_nodes);
+    let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &contact_nodes);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let mut locator = Locator::new(found, 1.0, points, &layout.faces, &layout.edges);
-    locator.step(points, &layout.faces);
-    let check = NodeFaceCheck { points, faces: &layout.faces };
+    let mut locator = Locator::new(found, 1.0, motion, &layout.faces, &layout.edges);
+    locator.step(motion, &layout.faces);
+    let check = NodeFaceCheck { motion, faces: &layout.faces };
     let (mut contacts, mut constraints) = (Vec::new(), Vec::new());
     let mut near: Vec<Candidate> = Vec::new();
-    for i in 0..locator.watched().len() {
-        let point = locator.watched()[i];
-        locator.near(i, points, &layout.faces, &NO_CONTACT, &mut near);
+    for i in 0..locator.slave_nodes().len() {
+        let point = locator.slave_nodes()[i];
+        locator.locate(i, motion, &layout.faces, &NO_CONTACT, &mut near);
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
         check.point(point, &faces, &vec![true; faces.len()], &NO_CONTACT, &mut contacts);
         for contact in &mut contacts {
@@ -333,8 +333,8 @@ fn overlaps(layout: &Layout, pairings: &Pairings, points: &NodeMotion) -> Vec<Co
 
 fn moved(mesh: &Mesh, body: &Body, layout: &Layout) -> Overlap {
     layout.nodes.iter().fold(Overlap::default(), |sum, &node| {
-        let way = subtract(body.positions[node as usize], mesh.coordinates[node as usize]);
-        let length = dot(way, way).sqrt();
+        let path = subtract(body.positions[node as usize], mesh.coordinates[node as usize]);
+        let length = dot(path, path).sqrt();
         Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length), ..sum }
     })
 }

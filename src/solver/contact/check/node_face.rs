@@ -80,7 +80,7 @@ fn keep(faces: &Faces, face: u32) -> f64 {
 /// The detailed check of points against faces.
 pub struct NodeFaceCheck<'a> {
     /// Points.
-    pub points: &'a NodeMotion,
+    pub motion: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
 }
@@ -100,7 +100,7 @@ impl NodeFaceCheck<'_> {
     ) {
         contacts.clear();
         if past[0].face != NONE {
-            self.watched(point, near, past, contacts);
+            self.persistent(point, near, past, contacts);
         }
         let held = contacts.len();
         for (&face, &strict) in near.iter().zip(strict) {
@@ -114,12 +114,12 @@ impl NodeFaceCheck<'_> {
         }
         for contact in contacts.iter_mut() {
             self.blend(near, contact);
-            let (corners, start) = (self.faces.start(contact.face, self.points), self.points.start(point));
+            let (corners, start) = (self.faces.start(contact.face, self.motion), self.motion.start(point));
             if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
-                let end = self.faces.end(contact.face, self.points);
+                let end = self.faces.end(contact.face, self.motion);
                 let foot = projection::foot(&end, &shares);
                 contact.projection.weights = shares;
-                contact.projection.gap = dot(subtract(self.points.end(point), foot), contact.projection.normal);
+                contact.projection.gap = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
             }
         }
     }
@@ -133,7 +133,7 @@ impl NodeFaceCheck<'_> {
         }
         let corners = self.faces.corners[contact.face as usize];
         let unit = |face: u32| {
-            let normal = projection::area_normal(&self.faces.end(face, self.points));
+            let normal = projection::area_normal(&self.faces.end(face, self.motion));
             scaled(normal, 1.0 / dot(normal, normal).sqrt())
         };
         let shared = |face: u32| -> f64 {
@@ -164,11 +164,17 @@ impl NodeFaceCheck<'_> {
     }
 
     fn projection_at_end(&self, point: u32, face: u32) -> Option<Projection> {
-        projection::project(&self.faces.end(face, self.points), self.points.end(point))
+        projection::project(&self.faces.end(face, self.motion), self.motion.end(point))
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
-    fn watched(&self, point: u32, near: &[u32], past: &[FaceContact; MAX_FACES], contacts: &mut Vec<DetectedContact>) {
+    fn persistent(
+        &self,
+        point: u32,
+        near: &[u32],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
         let mut left: Option<(u32, f64, Projection)> = None;
         for past in past.iter().filter(|past| past.face != NONE && near.contains(&past.face)) {
             let Some(projection) = self.projection_at_end(point, past.face) else { continue };
@@ -218,7 +224,7 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
     fn goes_on(&self, old: u32, face: u32, projection: &Projection, next: &Projection) -> bool {
-        let middle = |face| projection::centre(&self.faces.end(face, self.points));
+        let middle = |face| projection::centre(&self.faces.end(face, self.motion));
         dot(projection.normal, next.normal) > SAME_WAY
             || dot(subtract(middle(face), middle(old)), projection.normal) > 0.0
     }
@@ -228,14 +234,14 @@ impl NodeFaceCheck<'_> {
         let held = contacts.len();
         for i in 0..held {
             let old = contacts[i];
-            let middle = projection::centre(&self.faces.end(old.face, self.points));
+            let middle = projection::centre(&self.faces.end(old.face, self.motion));
             for &face in near.iter().filter(|&&face| face != old.face && self.faces.adjacent(old.face, face)) {
-                let corners = self.faces.end(face, self.points);
+                let corners = self.faces.end(face, self.motion);
                 let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
                 if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
                     continue;
                 }
-                let Some(projection) = projection::project(&corners, self.points.end(point)) else { continue };
+                let Some(projection) = projection::project(&corners, self.motion.end(point)) else { continue };
                 if projection.outside == 0.0 && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, 0.0));
                 }
@@ -264,13 +270,13 @@ impl NodeFaceCheck<'_> {
         if self.is_in_front(point, face) {
             return None;
         }
-        let end = projection::project(&self.faces.end(face, self.points), self.points.end(point))
+        let end = projection::project(&self.faces.end(face, self.motion), self.motion.end(point))
             .filter(|projection| projection.gap < 0.0)?;
-        let start = projection::project(&self.faces.start(face, self.points), self.points.start(point))?;
+        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point))?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         if start.gap >= 0.0 {
-            let corners = self.faces.corners[face as usize].map(|corner| self.points.path(corner));
-            let time = projection::first_crossing(&corners, self.points.path(point))?;
+            let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
+            let time = projection::first_crossing(&corners, self.motion.path(point))?;
             let comes = !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
             return comes.then(|| contact(time, 0.0));
         }
@@ -288,7 +294,7 @@ impl NodeFaceCheck<'_> {
     #[inline(always)]
     fn is_in_front(&self, point: u32, face: u32) -> bool {
         let [a, b, c, d] = self.faces.corners[face as usize];
-        let end = |point| self.points.end_four(point);
+        let end = |point| self.motion.end_four(point);
         projection::is_in_front([end(a), end(b), end(c), end(d)], end(point))
     }
 
@@ -296,7 +302,7 @@ impl NodeFaceCheck<'_> {
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
         self.beside(face).any(|other| {
-            let start = projection::project(&self.faces.start(other, self.points), self.points.start(point));
+            let start = projection::project(&self.faces.start(other, self.motion), self.motion.start(point));
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
     }
@@ -319,7 +325,7 @@ impl NodeFaceCheck<'_> {
     /// Smallest cosine between a normal and those of the faces around a point.
     fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
         let cosine = |&face: &u32| {
-            let own = projection::area_normal(&self.faces.start(face, self.points));
+            let own = projection::area_normal(&self.faces.start(face, self.motion));
             dot(own, *normal) / dot(own, own).sqrt()
         };
         self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
@@ -328,11 +334,11 @@ impl NodeFaceCheck<'_> {
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
     fn slides_over(&self, point: u32, face: u32, end: &Projection) -> bool {
-        let at = self.points.start(point);
-        let corners = self.faces.start(face, self.points);
+        let at = self.motion.start(point);
+        let corners = self.faces.start(face, self.motion);
         let foot = projection::foot(&corners, &end.weights);
         self.beside(face).any(|other| {
-            let (corners, reach) = (self.faces.start(other, self.points), SEAM * self.faces.size[other as usize]);
+            let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
             let near =
                 |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
             near(foot).is_some()
@@ -341,7 +347,7 @@ impl NodeFaceCheck<'_> {
     }
 
     fn opposition(&self, point: u32, projection: &Projection) -> f64 {
-        let normal = self.faces.point_normal(point, self.points);
+        let normal = self.faces.point_normal(point, self.motion);
         let length = dot(normal, normal).sqrt();
         // A free node faces everything.
         if length > 0.0 { dot(normal, projection.normal) / length } else { -1.0 }
@@ -376,7 +382,7 @@ impl NodeFaceCheck<'_> {
         if !self.faces.adjacent(first.face, second.face) {
             return true;
         }
-        let middle = |face| projection::centre(&self.faces.end(face, self.points));
+        let middle = |face| projection::centre(&self.faces.end(face, self.motion));
         dot(subtract(middle(second.face), middle(first.face)), first.projection.normal) > 0.0
     }
 }

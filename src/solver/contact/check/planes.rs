@@ -42,12 +42,12 @@ impl PlaneNode {
     pub fn constraint(
         &mut self,
         planes: &[RigidSurface],
-        points: &NodeMotion,
+        motion: &NodeMotion,
         size: f64,
         always: bool,
     ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
-        let end = points.end(self.point);
+        let end = motion.end(self.point);
         let gap = gap(plane, end) - self.tolerated;
         if gap >= 0.0 && !always {
             self.carried = Carried::NOTHING;

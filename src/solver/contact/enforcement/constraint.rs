@@ -55,9 +55,9 @@ impl Constraint {
     }
 
     /// Relative velocity of its members: Σ w v, over the step without contact, and over the step before.
-    pub fn velocities(&self, points: &NodeMotion) -> [[f64; 3]; 2] {
+    pub fn velocities(&self, motion: &NodeMotion) -> [[f64; 3]; 2] {
         let of = |velocity: fn(&NodeMotion, u32) -> [f64; 3]| {
-            self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(points, point as u32), weight)))
+            self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(motion, point as u32), weight)))
         };
         [of(NodeMotion::velocity), of(NodeMotion::velocity_before)]
     }

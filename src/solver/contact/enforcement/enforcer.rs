@@ -81,7 +81,7 @@ impl Enforcer {
     pub fn solve(
         &mut self,
         constraints: &mut [Constraint],
-        points: &NodeMotion,
+        motion: &NodeMotion,
         step: &StepTimes,
         limits: Limits,
         (ledger, others): (Ledger, &mut dyn OtherRanks),
@@ -97,7 +97,7 @@ impl Enforcer {
         // out as a row of blows instead of a steady force.
         let wanted = self.states.iter().any(|state| state.closing < 0.0);
         let outcome = if wanted || others.are_there() {
-            self.iterate(constraints, points, times, limits, wanted, others)
+            self.iterate(constraints, motion, times, limits, wanted, others)
         } else {
             None
         };
@@ -105,7 +105,7 @@ impl Enforcer {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
                 (c.carried.normal_force, c.carried.tangential_force) = state.last;
             }
-            self.settle(constraints, points, times, ledger, others);
+            self.settle(constraints, motion, times, ledger, others);
         } else {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
                 c.scale_along_ray(state, [0.0; 3], 0.0, times.drift);
@@ -119,7 +119,7 @@ impl Enforcer {
     fn settle(
         &mut self,
         constraints: &mut [Constraint],
-        points: &NodeMotion,
+        motion: &NodeMotion,
         times: Times,
         ledger: Ledger,
         others: &mut dyn OtherRanks,
@@ -127,7 +127,7 @@ impl Enforcer {
         if let Ledger::Unlimited = ledger {
             return;
         }
-        self.scatter(constraints, points, times, others);
+        self.scatter(constraints, motion, times, others);
         let granted = ledger.granted();
         let mut all = Sums::default();
         self.rays.clear();
@@ -157,8 +157,8 @@ impl Enforcer {
     }
 
     /// Change of velocity that the forces make at a point.
-    pub fn velocity_change(&self, point: usize, points: &NodeMotion, kick: f64) -> [f64; 3] {
-        let (force, m) = (add(self.normal_force[point], self.friction_force[point]), points.inverse_mass[point]);
+    pub fn velocity_change(&self, point: usize, motion: &NodeMotion, kick: f64) -> [f64; 3] {
+        let (force, m) = (add(self.normal_force[point], self.friction_force[point]), motion.inverse_mass[point]);
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
     }
 
@@ -182,7 +182,7 @@ impl Enforcer {
 
     /// Finds what does not change in the passes, and the friction of the last step in the new planes; before
     /// [`Enforcer::solve`].
-    pub fn prepare(&mut self, constraints: &mut [Constraint], points: &NodeMotion, drift: f64, ledger: &Ledger) {
+    pub fn prepare(&mut self, constraints: &mut [Constraint], motion: &NodeMotion, drift: f64, ledger: &Ledger) {
         self.states.clear();
         let granted = ledger.granted();
         for c in constraints {
@@ -192,14 +192,14 @@ impl Enforcer {
             let mut state = ConstraintState { own: true, ..Default::default() };
             let (mut inverse, mut isotropic) = (0.0, 0.0);
             for (i, (point, w)) in c.parts().enumerate() {
-                let m = points.inverse_mass[point];
+                let m = motion.inverse_mass[point];
                 let one = along(m, c.normal);
                 inverse += w * w * one;
                 let most = m[0].max(m[1]).max(m[2]);
                 isotropic += w * w * most;
                 state.softness[i] = [w.abs() * one, w.abs() * most];
             }
-            let [free, before] = c.velocities(points);
+            let [free, before] = c.velocities(motion);
             (state.free, state.before) = (dot(free, c.normal), dot(before, c.normal));
             state.target = match ledger {
                 Ledger::Unlimited => Target { least: state.free - c.gap / drift, ..Default::default() },
@@ -238,7 +238,7 @@ impl Enforcer {
     pub(super) fn scatter(
         &mut self,
         constraints: &[Constraint],
-        points: &NodeMotion,
+        motion: &NodeMotion,
         times: Times,
         others: &mut dyn OtherRanks,
     ) {
@@ -254,7 +254,7 @@ impl Enforcer {
             let p = point as usize;
             let sum = std::mem::take(&mut self.sums[p]);
             // What others answer for comes from them.
-            let Some(m) = points.inverse_mass.get(p) else { continue };
+            let Some(m) = motion.inverse_mass.get(p) else { continue };
             let ([x, y, z], k) = (sum.velocity_change, times.kick);
             self.responses[p] =
                 Response { velocity_change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };

@@ -38,7 +38,12 @@ impl Contact {
 
     /// Local nodes on the surface that this rank owns, with the work of contact forces on each so far.
     pub fn node_works(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let sites = self.sites.list.iter().zip(&self.sites.works).filter(|(site, _)| site.owned);
-        sites.map(|(site, [normal, friction])| (site.node, normal + friction))
+        let contact_nodes = self
+            .contact_nodes
+            .list
+            .iter()
+            .zip(&self.contact_nodes.works)
+            .filter(|(contact_node, _)| contact_node.owned);
+        contact_nodes.map(|(contact_node, [normal, friction])| (contact_node.node, normal + friction))
     }
 }

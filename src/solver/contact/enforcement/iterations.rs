@@ -33,7 +33,7 @@ pub struct Outcome {
     /// The deepest one as a length.
     pub depth: f64,
     /// Farthest that a constraint would move along its normal in the step without contact, a length.
-    pub motion: f64,
+    pub travel: f64,
 }
 
 /// Times that turn velocities into ways and forces into velocities.
@@ -50,30 +50,30 @@ impl Enforcer {
     pub(super) fn iterate(
         &mut self,
         constraints: &mut [Constraint],
-        points: &NodeMotion,
+        motion: &NodeMotion,
         times: Times,
         limits: Limits,
         wanted: bool,
         others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
         let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
-        let [deepest, depth, motion] = self.extent(constraints, times.drift);
+        let [deepest, depth, travel] = self.extent(constraints, times.drift);
         loop {
-            self.scatter(constraints, points, times, others);
+            self.scatter(constraints, motion, times, others);
             let ahead = momentum.next();
             let (mut worst, mut farthest) = (0.0, 0.0);
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
-                let way = correct(c, state, &self.responses, times, ahead);
-                (worst, farthest) = (f64::max(worst, way / c.size), f64::max(farthest, way));
+                let movement = correct(c, state, &self.responses, times, ahead);
+                (worst, farthest) = (f64::max(worst, movement / c.size), f64::max(farthest, movement));
             }
-            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, motion, farthest]);
+            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, travel, farthest]);
             let [left, any_wanted, ..] = votes;
             if any_wanted == 0.0 {
                 return None;
             }
-            let [_, _, deepest, depth, motion, farthest] = votes;
-            outcome = Outcome { left, iterations: outcome.iterations + 1, deepest, depth, motion };
-            let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * motion;
+            let [_, _, deepest, depth, travel, farthest] = votes;
+            outcome = Outcome { left, iterations: outcome.iterations + 1, deepest, depth, travel };
+            let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * travel;
             if settled || outcome.iterations == limits.iterations {
                 return Some(outcome);
             }
@@ -83,9 +83,9 @@ impl Enforcer {
     /// Deepest overlap that motion has made, in face sizes and as a length, and the farthest that a constraint would move.
     fn extent(&self, constraints: &[Constraint], drift: f64) -> [f64; 3] {
         let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
-        own.fold([0.0; 3], |[deepest, depth, motion], (c, state)| {
+        own.fold([0.0; 3], |[deepest, depth, travel], (c, state)| {
             let penetration = c.carried.penetration;
-            [(penetration / c.size).max(deepest), penetration.max(depth), (drift * state.free).abs().max(motion)]
+            [(penetration / c.size).max(deepest), penetration.max(depth), (drift * state.free).abs().max(travel)]
         })
     }
 }
@@ -124,7 +124,7 @@ fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Respons
         sliding += share * softness[1];
     }
     let normal_force = (tried - gap / (times.both * inverse)).max(0.0);
-    let mut way = (normal_force - tried).abs() * times.both * inverse;
+    let mut movement = (normal_force - tried).abs() * times.both * inverse;
     let normal_ahead = further(tried, normal_force, state.last.0, ahead).max(0.0);
     if c.friction.is_some() {
         let slip = add(state.slip, tangential(change, c.normal));
@@ -132,13 +132,13 @@ fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Respons
         let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
         let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
         let turn = subtract(tangential_force, tried_tangential);
-        way = way.max(dot(turn, turn).sqrt() * times.both * sliding);
+        movement = movement.max(dot(turn, turn).sqrt() * times.both * sliding);
         c.carried.tangential_force =
             [0, 1, 2].map(|i| further(tried_tangential[i], tangential_force[i], state.last.1[i], ahead));
         state.last.1 = tangential_force;
     }
     (c.carried.normal_force, state.last.0, state.active) = (normal_ahead, normal_force, true);
-    way
+    movement
 }
 
 /// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.

@@ -109,7 +109,7 @@ pub fn side(corners: &[[f64; 3]; 4]) -> Side {
 }
 
 /// Whether two edges may ever touch: they have no end in common and belong to different elements.
-pub fn strangers(a: &Edge, b: &Edge, faces: &Faces) -> bool {
+pub fn unrelated(a: &Edge, b: &Edge, faces: &Faces) -> bool {
     let apart = |edge: &Edge, faces_of: &Edge| {
         faces_of.faces.iter().all(|&face| !edge.ends.iter().all(|&end| faces.same_element(face, end)))
     };

@@ -123,23 +123,23 @@ impl Faces {
 
     /// Corner positions at the present state.
     #[inline]
-    pub fn start(&self, face: u32, points: &NodeMotion) -> [[f64; 3]; 4] {
+    pub fn start(&self, face: u32, motion: &NodeMotion) -> [[f64; 3]; 4] {
         // Written out, as `map` would be a call for every corner.
         let [a, b, c, d] = self.corners[face as usize];
-        [points.start(a), points.start(b), points.start(c), points.start(d)]
+        [motion.start(a), motion.start(b), motion.start(c), motion.start(d)]
     }
 
     /// Corner positions at the end of the step without contact.
     #[inline]
-    pub fn end(&self, face: u32, points: &NodeMotion) -> [[f64; 3]; 4] {
+    pub fn end(&self, face: u32, motion: &NodeMotion) -> [[f64; 3]; 4] {
         let [a, b, c, d] = self.corners[face as usize];
-        [points.end(a), points.end(b), points.end(c), points.end(d)]
+        [motion.end(a), motion.end(b), motion.end(c), motion.end(d)]
     }
 
     /// Sum of the area normals of the faces around a point: which way its body faces there.
-    pub fn point_normal(&self, point: u32, points: &NodeMotion) -> [f64; 3] {
+    pub fn point_normal(&self, point: u32, motion: &NodeMotion) -> [f64; 3] {
         self.around(point).iter().fold([0.0; 3], |sum, &face| {
-            let normal = area_normal(&self.start(face, points));
+            let normal = area_normal(&self.start(face, motion));
             [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]
         })
     }

@@ -25,9 +25,9 @@ impl PointMotion {
 
     /// Box around the way to that end, seen from an origin.
     #[inline(always)]
-    fn way_to(&self, end: Four, origin: Four) -> SweptBox {
+    fn box_to(&self, end: Four, origin: Four) -> SweptBox {
         let seen = |at: Four| std::array::from_fn(|i| at[i] - origin[i]);
-        SweptBox::of_way(seen(self.start), seen(end))
+        SweptBox::of_path(seen(self.start), seen(end))
     }
 }
 
@@ -36,7 +36,7 @@ impl PointMotion {
 pub struct NodeMotion {
     motion: Vec<PointMotion>,
     /// Box around the way over that step, seen from the origin.
-    pub ways: Vec<SweptBox>,
+    pub swept_boxes: Vec<SweptBox>,
     /// Velocity over the step before.
     before: Vec<[f64; 3]>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
@@ -54,7 +54,7 @@ pub struct NodeMotion {
 /// The longest way along each axis. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Longest {
-    ways: Four,
+    lengths: Four,
     /// Not a number where a way is not one or has no end, else zero.
     poison: Four,
 }
@@ -63,10 +63,10 @@ impl Longest {
     #[inline(always)]
     fn take(&mut self, [before, start, end]: [Four; 3], counts: u64) {
         for i in 0..4 {
-            let way = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
-            let way = f64::from_bits(way.to_bits() & counts);
-            self.poison[i] += 0.0 * way;
-            self.ways[i] = larger(way, self.ways[i]);
+            let length = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
+            let length = f64::from_bits(length.to_bits() & counts);
+            self.poison[i] += 0.0 * length;
+            self.lengths[i] = larger(length, self.lengths[i]);
         }
     }
 }
@@ -92,7 +92,7 @@ impl NodeMotion {
         NodeMotion {
             origin,
             motion: vec![PointMotion::default(); count],
-            ways: vec![SweptBox::EVERYTHING; count],
+            swept_boxes: vec![SweptBox::EVERYTHING; count],
             before: vec![[0.0; 3]; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
@@ -128,7 +128,7 @@ impl NodeMotion {
         let motion = PointMotion { start: four(start), velocity: four(velocity) };
         let end = motion.end(self.drift);
         self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
-        (self.motion[point], self.ways[point]) = (motion, motion.way_to(end, four(self.origin)));
+        (self.motion[point], self.swept_boxes[point]) = (motion, motion.box_to(end, four(self.origin)));
     }
 
     /// Puts a point where another of the same step is, and lets it go the same way.
@@ -136,18 +136,22 @@ impl NodeMotion {
     pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
         self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
-        (self.motion[point], self.ways[point]) = (motion, others.ways[other]);
+        (self.motion[point], self.swept_boxes[point]) = (motion, others.swept_boxes[other]);
         self.before[point] = others.before[other];
     }
 
     /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
     /// home on it.
-    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[SweptBox]) -> bool {
+    pub fn set_all(
+        &mut self,
+        motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
+        search_boxes: &[SweptBox],
+    ) -> bool {
         match self.instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.set_all_avx2(motions, homes) },
-            _ => self.set_each(motions, homes),
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.set_all_avx2(motions, search_boxes) },
+            _ => self.set_each(motions, search_boxes),
         }
     }
 
@@ -161,23 +165,24 @@ impl NodeMotion {
     unsafe fn set_all_avx2(
         &mut self,
         motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
-        homes: &[SweptBox],
+        search_boxes: &[SweptBox],
     ) -> bool {
-        self.set_each(motions, homes)
+        self.set_each(motions, search_boxes)
     }
 
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, homes: &[SweptBox]) -> bool {
+    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, search_boxes: &[SweptBox]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
-        let places = self.motion.iter_mut().zip(&mut self.ways).zip(&mut self.before).zip(&self.counts).zip(homes);
-        for (((((before, way), slow), &counts), home), (start, velocity, last)) in places.zip(motions) {
+        let places =
+            self.motion.iter_mut().zip(&mut self.swept_boxes).zip(&mut self.before).zip(&self.counts).zip(search_boxes);
+        for (((((before, swept), slow), &counts), search_box), (start, velocity, last)) in places.zip(motions) {
             let motion = PointMotion { start, velocity };
             let end = motion.end(drift);
             longest.take([before.start, start, end], counts);
-            *way = motion.way_to(end, origin);
-            outside.take(way, home);
+            *swept = motion.box_to(end, origin);
+            outside.take(swept, search_box);
             *before = motion;
             *slow = last;
         }
@@ -192,8 +197,8 @@ impl NodeMotion {
     }
 
     /// The farthest that a point which counts has gone in the last step or will go in this one, along an axis.
-    pub fn longest_way(&self) -> f64 {
-        let Longest { ways: [x, y, z, _], poison } = self.longest;
+    pub fn longest_path(&self) -> f64 {
+        let Longest { lengths: [x, y, z, _], poison } = self.longest;
         // A way that is not a number leaves nobody at rest.
         if poison[..3] == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
     }

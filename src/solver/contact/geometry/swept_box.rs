@@ -23,12 +23,12 @@ impl SweptBox {
     /// A box around the way from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> SweptBox {
-        SweptBox::of_way(four(start), four(end))
+        SweptBox::of_path(four(start), four(end))
     }
 
     /// The same in whole vectors.
     #[inline(always)]
-    pub fn of_way(start: Four, end: Four) -> SweptBox {
+    pub fn of_path(start: Four, end: Four) -> SweptBox {
         let single = |x: Four| [x[0] as f32, x[1] as f32, x[2] as f32, x[2] as f32];
         let (start, end) = (single(start), single(end));
         let outwards = |x: f32| x - x.abs() * OUTWARDS - f32::MIN_POSITIVE;
@@ -74,10 +74,10 @@ pub struct Outside([f32; 8]);
 impl Outside {
     /// Looks at a box and the one in which it is to be.
     #[inline(always)]
-    pub fn take(&mut self, own: &SweptBox, home: &SweptBox) {
+    pub fn take(&mut self, own: &SweptBox, search_box: &SweptBox) {
         for i in 0..8 {
             // What is not a number is not larger than anything, and so never chosen.
-            let beyond = home.0[i] - own.0[i];
+            let beyond = search_box.0[i] - own.0[i];
             self.0[i] = if beyond > self.0[i] { beyond } else { self.0[i] };
         }
     }

@@ -21,7 +21,7 @@ pub struct CommunicationPlan {
     pub partners: BTreeSet<u32>,
     /// Candidate faces, and homes of ends of candidate edges.
     faces: NumberSet,
-    end_homes: BTreeMap<u32, u32>,
+    end_owners: BTreeMap<u32, u32>,
     /// Homes that must know points of another: which home has the point, which must know it, and the point.
     deliveries: Vec<(u32, u32, u32)>,
 }
@@ -63,14 +63,16 @@ impl CommunicationPlan {
             ..Default::default()
         };
         let face_places = inverse(regional.faces.ids.iter().copied(), faces);
-        for (i, &point) in found.watched.iter().enumerate() {
+        for (i, &point) in found.slave_nodes.iter().enumerate() {
             contract.here.choose(point);
-            for near in &found.near[found.first[i] as usize..found.first[i + 1] as usize] {
+            for near in &found.candidates[found.first[i] as usize..found.first[i + 1] as usize] {
                 let is_new = contract.faces.choose(near.face);
-                let Some(&homes) = regional.face_homes.get(face_places[near.face as usize] as usize) else { continue };
+                let Some(&owner_ranks) = regional.face_owners.get(face_places[near.face as usize] as usize) else {
+                    continue;
+                };
                 let corners = layout.faces.corners[near.face as usize];
-                if homes != [me; 4] {
-                    contract.agree(corners.into_iter().zip(homes).chain([(point, me)]), me);
+                if owner_ranks != [me; 4] {
+                    contract.agree(corners.into_iter().zip(owner_ranks).chain([(point, me)]), me);
                 } else if is_new {
                     corners.iter().for_each(|&corner| _ = contract.here.choose(corner));
                 }
@@ -79,10 +81,10 @@ impl CommunicationPlan {
         for pair in &found.pairs {
             let ends = pair.iter().filter_map(|edge| {
                 let place = regional.edges.ids.binary_search(edge).ok()?;
-                Some(layout.edges[*edge as usize].ends.into_iter().zip(regional.edge_homes[place]))
+                Some(layout.edges[*edge as usize].ends.into_iter().zip(regional.edge_owners[place]))
             });
             let members: Vec<(u32, u32)> = ends.flatten().collect();
-            contract.end_homes.extend(members.iter().copied());
+            contract.end_owners.extend(members.iter().copied());
             contract.agree(members.into_iter(), me);
         }
         contract.deliver(comm);
@@ -116,34 +118,34 @@ impl CommunicationPlan {
     }
 
     /// The home of each point of an arena that constraints may act on, `me` for all others; by places in the arena.
-    pub fn homes(&self, me: u32, layout: &Layout, regional: &Regional, arena: &LocalProblem) -> Vec<u32> {
-        let mut homes = vec![me; arena.cast.points.len() + arena.cast.ghosts.len()];
-        let mut note = |point: u32, home: u32| {
-            if let Some(of) = homes.get_mut(arena.place(point) as usize) {
-                *of = home;
+    pub fn owner_ranks(&self, me: u32, layout: &Layout, regional: &Regional, problem: &LocalProblem) -> Vec<u32> {
+        let mut owner_ranks = vec![me; problem.numbering.points.len() + problem.numbering.ghosts.len()];
+        let mut note = |point: u32, owner_rank: u32| {
+            if let Some(of) = owner_ranks.get_mut(problem.place(point) as usize) {
+                *of = owner_rank;
             }
         };
-        for (face, face_homes) in regional.faces.ids.iter().zip(&regional.face_homes) {
-            if self.faces.0[*face as usize] && *face_homes != [me; 4] {
+        for (face, face_owners) in regional.faces.ids.iter().zip(&regional.face_owners) {
+            if self.faces.0[*face as usize] && *face_owners != [me; 4] {
                 let corners = layout.faces.corners[*face as usize];
-                corners.iter().zip(face_homes).for_each(|(&corner, &home)| note(corner, home));
+                corners.iter().zip(face_owners).for_each(|(&corner, &owner_rank)| note(corner, owner_rank));
             }
         }
-        self.end_homes.iter().for_each(|(&point, &home)| note(point, home));
-        homes
+        self.end_owners.iter().for_each(|(&point, &owner_rank)| note(point, owner_rank));
+        owner_ranks
     }
 
     /// The homes of all members of a constraint know all of them.
     fn agree(&mut self, members: impl Iterator<Item = (u32, u32)> + Clone, me: u32) {
-        let mut ranks: Vec<u32> = members.clone().map(|(_, home)| home).chain([me]).collect();
+        let mut ranks: Vec<u32> = members.clone().map(|(_, owner_rank)| owner_rank).chain([me]).collect();
         ranks.sort_unstable();
         ranks.dedup();
-        for (point, home) in members {
-            if home == me {
+        for (point, owner_rank) in members {
+            if owner_rank == me {
                 self.here.choose(point);
             }
-            for &rank in ranks.iter().filter(|&&rank| rank != home) {
-                self.deliveries.push((home, rank, point));
+            for &rank in ranks.iter().filter(|&&rank| rank != owner_rank) {
+                self.deliveries.push((owner_rank, rank, point));
             }
         }
         self.partners.extend(ranks.into_iter().filter(|&rank| rank != me));
@@ -151,13 +153,18 @@ impl CommunicationPlan {
 }
 
 /// Everything that the check of these candidates looks at.
-pub fn cast(layout: &Layout, found: &SearchResult, contract: &CommunicationPlan, watches: &[PlaneNode]) -> Numbering {
+pub fn numbering(
+    layout: &Layout,
+    found: &SearchResult,
+    contract: &CommunicationPlan,
+    plane_nodes: &[PlaneNode],
+) -> Numbering {
     let faces = &layout.faces;
     let [mut chosen, mut points] = [faces.len(), layout.nodes.len()].map(NumberSet::none_of);
     let mut edges: Vec<u32> = found.pairs.iter().flatten().copied().collect();
     edges.sort_unstable();
     edges.dedup();
-    let around = found.watched.iter().flat_map(|&point| faces.around(point).iter().copied());
+    let around = found.slave_nodes.iter().flat_map(|&point| faces.around(point).iter().copied());
     let met = contract.faces.list();
     let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
     let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
@@ -166,8 +173,8 @@ pub fn cast(layout: &Layout, found: &SearchResult, contract: &CommunicationPlan,
             faces.corners[face as usize].iter().for_each(|&corner| _ = points.choose(corner));
         }
     }
-    let others = contract.here.list().into_iter().chain(watches.iter().map(|watch| watch.point));
-    found.watched.iter().copied().chain(others).for_each(|point| _ = points.choose(point));
+    let others = contract.here.list().into_iter().chain(plane_nodes.iter().map(|plane_node| plane_node.point));
+    found.slave_nodes.iter().copied().chain(others).for_each(|point| _ = points.choose(point));
     let come = contract.receive.values().flatten().copied();
     let ghosts: BTreeSet<u32> = come.filter(|&point| !points.0[point as usize]).collect();
     Numbering { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }

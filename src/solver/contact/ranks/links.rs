@@ -15,7 +15,7 @@ use crate::solver::contact::local_problem::Numbering;
 pub struct IterationMessages {
     rank: u32,
     /// Home of each point of the arena, where constraints may act on it.
-    homes: Vec<u32>,
+    owner_ranks: Vec<u32>,
     /// Points by number of the layout: those of the arena, then its ghosts.
     points: Vec<u32>,
     ghosts: Vec<u32>,
@@ -27,13 +27,20 @@ impl IterationMessages {
     /// The messages of `contract` between points of an arena with this cast, whose homes are given by their places.
     pub fn new(
         rank: u32,
-        homes: Vec<u32>,
-        cast: &Numbering,
+        owner_ranks: Vec<u32>,
+        numbering: &Numbering,
         shares: MessagePattern,
         contract: &CommunicationPlan,
     ) -> IterationMessages {
         let letters = VariableMessages::new(contract.partners.iter().map(|&rank| rank as usize));
-        IterationMessages { rank, homes, points: cast.points.clone(), ghosts: cast.ghosts.clone(), shares, letters }
+        IterationMessages {
+            rank,
+            owner_ranks,
+            points: numbering.points.clone(),
+            ghosts: numbering.ghosts.clone(),
+            shares,
+            letters,
+        }
     }
 
     /// With the means to send them.
@@ -50,7 +57,7 @@ pub struct IterationExchange<'a> {
 
 impl OtherRanks for IterationExchange<'_> {
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>) {
-        let IterationMessages { rank, homes, points, ghosts, letters, .. } = &mut *self.links;
+        let IterationMessages { rank, owner_ranks, points, ghosts, letters, .. } = &mut *self.links;
         let number = |point: u32| match points.get(point as usize) {
             Some(&number) => number,
             None => ghosts[point as usize - points.len()],
@@ -59,9 +66,9 @@ impl OtherRanks for IterationExchange<'_> {
             Ok(place) => place as u32,
             Err(_) => ghosts.binary_search(&number).map_or(0, |ghost| (points.len() + ghost) as u32),
         };
-        let acts_on = |c: &Constraint, rank: u32| c.parts().any(|(point, _)| homes[point] == rank);
+        let acts_on = |c: &Constraint, rank: u32| c.parts().any(|(point, _)| owner_ranks[point] == rank);
         let own: Vec<(usize, [u32; MEMBERS])> = (constraints.iter().enumerate())
-            .filter(|(_, c)| c.parts().any(|(point, _)| homes[point] != *rank))
+            .filter(|(_, c)| c.parts().any(|(point, _)| owner_ranks[point] != *rank))
             .map(|(i, c)| (i, c.members.map(number)))
             .collect();
         let mut come: Vec<(Constraint, ConstraintState)> = Vec::new();

@@ -14,9 +14,9 @@ pub struct Regional {
     pub edges: Boxes,
     pub own_edges: Vec<u32>,
     /// Homes of the corners of each face.
-    pub face_homes: Vec<[u32; 4]>,
+    pub face_owners: Vec<[u32; 4]>,
     /// Homes of the ends of each edge.
-    pub edge_homes: Vec<[u32; 2]>,
+    pub edge_owners: Vec<[u32; 2]>,
 }
 
 impl Regional {
@@ -25,23 +25,25 @@ impl Regional {
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),
         layout: &Layout,
-        sites: &ContactNodes,
+        contact_nodes: &ContactNodes,
         comm: &mut dyn Communicator,
     ) -> Regional {
         let size = comm.size();
-        let home = |point: u32| f64::from(sites.of(point).map_or(0, |site| sites.homes[site]));
-        let own = neighbourhood::point_boxes(sites);
-        let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, sites);
-        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, sites);
-        let [mut to_home, mut edges_to_home] = [6, 6].map(|width| Parcels::new(size, width));
+        let owner_rank = |point: u32| {
+            f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
+        };
+        let own = neighbourhood::point_boxes(contact_nodes);
+        let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, contact_nodes);
+        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
+        let [mut to_owner, mut edges_to_owner] = [6, 6].map(|width| Parcels::new(size, width));
         for (&point, of) in own.ids.iter().zip(&own.boxes) {
-            to_home.add(home(point) as u32, point, &flat(of));
+            to_owner.add(owner_rank(point) as u32, point, &flat(of));
         }
         for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
-            edges_to_home.add(home(layout.edges[edge as usize].ends[0]) as u32, edge, &flat(of));
+            edges_to_owner.add(owner_rank(layout.edges[edge as usize].ends[0]) as u32, edge, &flat(of));
         }
-        let (points, _) = sorted(to_home.exchange(comm));
-        let (own_edges, _) = sorted(edges_to_home.exchange(comm));
+        let (points, _) = sorted(to_owner.exchange(comm));
+        let (own_edges, _) = sorted(edges_to_owner.exchange(comm));
         let all = points.boxes.iter().chain(&own_edges.boxes).filter(|of| of.is_sound());
         let all = all.fold(Box3::empty(), |all, one| all.joined(one));
         let regions = Regions::gather(all.low, all.high, comm);
@@ -49,25 +51,25 @@ impl Regional {
         let mut ranks = Vec::new();
         for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
             regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(home));
+            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(owner_rank));
             let values = [a, b, c, d, e, f, g, h, i, j];
             ranks.iter().for_each(|&rank| face_parcels.add(rank, face, &values));
         }
         for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
             regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(home));
+            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(owner_rank));
             let values = [a, b, c, d, e, f, g, h];
             ranks.iter().for_each(|&rank| edge_parcels.add(rank, edge, &values));
         }
-        let (faces, face_homes) = sorted(face_parcels.exchange(comm));
-        let (edges, edge_homes) = sorted(edge_parcels.exchange(comm));
+        let (faces, face_owners) = sorted(face_parcels.exchange(comm));
+        let (edges, edge_owners) = sorted(edge_parcels.exchange(comm));
         Regional {
             points,
             faces,
             edges,
             own_edges: own_edges.ids,
-            face_homes: face_homes.chunks_exact(4).map(|v| [0, 1, 2, 3].map(|i| v[i] as u32)).collect(),
-            edge_homes: edge_homes.chunks_exact(2).map(|v| [0, 1].map(|i| v[i] as u32)).collect(),
+            face_owners: face_owners.chunks_exact(4).map(|v| [0, 1, 2, 3].map(|i| v[i] as u32)).collect(),
+            edge_owners: edge_owners.chunks_exact(2).map(|v| [0, 1].map(|i| v[i] as u32)).collect(),
         }
     }
 }

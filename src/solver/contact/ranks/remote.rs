@@ -9,7 +9,7 @@
 //! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`CommunicationPlan`] says who must know of whose
 //! points in the passes, and [`IterationMessages`] are these messages.
 
-use super::contract::{CommunicationPlan, cast};
+use super::contract::{CommunicationPlan, numbering};
 use super::links::{IterationExchange, IterationMessages};
 use super::regional::Regional;
 use super::routing::route;
@@ -30,7 +30,7 @@ const SLACK: f64 = 0.1;
 
 /// What a point that was pushed in the last step weighs against one that was not: about what its check and its part in the
 /// passes cost against a point that is merely put where it is.
-const PUSHED: u32 = 12;
+const LOADED: u32 = 12;
 
 /// A point that is not pushed. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
@@ -38,7 +38,7 @@ const AT_REST: [f64; FORCES] = [-0.0; FORCES];
 /// What one rank knows of the others.
 pub struct Remote {
     /// Rank that answers for each point.
-    owner: Vec<u32>,
+    node_owner: Vec<u32>,
     /// Ranks of which a point is a node: `holders[first[p]..first[p + 1]]`.
     first: Vec<u32>,
     holders: Vec<u32>,
@@ -59,13 +59,17 @@ pub struct Remote {
 impl Remote {
     /// Gets to know the others. `is_here` says whether the element of a face is on this rank. All ranks call it.
     pub fn new(
-        (layout, sites): (&Layout, &ContactNodes),
+        (layout, contact_nodes): (&Layout, &ContactNodes),
         method: ContactDecomposition,
         is_here: impl Fn(u32) -> bool,
         comm: &mut dyn Communicator,
     ) -> Remote {
         let count = layout.nodes.len();
-        let own: Vec<u32> = sites.list.iter().map(|site| 2 * site.point + u32::from(site.owned)).collect();
+        let own: Vec<u32> = contact_nodes
+            .list
+            .iter()
+            .map(|contact_node| 2 * contact_node.point + u32::from(contact_node.owned))
+            .collect();
         let mut all = numbers_of_others(&own, comm);
         all.push((comm.rank(), own));
         let mut owner = vec![0; count];
@@ -84,7 +88,7 @@ impl Remote {
         Remote {
             first: first.collect(),
             holders: holding.into_iter().map(|(_, rank)| rank).collect(),
-            owner,
+            node_owner: owner,
             faces: (0..layout.faces.len() as u32).filter(here).collect(),
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
             method,
@@ -104,65 +108,75 @@ impl Remote {
     /// Brings the motion of a step to the homes.
     pub fn send_motion(
         &mut self,
-        sites: &mut ContactNodes,
-        arena: &mut LocalProblem,
+        contact_nodes: &mut ContactNodes,
+        problem: &mut LocalProblem,
         drift: f64,
         comm: &mut dyn Communicator,
     ) {
-        arena.points.begin(drift);
+        problem.motion.begin(drift);
         self.motion.exchange_others(
-            &mut (sites, arena),
-            |(sites, _), site| {
-                let ([x, y, z], [u, v, w]) = (sites.points.start(site), sites.points.velocity(site));
-                let [p, q, r] = sites.points.velocity_before(site);
+            &mut (contact_nodes, problem),
+            |(contact_nodes, _), contact_node| {
+                let ([x, y, z], [u, v, w]) =
+                    (contact_nodes.motion.start(contact_node), contact_nodes.motion.velocity(contact_node));
+                let [p, q, r] = contact_nodes.motion.velocity_before(contact_node);
                 [x, y, z, u, v, w, p, q, r]
             },
-            |(_, arena), point, [x, y, z, u, v, w, p, q, r]| {
-                arena.points.set(point as usize, [x, y, z], [u, v, w], [p, q, r]);
+            |(_, problem), point, [x, y, z, u, v, w, p, q, r]| {
+                problem.motion.set(point as usize, [x, y, z], [u, v, w], [p, q, r]);
             },
-            |(sites, arena), site, point| arena.points.copy(point as usize, &sites.points, site as usize),
+            |(contact_nodes, problem), contact_node, point| {
+                problem.motion.copy(point as usize, &contact_nodes.motion, contact_node as usize)
+            },
             comm,
         );
     }
 
     /// Brings the forces that contact has found to the nodes.
-    pub fn send_forces(&mut self, sites: &mut ContactNodes, arena: &LocalProblem, comm: &mut dyn Communicator) {
-        sites.pushed.clear();
+    pub fn send_forces(
+        &mut self,
+        contact_nodes: &mut ContactNodes,
+        problem: &LocalProblem,
+        comm: &mut dyn Communicator,
+    ) {
+        contact_nodes.loaded.clear();
         self.answers.exchange(
-            &mut (&mut *sites, arena),
-            |(_, arena), point| {
-                let answer = &arena.answers[point as usize];
+            &mut (&mut *contact_nodes, problem),
+            |(_, problem), point| {
+                let answer = &problem.answers[point as usize];
                 if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
             },
-            |(sites, _), site, forces| {
+            |(contact_nodes, _), contact_node, forces| {
                 // All bits at once: comparing the arrays would be a call for every point.
                 let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
                 if unlike != 0 {
-                    let answer = &mut sites.answers[site as usize];
+                    let answer = &mut contact_nodes.answers[contact_node as usize];
                     answer[..FORCES].copy_from_slice(&forces);
                     answer[FORCES..].fill(0.0);
-                    sites.pushed.push(site);
+                    contact_nodes.loaded.push(contact_node);
                 }
             },
             comm,
         );
-        for &point in &arena.pushed {
-            if let Some(&site) = self.own.get(point as usize).filter(|&&site| site != ABSENT) {
-                sites.answers[site as usize] = arena.answers[point as usize];
-                sites.pushed.push(site);
+        for &point in &problem.loaded {
+            if let Some(&contact_node) = self.own.get(point as usize).filter(|&&contact_node| contact_node != ABSENT) {
+                contact_nodes.answers[contact_node as usize] = problem.answers[point as usize];
+                contact_nodes.loaded.push(contact_node);
             }
         }
-        sites.pushed.sort_unstable();
+        contact_nodes.loaded.sort_unstable();
     }
 
     /// Brings the rest of what contact has found in this step to the nodes that other ranks push: only output asks for it.
-    pub fn send_rest(&mut self, sites: &mut ContactNodes, arena: &LocalProblem, comm: &mut dyn Communicator) {
+    pub fn send_rest(&mut self, contact_nodes: &mut ContactNodes, problem: &LocalProblem, comm: &mut dyn Communicator) {
         self.answers.exchange(
-            &mut (sites, arena),
-            |(_, arena), point| -> [f64; ANSWER - FORCES] {
-                std::array::from_fn(|i| arena.answers[point as usize][FORCES + i])
+            &mut (contact_nodes, problem),
+            |(_, problem), point| -> [f64; ANSWER - FORCES] {
+                std::array::from_fn(|i| problem.answers[point as usize][FORCES + i])
             },
-            |(sites, _), site, rest| sites.answers[site as usize][FORCES..].copy_from_slice(&rest),
+            |(contact_nodes, _), contact_node, rest| {
+                contact_nodes.answers[contact_node as usize][FORCES..].copy_from_slice(&rest)
+            },
             comm,
         );
     }
@@ -176,139 +190,150 @@ impl Remote {
     pub fn decompose(
         &mut self,
         search: &mut dyn Search,
-        problem: (&Layout, &[PlaneNode], f64),
-        sites: &mut ContactNodes,
+        extent: (&Layout, &[PlaneNode], f64),
+        contact_nodes: &mut ContactNodes,
         history: History,
         comm: &mut dyn Communicator,
     ) -> LocalProblem {
-        let (layout, watches, depth) = problem;
-        sites.homes = self.find_homes(sites, comm);
-        let history = self.forward(layout, sites, watches, history, comm);
-        let regional = Regional::gather((&self.faces, &self.edges), layout, sites, comm);
+        let (layout, plane_nodes, depth) = extent;
+        contact_nodes.owner_ranks = self.find_owner_ranks(contact_nodes, comm);
+        let history = self.forward(layout, contact_nodes, plane_nodes, history, comm);
+        let regional = Regional::gather((&self.faces, &self.edges), layout, contact_nodes, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];
         let found = neighbourhood::find(search, lists, |edge| regional.own_edges.binary_search(&edge).is_ok(), layout);
         let contract = CommunicationPlan::new(layout, &found, &regional, comm);
-        let is_own = |watch: &&PlaneNode| regional.points.ids.binary_search(&watch.point).is_ok();
-        let watches: Vec<PlaneNode> = watches.iter().filter(is_own).copied().collect();
-        let cast = cast(layout, &found, &contract, &watches);
-        let mut arena = LocalProblem::new(cast, found, depth, layout, &watches);
-        self.connect((layout, sites), &mut arena, &contract, &regional, &watches, comm);
-        arena.restore(history);
-        arena
+        let is_own = |plane_node: &&PlaneNode| regional.points.ids.binary_search(&plane_node.point).is_ok();
+        let plane_nodes: Vec<PlaneNode> = plane_nodes.iter().filter(is_own).copied().collect();
+        let numbering = numbering(layout, &found, &contract, &plane_nodes);
+        let mut problem = LocalProblem::new(numbering, found, depth, layout, &plane_nodes);
+        self.connect((layout, contact_nodes), &mut problem, &contract, &regional, &plane_nodes, comm);
+        problem.restore(history);
+        problem
     }
 
     /// The new home of every site.
-    fn find_homes(&mut self, sites: &ContactNodes, comm: &mut dyn Communicator) -> Vec<u32> {
+    fn find_owner_ranks(&mut self, contact_nodes: &ContactNodes, comm: &mut dyn Communicator) -> Vec<u32> {
         let axes = match self.method {
             ContactDecomposition::Bisection => Axes::Widest,
             ContactDecomposition::Slices => Axes::One,
             ContactDecomposition::Static => {
-                return sites.list.iter().map(|site| self.owner[site.point as usize]).collect();
+                return contact_nodes
+                    .list
+                    .iter()
+                    .map(|contact_node| self.node_owner[contact_node.point as usize])
+                    .collect();
             }
         };
-        let mut weights = vec![1; sites.list.len()];
-        sites.pushed.iter().for_each(|&site| weights[site as usize] = PUSHED);
+        let mut weights = vec![1; contact_nodes.list.len()];
+        contact_nodes.loaded.iter().for_each(|&contact_node| weights[contact_node as usize] = LOADED);
         let (mut places, mut ids, mut own_weights) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
-            places.push(sites.points.start(i as u32));
-            ids.push(site.point);
+        for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
+            places.push(contact_nodes.motion.start(i as u32));
+            ids.push(contact_node.point);
             own_weights.push(weights[i]);
         }
         let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
         let balanced = dynamic::balance(&places, &ids, &own_weights, axes, earlier, comm);
         let cuts = self.cuts.insert(balanced.bisection);
-        let owner = |(at, site): (u32, &ContactNode)| cuts.owner(sites.points.start(at), site.point);
-        (0..).zip(&sites.list).map(owner).collect()
+        let owner =
+            |(at, contact_node): (u32, &ContactNode)| cuts.owner(contact_nodes.motion.start(at), contact_node.point);
+        (0..).zip(&contact_nodes.list).map(owner).collect()
     }
 
     /// Brings history from where it was to the new homes, by way of the ranks that own the nodes and know the homes.
     fn forward(
         &self,
         layout: &Layout,
-        sites: &ContactNodes,
-        watches: &[PlaneNode],
+        contact_nodes: &ContactNodes,
+        plane_nodes: &[PlaneNode],
         history: History,
         comm: &mut dyn Communicator,
     ) -> History {
         let at = |point: u32| layout.edges.get(point as usize).map_or(0, |edge| edge.ends[0]);
-        let first = route(history, |point| self.owner[point as usize], at, watches, comm);
-        let home = |point: u32| sites.of(point).map_or(0, |site| sites.homes[site]);
-        route(first, home, at, watches, comm)
+        let first = route(history, |point| self.node_owner[point as usize], at, plane_nodes, comm);
+        let owner_rank =
+            |point: u32| contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]);
+        route(first, owner_rank, at, plane_nodes, comm)
     }
 
     /// Makes the patterns of messages until the next search.
     fn connect(
         &mut self,
-        (layout, sites): (&Layout, &ContactNodes),
-        arena: &mut LocalProblem,
+        (layout, contact_nodes): (&Layout, &ContactNodes),
+        problem: &mut LocalProblem,
         contract: &CommunicationPlan,
         regional: &Regional,
-        watches: &[PlaneNode],
+        plane_nodes: &[PlaneNode],
         comm: &mut dyn Communicator,
     ) {
-        self.connect_motion(sites, arena, comm);
-        let mut pushed = contract.here.list();
-        pushed.extend(watches.iter().map(|watch| watch.point));
-        pushed.sort_unstable();
-        pushed.dedup();
-        self.connect_answers(&pushed, sites, arena, comm);
+        self.connect_motion(contact_nodes, problem, comm);
+        let mut loaded = contract.here.list();
+        loaded.extend(plane_nodes.iter().map(|plane_node| plane_node.point));
+        loaded.sort_unstable();
+        loaded.dedup();
+        self.connect_answers(&loaded, contact_nodes, problem, comm);
         let rank = comm.rank();
         let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
-            lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| arena.place(p)).collect())).collect()
+            lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| problem.place(p)).collect())).collect()
         };
         let shares = MessagePattern::new(places(&contract.send), places(&contract.receive), rank);
-        let homes = contract.homes(rank as u32, layout, regional, arena);
-        self.links = IterationMessages::new(rank as u32, homes, &arena.cast, shares, contract);
+        let owner_ranks = contract.owner_ranks(rank as u32, layout, regional, problem);
+        self.links = IterationMessages::new(rank as u32, owner_ranks, &problem.numbering, shares, contract);
     }
 
     /// Tells every other rank that has the node of a point which may be pushed that forces will come for it.
     fn connect_answers(
         &mut self,
-        pushed: &[u32],
-        sites: &ContactNodes,
-        arena: &LocalProblem,
+        loaded: &[u32],
+        contact_nodes: &ContactNodes,
+        problem: &LocalProblem,
         comm: &mut dyn Communicator,
     ) {
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(comm.size(), 0);
         let mut send = Lists::new();
-        for &point in pushed {
+        for &point in loaded {
             for &holder in self.holders(point).iter().filter(|&&holder| holder != rank) {
                 parcels.add(holder, point, &[]);
-                send.entry(holder as usize).or_default().push(arena.place(point));
+                send.entry(holder as usize).or_default().push(problem.place(point));
             }
         }
         let records = parcels.exchange(comm);
-        let site = |point: &u32| sites.of(*point).map(|site| site as u32);
-        let receive = by_sender(&records, |ids| ids.iter().filter_map(site).collect());
+        let contact_node = |point: &u32| contact_nodes.of(*point).map(|contact_node| contact_node as u32);
+        let receive = by_sender(&records, |ids| ids.iter().filter_map(contact_node).collect());
         self.answers = MessagePattern::new(send, receive, comm.rank());
         // Few are pushed: those that are at home here need not all be asked.
-        self.own = vec![ABSENT; arena.cast.points.len()];
-        for point in pushed {
-            if let Some(own) = self.own.get_mut(arena.place(*point) as usize) {
-                *own = site(point).unwrap_or(ABSENT);
+        self.own = vec![ABSENT; problem.numbering.points.len()];
+        for point in loaded {
+            if let Some(own) = self.own.get_mut(problem.place(*point) as usize) {
+                *own = contact_node(point).unwrap_or(ABSENT);
             }
         }
     }
 
     /// Asks the owners for the motion of all points of the arena, and for their masses.
-    fn connect_motion(&mut self, sites: &ContactNodes, arena: &mut LocalProblem, comm: &mut dyn Communicator) {
+    fn connect_motion(
+        &mut self,
+        contact_nodes: &ContactNodes,
+        problem: &mut LocalProblem,
+        comm: &mut dyn Communicator,
+    ) {
         let (rank, size) = (comm.rank(), comm.size());
         let mut parcels = Parcels::new(size, 0);
         let mut receive = Lists::new();
-        for (place, &point) in arena.cast.points.iter().enumerate() {
-            let owner = self.owner[point as usize];
+        for (place, &point) in problem.numbering.points.iter().enumerate() {
+            let owner = self.node_owner[point as usize];
             parcels.add(owner, point, &[]);
             receive.entry(owner as usize).or_default().push(place as u32);
         }
         let records = parcels.exchange(comm);
-        let site = |point: &u32| sites.of(*point).map(|site| site as u32);
-        let send = by_sender(&records, |ids| ids.iter().filter_map(site).collect());
+        let contact_node = |point: &u32| contact_nodes.of(*point).map(|contact_node| contact_node as u32);
+        let send = by_sender(&records, |ids| ids.iter().filter_map(contact_node).collect());
         self.motion = MessagePattern::new(send, receive, rank);
         self.motion.exchange(
-            &mut (sites, arena),
-            |(sites, _), site| sites.points.inverse_mass[site as usize],
-            |(_, arena), point, mass| arena.points.inverse_mass[point as usize] = mass,
+            &mut (contact_nodes, problem),
+            |(contact_nodes, _), contact_node| contact_nodes.motion.inverse_mass[contact_node as usize],
+            |(_, problem), point, mass| problem.motion.inverse_mass[point as usize] = mass,
             comm,
         );
     }

@@ -23,7 +23,7 @@ pub fn route(
     history: History,
     rank: impl Fn(u32) -> u32,
     end_of: impl Fn(u32) -> u32,
-    watches: &[PlaneNode],
+    plane_nodes: &[PlaneNode],
     comm: &mut dyn Communicator,
 ) -> History {
     let size = comm.size();
@@ -50,7 +50,7 @@ pub fn route(
         let pair = [records.ids[i], v[0] as u32];
         EdgeContact { pair, sense: v[1], tolerated: v[2], carried: Carried::from_slice(&v[3..]) }
     }));
-    let of = |number: u32| rank(watches[number as usize].point);
+    let of = |number: u32| rank(plane_nodes[number as usize].point);
     come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
     come
 }
@@ -66,8 +66,8 @@ pub fn share_planes(
         ranks(*number).for_each(|rank| parcels.add(rank, *number, &carried.to_array()));
     }
     let records = parcels.exchange(comm);
-    let watched = |i: usize| (records.ids[i], Carried::from_slice(records.values(i)));
-    (0..records.len()).map(watched).collect()
+    let slave_nodes = |i: usize| (records.ids[i], Carried::from_slice(records.values(i)));
+    (0..records.len()).map(slave_nodes).collect()
 }
 
 fn pack_past(past: FaceContact) -> [f64; PAST] {

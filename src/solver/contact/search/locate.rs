@@ -57,19 +57,19 @@ pub struct Locator {
     /// How far a face looks beyond its corners, see [`Reach`].
     depth: f64,
     /// Points with candidates, ascending, and where their candidates begin.
-    watched: Vec<u32>,
+    slave_nodes: Vec<u32>,
     first: Vec<u32>,
-    near: Vec<Candidate>,
+    candidates: Vec<Candidate>,
     /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
-    outlooks: Vec<SleepState>,
+    sleep: Vec<SleepState>,
     /// How far things must have gone in all until a watched point may have anything near at all.
-    quiet: Vec<f64>,
+    quiet_until: Vec<f64>,
     /// How far things have gone in all, counted as if the fastest point of each step were always the same.
-    gone: f64,
+    travelled: f64,
     /// How much of that in the present step.
-    last_way: f64,
+    last_path: f64,
     /// Points that are watched, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
     /// Whether no step has been made yet.
@@ -122,12 +122,15 @@ impl CaptureBoxes {
 
     /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
     #[inline]
-    fn of(&mut self, face: u32, faces: &Faces, points: &NodeMotion, margin: f64) -> SweptBox {
+    fn of(&mut self, face: u32, faces: &Faces, motion: &NodeMotion, margin: f64) -> SweptBox {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
-            let way = |point: u32| &points.ways[point as usize];
-            *bounds = SweptBox::joined([way(a), way(b), way(c), way(d)], (margin * faces.depth[face as usize]) as f32);
+            let swept = |point: u32| &motion.swept_boxes[point as usize];
+            *bounds = SweptBox::joined(
+                [swept(a), swept(b), swept(c), swept(d)],
+                (margin * faces.depth[face as usize]) as f32,
+            );
             *step = self.step;
         }
         *bounds
@@ -136,23 +139,23 @@ impl CaptureBoxes {
 
 impl Locator {
     /// Takes over what a search has found, in numbers of the arena.
-    pub fn new(found: SearchResult, depth: f64, points: &NodeMotion, faces: &Faces, edges: &[Edge]) -> Locator {
-        let mut is_moving = vec![false; points.len()];
+    pub fn new(found: SearchResult, depth: f64, motion: &NodeMotion, faces: &Faces, edges: &[Edge]) -> Locator {
+        let mut is_moving = vec![false; motion.len()];
         for &edge in found.pairs.iter().flatten() {
             edges[edge as usize].ends.iter().for_each(|&end| is_moving[end as usize] = true);
         }
-        found.watched.iter().for_each(|&point| is_moving[point as usize] = true);
-        for near in &found.near {
+        found.slave_nodes.iter().for_each(|&point| is_moving[point as usize] = true);
+        for near in &found.candidates {
             faces.corners[near.face as usize].iter().for_each(|&corner| is_moving[corner as usize] = true);
         }
         Locator {
             depth,
-            outlooks: vec![SleepState::default(); found.watched.len()],
-            quiet: vec![0.0; found.watched.len()],
-            moving: (0..points.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
-            watched: found.watched,
+            sleep: vec![SleepState::default(); found.slave_nodes.len()],
+            quiet_until: vec![0.0; found.slave_nodes.len()],
+            moving: (0..motion.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
+            slave_nodes: found.slave_nodes,
             first: found.first,
-            near: found.near,
+            candidates: found.candidates,
             pairs_due: vec![0.0; found.pairs.len()],
             edge_pairs: found.pairs,
             fresh: true,
@@ -161,20 +164,20 @@ impl Locator {
     }
 
     /// Begins a step.
-    pub fn step(&mut self, points: &NodeMotion, faces: &Faces) {
+    pub fn step(&mut self, motion: &NodeMotion, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
         // On one rank what counts in the longest way is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
-        self.last_way = if first { self.longest_way(points) } else { points.longest_way() };
-        self.gone += self.last_way;
+        self.last_path = if first { self.longest_path(motion) } else { motion.longest_path() };
+        self.travelled += self.last_path;
     }
 
     /// The farthest that a point which matters will go in this step, along an axis.
-    fn longest_way(&self, points: &NodeMotion) -> f64 {
-        let ways = self.moving.iter().flat_map(|&point| points.path(point).1).map(f64::abs);
+    fn longest_path(&self, motion: &NodeMotion) -> f64 {
+        let lengths = self.moving.iter().flat_map(|&point| motion.path(point).1).map(f64::abs);
         // A way that is not a number leaves nobody at rest.
-        ways.fold(0.0, |longest, way| if way <= f64::MAX { way.max(longest) } else { f64::INFINITY })
+        lengths.fold(0.0, |longest, length| if length <= f64::MAX { length.max(longest) } else { f64::INFINITY })
     }
 
     /// Points that are watched, corners of candidates or ends of edges, ascending: those that count in the longest way.
@@ -183,36 +186,36 @@ impl Locator {
     }
 
     /// Points with candidates, ascending.
-    pub fn watched(&self) -> &[u32] {
-        &self.watched
+    pub fn slave_nodes(&self) -> &[u32] {
+        &self.slave_nodes
     }
 
     /// Finds the candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
-    pub fn near(
+    pub fn locate(
         &mut self,
         i: usize,
-        points: &NodeMotion,
+        motion: &NodeMotion,
         faces: &Faces,
         past: &[FaceContact; MAX_FACES],
         near: &mut Vec<Candidate>,
     ) {
         near.clear();
         // Written so that it does not rest where what has gone is not a number.
-        let rests = self.gone + self.last_way < self.outlooks[i].due;
+        let rests = self.travelled + self.last_path < self.sleep[i].due;
         if !rests {
-            self.look_out(i, points, faces, past);
+            self.plan_sleep(i, motion, faces, past);
         }
-        let SleepState { mut awake, held, .. } = self.outlooks[i];
-        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        let SleepState { mut awake, held, .. } = self.sleep[i];
+        let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = points.ways[self.watched[i] as usize];
+        let own = motion.swept_boxes[self.slave_nodes[i] as usize];
         let capture_boxes = &mut self.capture_boxes;
         let mut look = |candidate: &Candidate| {
-            let way = capture_boxes.of(candidate.face, faces, points, self.depth);
-            if own.distance(&way) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
+            let swept = capture_boxes.of(candidate.face, faces, motion, self.depth);
+            if own.distance(&swept) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
         };
@@ -226,21 +229,21 @@ impl Locator {
     /// Whether nothing holds the `i`-th watched point, nor comes near it in this step.
     #[inline]
     pub fn is_quiet(&self, i: usize) -> bool {
-        self.gone + self.last_way < self.quiet[i]
+        self.travelled + self.last_path < self.quiet_until[i]
     }
 
     /// Whether a face holds the `i`-th watched point; in a step known from [`Locator::near`] on.
     pub fn is_held(&self, i: usize) -> bool {
-        self.outlooks[i].held
+        self.sleep[i].held
     }
 
     /// Hears whether a face holds the `i`-th watched point from now on.
     pub fn set_held(&mut self, i: usize, held: bool) {
-        let outlook = &mut self.outlooks[i];
-        if outlook.held != held {
+        let sleep = &mut self.sleep[i];
+        if sleep.held != held {
             // Other candidates matter to it than before.
-            *outlook = SleepState { held, ..SleepState::default() };
-            self.quiet[i] = 0.0;
+            *sleep = SleepState { held, ..SleepState::default() };
+            self.quiet_until[i] = 0.0;
         }
     }
 
@@ -251,31 +254,31 @@ impl Locator {
 
     /// Whether the `i`-th pair of edges may be near in this step.
     pub fn is_pair_due(&self, i: usize) -> bool {
-        self.gone + self.last_way >= self.pairs_due[i]
+        self.travelled + self.last_path >= self.pairs_due[i]
     }
 
     /// Lets a pair wait whose edges are so far apart along an axis in this step, beyond where they would be near.
     pub fn let_pair_wait(&mut self, i: usize, distance: f64) {
-        self.pairs_due[i] = self.gone + SAFE * distance;
+        self.pairs_due[i] = self.travelled + SAFE * distance;
     }
 
     /// Finds which candidates of the `i`-th watched point may sleep, and for how long.
-    fn look_out(&mut self, i: usize, points: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
-        let point = self.watched[i];
+    fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
+        let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
-        let own = points.ways[point as usize];
-        let (sleep, mut rest, mut awake) = (SLEEP * self.last_way, f64::INFINITY, 0);
-        let candidates = &self.near[self.first[i] as usize..self.first[i + 1] as usize];
+        let own = motion.swept_boxes[point as usize];
+        let (sleep, mut rest, mut awake) = (SLEEP * self.last_path, f64::INFINITY, 0);
+        let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
         // Behind a thin face a point may be touching a thick one beside it, and then both normals count.
         let depths = candidates.iter().map(|candidate| faces.depth[candidate.face as usize]);
         let deepest = depths.fold(0.0, f64::max);
         for (bit, candidate) in candidates.iter().enumerate().take(64) {
             let face = candidate.face;
             // Both sides may come nearer.
-            let mut away = 0.5 * f64::from(own.distance(&self.capture_boxes.of(face, faces, points, self.depth)));
+            let mut away = 0.5 * f64::from(own.distance(&self.capture_boxes.of(face, faces, motion, self.depth)));
             if !held && away <= sleep {
                 let apart =
-                    separation([point, face], points, faces, [self.depth * faces.depth[face as usize], deepest]);
+                    separation([point, face], motion, faces, [self.depth * faces.depth[face as usize], deepest]);
                 away = away.max(apart / ALONG_A_NORMAL);
             }
             if away > sleep && past.iter().all(|past| past.face != face) {
@@ -288,14 +291,14 @@ impl Locator {
             // Those that are awake may sleep some day.
             rest = rest.min(LOOK * sleep);
         }
-        let due = self.gone + rest;
-        self.outlooks[i] = SleepState { due, awake, held };
-        self.quiet[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
+        let due = self.travelled + rest;
+        self.sleep[i] = SleepState { due, awake, held };
+        self.quiet_until[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
     }
 
     /// Numbers of watched points and of candidate pairs.
     pub fn counts(&self) -> [usize; 2] {
-        [self.watched.len(), self.near.len()]
+        [self.slave_nodes.len(), self.candidates.len()]
     }
 }
 
@@ -304,11 +307,11 @@ impl Locator {
 ///
 /// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
 /// later, as long as nobody has gone half this distance.
-fn separation([point, face]: [u32; 2], points: &NodeMotion, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
-    let (start, end) = (faces.start(face, points), faces.end(face, points));
+fn separation([point, face]: [u32; 2], motion: &NodeMotion, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
+    let (start, end) = (faces.start(face, motion), faces.end(face, motion));
     let normal = area_normal(&start);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (corners, at) in [(start, points.start(point)), (end, points.end(point))] {
+    for (corners, at) in [(start, motion.start(point)), (end, motion.end(point))] {
         for corner in corners {
             let height = dot(subtract(at, corner), normal);
             (low, high) = (low.min(height), high.max(height));

@@ -28,48 +28,51 @@ impl Boxes {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SearchResult {
     /// Points with candidates, ascending.
-    pub watched: Vec<u32>,
+    pub slave_nodes: Vec<u32>,
     /// Where the candidates of each begin in `near`; one more than there are points.
     pub first: Vec<u32>,
     /// Candidates, faces ascending.
-    pub near: Vec<Candidate>,
+    pub candidates: Vec<Candidate>,
     /// Pairs of edges that may cross, ascending; the first stands out, and has the lower number where both do.
     pub pairs: Vec<[u32; 2]>,
 }
 
 /// Box in which a site stays until the next search.
-fn around(sites: &ContactNodes, site: usize) -> Box3 {
-    let [low, high] = sites.reach(site);
+fn around(contact_nodes: &ContactNodes, contact_node: usize) -> Box3 {
+    let [low, high] = contact_nodes.reach(contact_node);
     Box3 { low, high }
 }
 
 /// Boxes of some sites.
-pub fn point_boxes(sites: &ContactNodes) -> Boxes {
+pub fn point_boxes(contact_nodes: &ContactNodes) -> Boxes {
     let mut points = Boxes::default();
-    for (i, site) in sites.list.iter().enumerate().filter(|(_, site)| site.owned) {
-        points.push(site.point, around(sites, i));
+    for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
+        points.push(contact_node.point, around(contact_nodes, i));
     }
     points
 }
 
 /// Boxes of some faces, whose corners are sites.
-pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, sites: &ContactNodes) -> Boxes {
+pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for face in faces {
-        let corners = layout.faces.corners[face as usize].map(|corner| sites.of(corner));
-        let of = corners.iter().flatten().fold(Box3::empty(), |all, &site| all.joined(&around(sites, site)));
+        let corners = layout.faces.corners[face as usize].map(|corner| contact_nodes.of(corner));
+        let of = corners
+            .iter()
+            .flatten()
+            .fold(Box3::empty(), |all, &contact_node| all.joined(&around(contact_nodes, contact_node)));
         all.push(face, of.grown(layout.faces.depth[face as usize]));
     }
     all
 }
 
 /// Boxes of those of some edges that take part, whose ends are sites.
-pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, sites: &ContactNodes) -> Boxes {
+pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for edge in edges.filter(|&edge| layout.takes_part(edge)) {
         let one = &layout.edges[edge as usize];
-        let of = one.ends.iter().filter_map(|&end| sites.of(end));
-        let of = of.fold(Box3::empty(), |all, site| all.joined(&around(sites, site)));
+        let of = one.ends.iter().filter_map(|&end| contact_nodes.of(end));
+        let of = of.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)));
         all.push(edge, of.grown(edge_edge::keep(&layout.faces, one)));
     }
     all
@@ -86,19 +89,19 @@ pub fn find(
         (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
     let mut found = SearchResult { pairs: crossings(search, edges, mine, layout), ..Default::default() };
     for (place, &point) in points.ids.iter().enumerate() {
-        let begin = found.near.len();
+        let begin = found.candidates.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
             let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
-            let strangers = near.filter(|&face| !layout.faces.same_element(face, point));
-            found.near.extend(strangers.map(|face| Candidate { face, interface: number as u32 }));
+            let unrelated = near.filter(|&face| !layout.faces.same_element(face, point));
+            found.candidates.extend(unrelated.map(|face| Candidate { face, interface: number as u32 }));
         }
-        if found.near.len() > begin {
-            keep_first(&mut found.near, begin);
-            found.watched.push(point);
+        if found.candidates.len() > begin {
+            keep_first(&mut found.candidates, begin);
+            found.slave_nodes.push(point);
             found.first.push(begin as u32);
         }
     }
-    found.first.push(found.near.len() as u32);
+    found.first.push(found.candidates.len() as u32);
     found
 }
 
@@ -155,8 +158,8 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
         let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);
         let others = others.filter(|&other| other > first || !stands_out(other));
         let one = &layout.edges[first as usize];
-        let strangers = others.filter(|&other| edges::strangers(one, &layout.edges[other as usize], &layout.faces));
-        pairs.extend(strangers.map(|second| [first, second]));
+        let unrelated = others.filter(|&other| edges::unrelated(one, &layout.edges[other as usize], &layout.faces));
+        pairs.extend(unrelated.map(|second| [first, second]));
     }
     pairs
 }

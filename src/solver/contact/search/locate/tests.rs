@@ -28,21 +28,21 @@ const STEPS: usize = 50;
 impl Locator {
     /// Wakes every candidate and every pair, for one step; faces hold these points, ascending.
     fn wake(&mut self, held: &[u32]) {
-        for (i, outlook) in self.outlooks.iter_mut().enumerate() {
+        for (i, sleep) in self.sleep.iter_mut().enumerate() {
             let candidates = self.first[i + 1] - self.first[i];
             let awake = u64::MAX.checked_shr(64 - candidates.min(64)).unwrap_or(0);
-            let held = held.binary_search(&self.watched[i]).is_ok();
-            *outlook = SleepState { due: f64::INFINITY, awake, held };
+            let held = held.binary_search(&self.slave_nodes[i]).is_ok();
+            *sleep = SleepState { due: f64::INFINITY, awake, held };
         }
-        self.quiet.fill(f64::NEG_INFINITY);
+        self.quiet_until.fill(f64::NEG_INFINITY);
         self.pairs_due.fill(f64::NEG_INFINITY);
     }
 
     /// Candidates and pairs that sleep.
     fn asleep(&self) -> u64 {
-        let awake = self.outlooks.iter().map(|outlook| u64::from(outlook.awake.count_ones())).sum::<u64>();
+        let awake = self.sleep.iter().map(|sleep| u64::from(sleep.awake.count_ones())).sum::<u64>();
         let pairs = (0..self.edge_pairs.len()).filter(|&i| !self.is_pair_due(i)).count();
-        self.near.len() as u64 - awake.min(self.near.len() as u64) + pairs as u64
+        self.candidates.len() as u64 - awake.min(self.candidates.len() as u64) + pairs as u64
     }
 }
 
@@ -310,12 +310,12 @@ fn step(contact: &mut Contact, nodes: &mut Nodes, awake: bool) {
     contact.bring_motion(nodes, &STEP, &mut Serial);
     if awake {
         // On one rank the points of the arena are those of the layout.
-        let held: Vec<u32> = contact.arena.history().points.iter().map(|(point, _)| *point).collect();
-        contact.arena.locator.wake(&held);
+        let held: Vec<u32> = contact.problem.history().points.iter().map(|(point, _)| *point).collect();
+        contact.problem.locator.wake(&held);
     }
     contact.enforce(&STEP, &mut Serial);
     contact.bring_forces(&mut Serial);
-    contact.sites.hand_over(nodes, |_, _| ());
+    contact.contact_nodes.hand_over(nodes, |_, _| ());
     nodes.integrate(STEP.kick, STEP.drift);
 }
 
@@ -326,13 +326,13 @@ struct Seen([Cell<u64>; 3]);
 impl Seen {
     fn add(&self, contact: &Contact) {
         let faces = contact
-            .arena
+            .problem
             .constraints
             .iter()
             .filter(|c| c.count == crate::solver::contact::enforcement::constraint::MEMBERS)
             .count() as u64;
-        let edges = contact.arena.constraints.len() as u64 - faces;
-        let now = [faces, edges, contact.arena.locator.asleep()];
+        let edges = contact.problem.constraints.len() as u64 - faces;
+        let now = [faces, edges, contact.problem.locator.asleep()];
         self.0.iter().zip(now).for_each(|(sum, now)| sum.set(sum.get() + now));
     }
 }
@@ -352,7 +352,7 @@ fn plays_the_same(scene: &Scene, seen: &Seen) -> Result<(), TestCaseError> {
             step(contact, nodes, i == 1);
         }
         let [sleeping, awake] = &contacts;
-        prop_assert_eq!(&sleeping.arena.constraints, &awake.arena.constraints, "step {}", number);
+        prop_assert_eq!(&sleeping.problem.constraints, &awake.problem.constraints, "step {}", number);
         let [a, b] = &nodes;
         let bits = |nodes: &Nodes| nodes.rows.iter().flat_map(|row| row.0.map(f64::to_bits)).collect::<Vec<u64>>();
         prop_assert!(bits(a) == bits(b), "bits in step {}", number);
