@@ -142,9 +142,9 @@ fn overlaps_too_deep_to_be_taken_out_are_told() {
     );
     let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
     // The lower nine nodes and the eight around the middle of the column, and the node of the cube's top in the column.
-    assert_eq!((overlap.nodes, overlap.left.nodes), (0, 18));
-    assert!((overlap.left.deepest - 0.004).abs() < 1e-12, "{:?}", overlap.left);
-    assert_eq!(mesh.coordinates[overlap.left.node as usize].map(|x| (1e3 * x).round()), [5.0, 5.0, 4.0]);
-    let told = overlap.left.warning(&mesh).unwrap_or_default();
+    assert_eq!((overlap.nodes, overlap.deep.nodes), (0, 18));
+    assert!((overlap.deep.deepest - 0.004).abs() < 1e-12, "{:?}", overlap.deep);
+    assert_eq!(mesh.coordinates[overlap.deep.node as usize].map(|x| (1e3 * x).round()), [5.0, 5.0, 4.0]);
+    let told = overlap.deep.warning(&mesh).unwrap_or_default();
     assert!(told.contains("18 nodes") && told.contains("4.0000e-3"), "{told}");
 }

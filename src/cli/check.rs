@@ -23,7 +23,7 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
     let model = &given.problem.model;
     say(model.title.trim());
     let body = given.body()?;
-    if let Some(warning) = body.overlap.left.warning(&given.mesh) {
+    if let Some(warning) = body.overlap.deep.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }
     say(modelled(&given, &body));

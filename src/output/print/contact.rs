@@ -23,7 +23,7 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table("CONTACT", "BETWEEN          FIRST  SECOND    PARTITION     FRICTION   HIGH SPEED        DECAY", lines),
         table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
         table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
-        table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.left)),
+        table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.deep)),
         table(
             "REMOVAL OF ELEMENTS",
             "BLOCK   VARIABLE      BOUND        VALUE   NODES",

@@ -68,6 +68,12 @@ impl Records {
         &self.values[record * self.width..][..self.width]
     }
 
+    /// The ids of all records with their numbers, of which there are `W`.
+    pub fn rows<const W: usize>(&self) -> impl Iterator<Item = (u32, [f64; W])> + '_ {
+        debug_assert_eq!(W, self.width, "records of another width");
+        self.ids.iter().copied().zip(self.values.as_chunks().0.iter().copied())
+    }
+
     /// The records by ascending id, those of one id by sender: an order that does not depend on which rank sent
     /// them, if ids are distinct.
     pub fn by_id(&self) -> Vec<u32> {

@@ -3,6 +3,7 @@
 use super::geometry::motion::{NodeMotion, larger};
 use super::geometry::swept_box::SweptBox;
 use super::layout::{ABSENT, inverse};
+use super::node_result::NodeResult;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
@@ -19,15 +20,6 @@ pub struct ContactNode {
 
 /// Room of a site's box on all sides, as a part of half the way that the box is made for: at full speed a site turns little.
 const SIDE: f64 = 0.25;
-
-/// What contact says about a site: normal force, friction force, gap, status, face, force of rigid planes.
-pub const ANSWER: usize = 12;
-
-/// How many of these are forces on the site, and come first.
-pub const FORCES: usize = 6;
-
-/// Which of these is the status; 0 where nothing pushes.
-pub const STATUS: usize = 7;
 
 /// Points of this rank, in the order of their numbers.
 #[derive(Debug, Clone, Default)]
@@ -46,7 +38,7 @@ pub struct ContactNodes {
     searched: bool,
     pub expired: bool,
     /// What contact says of each.
-    pub answers: Vec<[f64; ANSWER]>,
+    pub results: Vec<NodeResult>,
     /// Sites with a force now, ascending.
     pub loaded: Vec<u32>,
     /// Rank that computes the contact of each; empty on one rank.
@@ -75,7 +67,7 @@ impl ContactNodes {
             places: inverse(list.iter().map(|contact_node| contact_node.point), points),
             list,
             motion: NodeMotion::new(count, origin),
-            answers: vec![[0.0; ANSWER]; count],
+            results: vec![NodeResult::FREE; count],
             works: vec![[0.0; 2]; count],
             ..Default::default()
         };
@@ -140,18 +132,18 @@ impl ContactNodes {
 
     /// Force on a site, normal and friction apart.
     pub fn forces(&self, contact_node: usize) -> [[f64; 3]; 2] {
-        let a = &self.answers[contact_node];
-        [[a[0], a[1], a[2]], [a[3], a[4], a[5]]]
+        let NodeResult { normal_force, tangential_force, .. } = self.results[contact_node];
+        [normal_force, tangential_force]
     }
 
     /// Adds the forces to the nodes; what a constraint holds, its reaction takes up.
     pub fn hand_over(&self, nodes: &mut Nodes, mut react: impl FnMut(u32, f64)) {
         for &i in &self.loaded {
-            let (contact_node, answer) = (&self.list[i as usize], &self.answers[i as usize]);
+            let (contact_node, result) = (&self.list[i as usize], &self.results[i as usize]);
             let holders = &self.holders[i as usize];
             let sum = &mut nodes.forces[contact_node.node as usize].0;
             for axis in 0..3 {
-                let force = answer[axis] + answer[3 + axis];
+                let force = result.normal_force[axis] + result.tangential_force[axis];
                 match holders[axis] {
                     ABSENT => sum[axis] += force,
                     holder => react(holder, force),

@@ -7,7 +7,6 @@ use super::check::edge_edge::{EdgeCheck, EdgeContact, EdgeVerdict};
 use super::check::node_face;
 use super::check::node_face::{DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
-use super::contact_nodes::ANSWER;
 use super::enforcement::carried::Carried;
 use super::enforcement::certificate::Bank;
 use super::enforcement::constraint::{Constraint, Origin};
@@ -19,6 +18,7 @@ use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::NodeMotion;
 use super::layout::{ABSENT, Layout, inverse};
+use super::node_result::{Details, NodeResult, Status};
 use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Candidate, Locator, Rule};
 use super::search::neighbourhood::SearchResult;
@@ -75,7 +75,7 @@ pub struct LocalProblem {
     pub constraints: Vec<Constraint>,
     enforcer: Enforcer,
     /// What has come out for each point, and of which points that is not nothing.
-    pub answers: Vec<[f64; ANSWER]>,
+    pub results: Vec<NodeResult>,
     /// Points with a force now, ascending.
     pub loaded: Vec<u32>,
     near: Vec<Candidate>,
@@ -147,7 +147,7 @@ impl LocalProblem {
             planes,
             places,
             enforcer: Enforcer::new(all),
-            answers: vec![[0.0; ANSWER]; all],
+            results: vec![NodeResult::FREE; all],
             faces,
             numbering,
             ..Default::default()
@@ -230,7 +230,7 @@ impl LocalProblem {
         }
         self.origins();
         let outcome = self.enforce(setting, step, bank, others);
-        self.answer();
+        self.tell_nodes();
         outcome
     }
 
@@ -363,31 +363,32 @@ impl LocalProblem {
         }
     }
 
-    /// Says what contact does to each point: forces, gap, status (0 free, 1 pushed, 2 pushed by its own contact with a
-    /// face), the face, and the force of planes.
-    fn answer(&mut self) {
-        self.loaded.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+    /// Says what contact does to each node.
+    fn tell_nodes(&mut self) {
+        self.loaded.drain(..).for_each(|point| self.results[point as usize] = NodeResult::FREE);
         for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
             for (point, _) in c.parts() {
-                let answer = &mut self.answers[point];
-                if answer[7] == 0.0 {
+                let result = &mut self.results[point];
+                if result.details.status == Status::Free {
                     self.loaded.push(point as u32);
-                    let ([a, b, c], [d, e, f]) =
-                        (self.enforcer.normal_force[point], self.enforcer.friction_force[point]);
-                    answer[..8].copy_from_slice(&[a, b, c, d, e, f, 0.0, 1.0]);
+                    result.normal_force = self.enforcer.normal_force[point];
+                    result.tangential_force = self.enforcer.friction_force[point];
+                    result.details.status = Status::Loaded;
                 }
             }
-            let first = &mut self.answers[c.members[0] as usize];
-            first[6] = first[6].min(c.gap);
+            let Details { gap, status, face, plane_force } = &mut self.results[c.members[0] as usize].details;
+            *gap = gap.min(c.gap);
             match c.origin {
                 Origin::Face(..) => {
-                    let past = self.history.get(c.members[0] as usize).map_or(NONE, |pasts| pasts[0].face);
-                    if past != NONE {
-                        (first[7], first[8]) = (2.0, f64::from(self.faces.number[past as usize]));
+                    let touched = self.history.get(c.members[0] as usize).map_or(NONE, |contacts| contacts[0].face);
+                    if touched != NONE {
+                        (*status, *face) = (Status::OnFace, self.faces.number[touched as usize]);
                     }
                 }
-                Origin::Plane(_) => (0..3)
-                    .for_each(|i| first[9 + i] += c.carried.normal_force * c.normal[i] + c.carried.tangential_force[i]),
+                Origin::Plane(_) => {
+                    let Carried { normal_force, tangential_force, .. } = c.carried;
+                    (0..3).for_each(|i| plane_force[i] += normal_force * c.normal[i] + tangential_force[i])
+                }
                 Origin::Edges(..) => (),
             }
         }
@@ -396,7 +397,7 @@ impl LocalProblem {
 
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
-        self.loaded.drain(..).for_each(|point| self.answers[point as usize] = [0.0; ANSWER]);
+        self.loaded.drain(..).for_each(|point| self.results[point as usize] = NodeResult::FREE);
         self.constraints.clear();
     }
 }

@@ -10,6 +10,7 @@ pub mod enforcement;
 pub mod geometry;
 mod layout;
 mod local_problem;
+mod node_result;
 mod pairings;
 mod ranks;
 mod report;
@@ -222,7 +223,7 @@ impl Contact {
                 std::mem::swap(&mut problem.motion, &mut contact_nodes.motion);
                 contact_nodes.loaded.clone_from(&problem.loaded);
                 for &point in &problem.loaded {
-                    contact_nodes.answers[point as usize] = problem.answers[point as usize];
+                    contact_nodes.results[point as usize] = problem.results[point as usize];
                 }
             }
         }
@@ -233,7 +234,7 @@ impl Contact {
     pub fn complete(&mut self, comm: &mut dyn Communicator) {
         let Contact { contact_nodes, problem, remote, .. } = self;
         if let Some(remote) = remote {
-            remote.send_rest(contact_nodes, problem, comm);
+            remote.send_details(contact_nodes, problem, comm);
         }
     }
 
@@ -286,7 +287,7 @@ impl Contact {
         }
     }
 
-    fn count(&mut self, Outcome { iterations, left, deepest, depth, travel }: Outcome) {
+    fn count(&mut self, Outcome { iterations, residual, deepest, depth, travel }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
         if depth > 0.0 {
@@ -294,8 +295,8 @@ impl Contact {
         }
         self.tally.steps += u64::from(iterations > 0);
         self.tally.iterations += u64::from(iterations);
-        self.tally.capped += u64::from(left > self.limits.tolerance && self.limits.tolerance.is_finite());
-        self.tally.left = self.tally.left.max(left);
+        self.tally.capped += u64::from(residual > self.limits.tolerance && self.limits.tolerance.is_finite());
+        self.tally.left = self.tally.left.max(residual);
     }
 
     /// Books half the step's work with the present velocities.

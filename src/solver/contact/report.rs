@@ -1,7 +1,10 @@
 //! What contact tells others: values at the nodes, works, numbers for the log, and what it costs, to price it on other
 //! machines.
 
-use super::{Contact, contact_nodes};
+use super::Contact;
+use super::contact_nodes::ContactNodes;
+use super::node_result::{Details, NodeResult, Status};
+use crate::vector::add;
 
 /// Contact in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,23 +71,26 @@ impl Contact {
 
     /// Forces of rigid planes at local nodes.
     pub fn plane_forces(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
-        self.answers().map(|(node, a)| (node, [a[9], a[10], a[11]])).filter(|(_, force)| *force != [0.0; 3])
+        let forces = self.results().map(|(node, result)| (node, result.details.plane_force));
+        forces.filter(|(_, force)| *force != [0.0; 3])
     }
 
-    fn answers(&self) -> impl Iterator<Item = (u32, &[f64; contact_nodes::ANSWER])> + '_ {
-        let contact_nodes = &self.contact_nodes;
-        contact_nodes.loaded.iter().map(|&i| (contact_nodes.list[i as usize].node, &contact_nodes.answers[i as usize]))
+    fn results(&self) -> impl Iterator<Item = (u32, &NodeResult)> + '_ {
+        let ContactNodes { loaded, list, results, .. } = &self.contact_nodes;
+        loaded.iter().map(|&i| (list[i as usize].node, &results[i as usize]))
     }
 
-    /// At each local node that is pushed: contact force, overlap that contact closes in the coming step, status (0 free,
-    /// 1 pushed, 2 pushed by its own contact with a face), and the place in the mesh file, from 1, of the element whose face
-    /// it meets.
+    /// At each local node on which contact forces act: contact force, overlap that contact closes in the coming step, status
+    /// (0 free, 1 loaded, 2 loaded by its own contact with a face), and the place in the mesh file, from 1, of the element
+    /// whose face it meets.
     pub fn node_values(&self) -> Vec<(u32, [f64; 6])> {
-        let value = |(node, a): (u32, &[f64; contact_nodes::ANSWER])| {
-            let element = if a[7] == 2.0 { self.skin.file_number(a[8] as u32) } else { 0.0 };
-            (node, [a[0] + a[3], a[1] + a[4], a[2] + a[5], a[6], a[7], element])
+        let value = |(node, result): (u32, &NodeResult)| {
+            let Details { gap, status, face, .. } = result.details;
+            let element = if status == Status::OnFace { self.skin.file_number(face) } else { 0.0 };
+            let [x, y, z] = add(result.normal_force, result.tangential_force);
+            (node, [x, y, z, gap, status.code(), element])
         };
-        self.answers().map(value).collect()
+        self.results().map(value).collect()
     }
 
     /// Local nodes on the surface, and the ranks that compute their contact.

@@ -175,15 +175,15 @@ impl Contact {
         faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
         let mut points: Vec<(u32, [FaceContact; 3])> = Vec::new();
         // Rows are sorted by their nodes.
-        for row in rows.chunks_exact(TOUCH) {
-            let point = self.layout.point(row[0] as u32);
+        for &[node, slot, element, side, tolerated, ref carried @ ..] in rows.as_chunks::<TOUCH>().0 {
+            let point = self.layout.point(node as u32);
             if points.last().is_none_or(|(last, _)| *last != point) {
                 points.push((point, NO_CONTACT));
             }
-            let face = faces.binary_search_by(|(key, _)| compare_rows(key, &row[2..4]));
-            let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(row[1] as usize));
+            let face = faces.binary_search_by(|(key, _)| compare_rows(key, &[element, side]));
+            let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(slot as usize));
             if let (Ok(face), Some(past)) = (face, pasts) {
-                *past = FaceContact { face: faces[face].1, tolerated: row[4], carried: Carried::from_slice(&row[5..]) };
+                *past = FaceContact { face: faces[face].1, tolerated, carried: Carried::from_array(*carried) };
             }
         }
         points
@@ -208,10 +208,11 @@ impl Contact {
             return Vec::new();
         }
         let edge = |ends: [f64; 2]| self.layout.edge(ends.map(|node| node as u32));
-        let pairs = rows.chunks_exact(PAIR).filter_map(|row| {
-            let pair = [edge([row[0], row[1]])?, edge([row[2], row[3]])?];
-            Some(EdgeContact { pair, sense: row[4], tolerated: row[5], carried: Carried::from_slice(&row[6..]) })
-        });
+        let pairs =
+            rows.as_chunks::<PAIR>().0.iter().filter_map(|&[a, b, c, d, sense, tolerated, ref carried @ ..]| {
+                let pair = [edge([a, b])?, edge([c, d])?];
+                Some(EdgeContact { pair, sense, tolerated, carried: Carried::from_array(*carried) })
+            });
         pairs.collect()
     }
 
@@ -233,11 +234,11 @@ impl Contact {
         if !archive.loading() {
             return Vec::new();
         }
-        let rows: Vec<&[f64]> = rows.chunks_exact(PLANE).collect();
+        let rows = rows.as_chunks::<PLANE>().0;
         let force = |plane_node: &super::PlaneNode| {
             let key = [f64::from(self.layout.nodes[plane_node.point as usize]), f64::from(plane_node.plane)];
-            let row = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
-            Some((plane_node.number, Carried::from_slice(&row[2..])))
+            let [_, _, carried @ ..] = rows[rows.binary_search_by(|row| compare_rows(&row[..2], &key)).ok()?];
+            Some((plane_node.number, Carried::from_array(carried)))
         };
         self.plane_nodes.iter().filter_map(force).collect()
     }

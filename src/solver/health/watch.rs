@@ -243,7 +243,7 @@ fn farthest_moved(mesh: &Mesh, body: &Body) -> Option<Spot> {
 
 /// The node that begins deepest inside an element.
 fn left_deepest(mesh: &Mesh, body: &Body) -> Option<Spot> {
-    let left = body.overlap.left;
+    let left = body.overlap.deep;
     (left.nodes > 0).then(|| Spot {
         node: mesh.node_ids.get(left.node as usize).copied(),
         element: mesh.element_ids.get(left.element as usize).copied(),

@@ -16,7 +16,7 @@ use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::pairings::Pairings;
-use crate::solver::contact::search::locate::{Candidate, Locator};
+use crate::solver::contact::search::locate::{Candidate, Interface, Locator};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::skin::Skin;
@@ -47,7 +47,7 @@ pub struct Overlap {
     /// Farthest move, a length.
     pub farthest: f64,
     /// What is left deep inside.
-    pub left: DeepOverlap,
+    pub deep: DeepOverlap,
     /// What could not be moved out, though it is not deep.
     pub stuck: Stuck,
 }
@@ -66,8 +66,8 @@ pub struct Stuck {
 impl Overlap {
     /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
     pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
-        let ((count, deepest, node), why) = match (self.left, self.stuck) {
-            (left, _) if left.nodes > 0 => ((left.nodes, left.deepest, left.node), "deeper than half an element"),
+        let ((count, deepest, node), why) = match (self.deep, self.stuck) {
+            (deep, _) if deep.nodes > 0 => ((deep.nodes, deep.deepest, deep.node), "deeper than half an element"),
             (_, stuck) => ((stuck.overlaps, stuck.deepest, stuck.node), "held by the deck or between others"),
         };
         let [x, y, z] = mesh.coordinates.get(node as usize)?;
@@ -117,7 +117,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
     if model.contact.control.overlap == ContactOverlap::Keep {
-        return Overlap { left: left(body, &layout), ..Default::default() };
+        return Overlap { deep: deep_overlap(body, &layout), ..Default::default() };
     }
     let pairings = Pairings::new(mesh, model, body);
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
@@ -150,7 +150,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             positions[node] = within(there, mesh.coordinates[node], farthest[point]);
         }
     }
-    Overlap { left: left(body, &layout), stuck, ..moved(mesh, body, &layout) }
+    Overlap { deep: deep_overlap(body, &layout), stuck, ..moved(mesh, body, &layout) }
 }
 
 impl Stuck {
@@ -176,36 +176,27 @@ fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
 }
 
 /// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
-fn left(body: &Body, layout: &Layout) -> DeepOverlap {
+fn deep_overlap(body: &Body, layout: &Layout) -> DeepOverlap {
     let Some(automatic) = layout.automatic() else { return DeepOverlap::default() };
-    let mut blocks: Vec<u32> = automatic.faces.iter().map(|&face| layout.faces.block[face as usize]).collect();
-    blocks.sort_unstable();
-    blocks.dedup();
-    let all = 0..body.element_nodes.len() as u32;
-    let elements: Vec<u32> = all.filter(|&e| blocks.binary_search(&body.element_block[e as usize]).is_ok()).collect();
-    let corners = |element: u32| -> [[f64; 3]; 8] {
-        let nodes: [u32; 8] = body.element_nodes[element as usize].try_into().unwrap_or_default();
-        body.corners(&nodes)
-    };
-    let boxes: Vec<Box3> = elements.iter().map(|&element| Box3::around(&corners(element))).collect();
+    let elements = hexahedra(body, layout, automatic);
+    let corners = |place: u32| body.corners(&elements[place as usize].1);
+    let boxes: Vec<Box3> = (0..elements.len() as u32).map(|place| Box3::around(&corners(place))).collect();
     let at = |point: usize| body.positions[layout.nodes[point] as usize];
     let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };
     let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
     let mut candidates = Candidates::default();
     SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
-    let mut left = DeepOverlap::default();
+    let mut deep = DeepOverlap::default();
     let mut bodies: Option<Vec<u32>> = None;
     for (point, &node) in layout.nodes.iter().enumerate() {
-        let near = candidates.of(point).iter().map(|&place| elements[place as usize]);
-        let holds = |&element: &u32| {
-            !body.element_nodes[element as usize].contains(&node) && is_inside(&corners(element), at(point))
-        };
-        let held: Vec<u32> = near.filter(holds).collect();
+        let holds = |&place: &u32| !elements[place as usize].1.contains(&node) && is_inside(&corners(place), at(point));
+        let held = candidates.of(point).iter().copied().filter(holds);
+        let held: Vec<u32> = held.map(|place| elements[place as usize].0).collect();
         let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, at(point)));
         let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
-        left.nodes += 1;
+        deep.nodes += 1;
         // A great number says enough: the depth of those that come first.
-        if left.nodes <= MEASURED {
+        if deep.nodes <= MEASURED {
             let bodies = bodies.get_or_insert_with(|| bodies_of(body));
             let inside = bodies[body.element_nodes[element as usize][0] as usize];
             let of_body = |face: u32| {
@@ -214,12 +205,23 @@ fn left(body: &Body, layout: &Layout) -> DeepOverlap {
             };
             let faces = automatic.faces.iter().copied().filter(|&face| of_body(face));
             let depth = depth(body, layout, faces, at(point));
-            if depth > left.deepest {
-                left = DeepOverlap { deepest: depth, node, element: body.element_order[element as usize], ..left };
+            if depth > deep.deepest {
+                deep = DeepOverlap { deepest: depth, node, element: body.element_order[element as usize], ..deep };
             }
         }
     }
-    left
+    deep
+}
+
+/// Elements of the blocks with faces of an interface, each by its canonical number and its nodes. Only hexahedra have an
+/// inside.
+fn hexahedra(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
+    let mut blocks: Vec<u32> = interface.faces.iter().map(|&face| layout.faces.block[face as usize]).collect();
+    blocks.sort_unstable();
+    blocks.dedup();
+    let of_blocks = (0u32..).zip(body.element_nodes.iter()).zip(&*body.element_block);
+    let of_blocks = of_blocks.filter(|(_, block)| blocks.binary_search(block).is_ok());
+    of_blocks.filter_map(|((element, nodes), _)| Some((element, nodes.try_into().ok()?))).collect()
 }
 
 /// Whether a point in an element is on one of its outer faces rather than behind it.

@@ -27,10 +27,9 @@ impl Carried {
         [self.penetration, self.normal_force, x, y, z]
     }
 
-    /// From the first numbers of a row; missing ones are zero.
-    pub fn from_slice(row: &[f64]) -> Carried {
-        let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
-        Carried { penetration: at(0), normal_force: at(1), tangential_force: [at(2), at(3), at(4)] }
+    /// From these numbers.
+    pub fn from_array([penetration, normal_force, x, y, z]: [f64; WIDTH]) -> Carried {
+        Carried { penetration, normal_force, tangential_force: [x, y, z] }
     }
 
     /// The same contact seen from the other side.

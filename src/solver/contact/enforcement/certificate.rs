@@ -13,7 +13,7 @@
 
 use super::constraint::{Constraint, ConstraintState};
 use crate::comm::ExactSum;
-use crate::vector::{dot, subtract};
+use crate::vector::{dot, scaled, subtract};
 
 /// Farthest way along the ray. Passes that begin with less than the last forces end below what is needed, and everything that is
 /// pressed would creep into each other; the ray makes up for it on the whole.
@@ -70,53 +70,83 @@ impl Default for Sums {
 impl Sums {
     /// Adds the terms of a constraint.
     pub fn add(&mut self, terms: &Terms) {
-        self.0.iter_mut().zip(terms.0).for_each(|(sum, term)| sum.add(term));
+        self.0.iter_mut().zip(terms.to_array()).for_each(|(sum, term)| sum.add(term));
     }
 
     /// The sums as numbers.
     pub fn terms(&self) -> Terms {
-        Terms(std::array::from_fn(|i| self.0[i].value()))
+        Terms::from_array(std::array::from_fn(|i| self.0[i].value()))
     }
 }
 
-/// The terms of one constraint, or the sums of many: force times (least target − u*), force times what brings to rest, force times
-/// lift; work of landing; force times change of velocity and force times (u⁻ + u*), each normal and of friction.
+/// What the forces of one constraint, or of many, amount to: forces times velocities, all of one dimension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Terms(pub [f64; COUNT]);
+pub struct Terms {
+    /// Forces times what they may give for nothing: the least targets less u*.
+    pub least: f64,
+    /// Normal forces times what brings to rest.
+    pub rest: f64,
+    /// Normal forces times what lifts.
+    pub lift: f64,
+    /// Half of what normal forces take where members meet anew, at most 0.
+    pub landing: f64,
+    /// Normal forces times the change of velocity that all forces make, P·A P.
+    pub normal_change: f64,
+    /// The same of friction.
+    pub friction_change: f64,
+    /// Normal forces times u⁻ + u*.
+    pub normal_free: f64,
+    /// The same of friction.
+    pub friction_free: f64,
+}
 
 impl Terms {
     /// The terms of one constraint whose forces are final; `change` is the relative velocity that all forces give it.
     pub fn of(c: &Constraint, state: &ConstraintState, change: [f64; 3]) -> Terms {
         let (normal_force, tangential_force) = (c.carried.normal_force, c.carried.tangential_force);
-        let along = dot(change, c.normal);
-        let mut terms = [0.0; COUNT];
-        terms[0] = normal_force * (state.target.least - state.free);
-        terms[1] = normal_force * state.target.rest;
-        terms[2] = normal_force * state.target.lift;
+        let mut terms = Terms {
+            least: normal_force * (state.target.least - state.free),
+            rest: normal_force * state.target.rest,
+            lift: normal_force * state.target.lift,
+            normal_change: normal_force * dot(change, c.normal),
+            normal_free: normal_force * (state.before + state.free),
+            ..Default::default()
+        };
         if state.target.lands {
-            terms[3] = 0.5 * normal_force * (state.before + state.target.least).min(0.0);
+            terms.landing = 0.5 * normal_force * (state.before + state.target.least).min(0.0);
         }
-        terms[4] = normal_force * along;
-        terms[6] = normal_force * (state.before + state.free);
         if tangential_force != [0.0; 3] {
             // Friction that goes with the sliding of before may at most turn it round.
-            terms[0] -= dot(tangential_force, state.slip_before).max(0.0) + dot(tangential_force, state.slip);
-            terms[5] = dot(tangential_force, change);
-            terms[7] = dot(tangential_force, state.slip_before) + dot(tangential_force, state.slip);
+            terms.least -= dot(tangential_force, state.slip_before).max(0.0) + dot(tangential_force, state.slip);
+            terms.friction_change = dot(tangential_force, change);
+            terms.friction_free = dot(tangential_force, state.slip_before) + dot(tangential_force, state.slip);
         }
-        Terms(terms)
+        terms
     }
 
-    /// Adds the terms of another constraint of the same island.
+    /// As numbers, for sums over ranks.
+    fn to_array(self) -> [f64; COUNT] {
+        let Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free } = self;
+        [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free]
+    }
+
+    /// From these numbers.
+    fn from_array(numbers: [f64; COUNT]) -> Terms {
+        let [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free] = numbers;
+        Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free }
+    }
+
+    /// Adds the terms of another constraint of the same node.
     pub fn add(&mut self, other: &Terms) {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, term)| *sum += term);
+        let (own, other) = (self.to_array(), other.to_array());
+        *self = Terms::from_array(std::array::from_fn(|i| own[i] + other[i]));
     }
 
     /// How far to go along the ray of these forces with these parts granted: to where they do no work against the targets, which is
     /// also where they fit best.
     pub fn ray(&self, [rest, lift]: Granted) -> f64 {
-        let wanted = self.0[0] + rest * self.0[1] + lift * self.0[2];
-        let resisted = self.0[4] + self.0[5];
+        let wanted = self.least + rest * self.rest + lift * self.lift;
+        let resisted = self.normal_change + self.friction_change;
         if resisted.is_nan() || wanted.is_nan() {
             return 0.0;
         }
@@ -124,14 +154,14 @@ impl Terms {
             return 1.0;
         }
         // Where bodies slide, friction wants more than it may have: that must not press harder.
-        let farthest = if self.0[5] == 0.0 && self.0[7] == 0.0 { FARTHEST } else { 1.0 };
+        let farthest = if self.friction_change == 0.0 && self.friction_free == 0.0 { FARTHEST } else { 1.0 };
         if resisted > 0.0 { (wanted / resisted).clamp(0.0, farthest) } else { 1.0 }
     }
 
     /// How far to go along the ray of these forces so that the bank can pay, and what that does to the bank. These parts were
     /// `granted` when the forces were found; `kick` is the step's Δt̄.
     pub fn settle(&self, granted: Granted, kick: f64, bank: &mut Bank) -> f64 {
-        let asked = [0.5 * kick * self.0[1], 0.5 * kick * self.0[2]];
+        let asked = [0.5 * kick * self.rest, 0.5 * kick * self.lift];
         let rest = granted[0].min(paid(asked[0], bank.balance));
         let lift = granted[1].min(paid(asked[1], bank.balance - rest * asked[0]));
         let claim = rest * asked[0] + lift * asked[1];
@@ -139,8 +169,9 @@ impl Terms {
         // Longer forces claim more.
         let ray = if ray * claim > bank.balance { ray.min(1.0) } else { ray };
         let work = |free: f64, resisted: f64| 0.5 * kick * ray * (free + ray * resisted);
-        let (normal, friction) = (work(self.0[6], self.0[4]), work(self.0[7], self.0[5]));
-        let landing = kick * ray * self.0[3];
+        let (normal, friction) =
+            (work(self.normal_free, self.normal_change), work(self.friction_free, self.friction_change));
+        let landing = kick * ray * self.landing;
         bank.work += normal + friction;
         bank.gain += (normal + friction - bank.balance).max(0.0);
         bank.balance = (bank.balance - (normal + friction.max(0.0) - landing)).max(0.0);
@@ -198,6 +229,5 @@ pub fn penetration_after(before: f64, gap: f64, after: f64, drift: f64) -> f64 {
 
 /// Part of a velocity in the plane of a normal.
 pub fn tangential(v: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
-    let along = dot(v, normal);
-    subtract(v, [along * normal[0], along * normal[1], along * normal[2]])
+    subtract(v, scaled(normal, dot(v, normal)))
 }

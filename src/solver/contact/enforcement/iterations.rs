@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::certificate::tangential;
 use super::constraint::{Constraint, ConstraintState, Response};
 use super::enforcer::Enforcer;
-use super::other_ranks::OtherRanks;
+use super::other_ranks::{Largest, OtherRanks};
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled, subtract};
 
@@ -27,7 +27,7 @@ pub struct Outcome {
     /// Passes made.
     pub iterations: u32,
     /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
-    pub left: f64,
+    pub residual: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
     pub deepest: f64,
     /// The deepest one as a length.
@@ -57,35 +57,39 @@ impl Enforcer {
         others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
         let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
-        let [deepest, depth, travel] = self.extent(constraints, times.drift);
+        let mut own = self.extent(constraints, times.drift);
+        own.wanted = f64::from(u8::from(wanted));
         loop {
             self.scatter(constraints, motion, times, others);
             let ahead = momentum.next();
-            let (mut worst, mut farthest) = (0.0, 0.0);
+            (own.residual, own.moved) = (0.0, 0.0);
             for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
-                let movement = correct(c, state, &self.responses, times, ahead);
-                (worst, farthest) = (f64::max(worst, movement / c.size), f64::max(farthest, movement));
+                let moved = correct(c, state, &self.responses, times, ahead);
+                (own.residual, own.moved) = (f64::max(own.residual, moved / c.size), f64::max(own.moved, moved));
             }
-            let votes = others.largest([worst, f64::from(u8::from(wanted)), deepest, depth, travel, farthest]);
-            let [left, any_wanted, ..] = votes;
-            if any_wanted == 0.0 {
+            let Largest { residual, wanted, deepest, depth, travel, moved } = others.largest(own);
+            if wanted == 0.0 {
                 return None;
             }
-            let [_, _, deepest, depth, travel, farthest] = votes;
-            outcome = Outcome { left, iterations: outcome.iterations + 1, deepest, depth, travel };
-            let settled = outcome.left <= limits.tolerance && farthest <= SETTLED * travel;
+            outcome = Outcome { residual, iterations: outcome.iterations + 1, deepest, depth, travel };
+            let settled = residual <= limits.tolerance && moved <= SETTLED * travel;
             if settled || outcome.iterations == limits.iterations {
                 return Some(outcome);
             }
         }
     }
 
-    /// Deepest overlap that motion has made, in face sizes and as a length, and the farthest that a constraint would move.
-    fn extent(&self, constraints: &[Constraint], drift: f64) -> [f64; 3] {
+    /// Deepest penetration that motion has made, and the farthest that a constraint of this rank would move.
+    fn extent(&self, constraints: &[Constraint], drift: f64) -> Largest {
         let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
-        own.fold([0.0; 3], |[deepest, depth, travel], (c, state)| {
+        own.fold(Largest::default(), |all, (c, state)| {
             let penetration = c.carried.penetration;
-            [(penetration / c.size).max(deepest), penetration.max(depth), (drift * state.free).abs().max(travel)]
+            Largest {
+                deepest: (penetration / c.size).max(all.deepest),
+                depth: penetration.max(all.depth),
+                travel: (drift * state.free).abs().max(all.travel),
+                ..all
+            }
         })
     }
 }
@@ -124,7 +128,7 @@ fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Respons
         sliding += share * softness[1];
     }
     let normal_force = (tried - gap / (times.both * inverse)).max(0.0);
-    let mut movement = (normal_force - tried).abs() * times.both * inverse;
+    let mut moved = (normal_force - tried).abs() * times.both * inverse;
     let normal_ahead = further(tried, normal_force, state.last.0, ahead).max(0.0);
     if c.friction.is_some() {
         let slip = add(state.slip, tangential(change, c.normal));
@@ -132,13 +136,13 @@ fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Respons
         let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
         let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
         let turn = subtract(tangential_force, tried_tangential);
-        movement = movement.max(dot(turn, turn).sqrt() * times.both * sliding);
+        moved = moved.max(dot(turn, turn).sqrt() * times.both * sliding);
         c.carried.tangential_force =
             [0, 1, 2].map(|i| further(tried_tangential[i], tangential_force[i], state.last.1[i], ahead));
         state.last.1 = tangential_force;
     }
     (c.carried.normal_force, state.last.0, state.active) = (normal_ahead, normal_force, true);
-    movement
+    moved
 }
 
 /// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.

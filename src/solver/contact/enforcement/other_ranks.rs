@@ -3,9 +3,38 @@
 use super::certificate::Sums;
 use super::constraint::{Constraint, ConstraintState, Response};
 
-/// Numbers of which all ranks learn the largest in a pass: how much it moved, whether anybody wants it, and of the overlaps
-/// that motion has made so far the deepest in face sizes, the deepest, and the farthest motion of the step.
-pub const VOTES: usize = 6;
+/// Of what all ranks learn the largest value in an iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Largest {
+    /// Farthest that the iteration moved a constraint, as a part of the face's size.
+    pub residual: f64,
+    /// 1 where a rank has a gap to close, else 0.
+    pub wanted: f64,
+    /// Deepest penetration that motion had made before the step, as a part of the face's size.
+    pub deepest: f64,
+    /// The deepest one as a length.
+    pub depth: f64,
+    /// Farthest that a constraint would move along its normal in the step without contact, a length.
+    pub travel: f64,
+    /// Farthest that the iteration moved a constraint, a length.
+    pub moved: f64,
+}
+
+/// Number of values in [`Largest`].
+pub const LARGEST: usize = 6;
+
+impl Largest {
+    /// As numbers, for messages.
+    pub fn to_array(self) -> [f64; LARGEST] {
+        let Largest { residual, wanted, deepest, depth, travel, moved } = self;
+        [residual, wanted, deepest, depth, travel, moved]
+    }
+
+    /// From these numbers.
+    pub fn from_array([residual, wanted, deepest, depth, travel, moved]: [f64; LARGEST]) -> Largest {
+        Largest { residual, wanted, deepest, depth, travel, moved }
+    }
+}
 
 /// What ranks tell each other in the course of the passes; nothing on one rank.
 pub trait OtherRanks {
@@ -14,8 +43,8 @@ pub trait OtherRanks {
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>);
     /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
     fn share(&mut self, responses: &mut [Response]);
-    /// The largest of all ranks' values, of each kind.
-    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES];
+    /// The largest of all ranks' values, each by itself.
+    fn largest(&mut self, own: Largest) -> Largest;
     /// Replaces sums by those over all ranks.
     fn sum(&mut self, sums: &mut Sums);
     /// Whether there are any.
@@ -30,8 +59,8 @@ impl OtherRanks for NoOtherRanks {
 
     fn share(&mut self, _: &mut [Response]) {}
 
-    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES] {
-        values
+    fn largest(&mut self, own: Largest) -> Largest {
+        own
     }
 
     fn sum(&mut self, _: &mut Sums) {}

@@ -48,8 +48,9 @@ impl Faces {
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());
             faces.depth.push(if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 });
-            let nodes: [u32; 8] = elements[element].try_into().unwrap_or_default();
-            faces.element.push(nodes.map(&point));
+            let mut of_element = [u32::MAX; 8];
+            of_element.iter_mut().zip(&elements[element]).for_each(|(place, &node)| *place = point(node));
+            faces.element.push(of_element);
         }
         faces.connect(points);
         faces

@@ -7,7 +7,7 @@ use crate::model::Friction;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::certificate::Sums;
 use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState, MEMBERS, Origin, Response};
-use crate::solver::contact::enforcement::other_ranks::{OtherRanks, VOTES};
+use crate::solver::contact::enforcement::other_ranks::{Largest, OtherRanks};
 use crate::solver::contact::local_problem::Numbering;
 
 /// What homes tell each other in a step.
@@ -64,7 +64,10 @@ impl OtherRanks for IterationExchange<'_> {
         };
         let place = |number: u32| match points.binary_search(&number) {
             Ok(place) => place as u32,
-            Err(_) => ghosts.binary_search(&number).map_or(0, |ghost| (points.len() + ghost) as u32),
+            Err(_) => {
+                let ghost = ghosts.binary_search(&number).expect("the communication plan tells of every member");
+                (points.len() + ghost) as u32
+            }
         };
         let acts_on = |c: &Constraint, rank: u32| c.parts().any(|(point, _)| owner_ranks[point] == rank);
         let own: Vec<(usize, [u32; MEMBERS])> = (constraints.iter().enumerate())
@@ -78,7 +81,7 @@ impl OtherRanks for IterationExchange<'_> {
                     letter.extend(pack(&constraints[*i], &states[*i], *members));
                 }
             },
-            |letter| come.extend(letter.chunks_exact(COPY).map(|v| unpack(v, place))),
+            |letter| come.extend(letter.as_chunks().0.iter().map(|numbers| unpack(numbers, place))),
             self.comm,
         );
         for (constraint, state) in come {
@@ -101,10 +104,10 @@ impl OtherRanks for IterationExchange<'_> {
         );
     }
 
-    fn largest(&mut self, values: [f64; VOTES]) -> [f64; VOTES] {
-        let mut least = values.map(|value| -value);
+    fn largest(&mut self, own: Largest) -> Largest {
+        let mut least = own.to_array().map(|value| -value);
         self.comm.all_min(&mut least);
-        least.map(|value| -value)
+        Largest::from_array(least.map(|value| -value))
     }
 
     fn sum(&mut self, sums: &mut Sums) {
@@ -117,60 +120,114 @@ impl OtherRanks for IterationExchange<'_> {
 }
 
 /// Numbers of a constraint on its way.
-const COPY: usize = 36 + 2 * MEMBERS;
+const COPY: usize = 4 * MEMBERS + 21;
 
+/// A row of numbers that is written or read from its beginning to its end.
+struct Row {
+    numbers: [f64; COPY],
+    at: usize,
+}
+
+impl Row {
+    fn put<const N: usize>(&mut self, values: [f64; N]) {
+        self.numbers[self.at..self.at + N].copy_from_slice(&values);
+        self.at += N;
+    }
+
+    fn take<const N: usize>(&mut self) -> [f64; N] {
+        let at = self.at;
+        self.at += N;
+        std::array::from_fn(|i| self.numbers[at + i])
+    }
+}
+
+/// A constraint as numbers, but for what only the rank that has made it asks for; `members` are numbers of the layout.
 fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f64; COPY] {
-    let mut v = Vec::with_capacity(COPY);
-    v.extend(members.map(f64::from));
-    v.extend(c.weights);
-    v.extend(c.normal);
-    v.extend(c.carried.tangential_force);
-    v.extend(state.slip);
     let Friction { at_rest, high_speed, decay } = c.friction;
     let (kind, a, b) = match c.origin {
         Origin::Face(a, b) => (0, a, b),
         Origin::Edges(a, b) => (1, a, b),
         Origin::Plane(a) => (2, a, 0),
     };
-    v.extend([
-        at_rest,
-        high_speed,
-        decay,
-        state.closing,
-        c.size,
-        c.share,
-        c.carried.normal_force,
-        state.strength,
-        c.count as f64,
-    ]);
-    v.extend([kind, a, b].map(f64::from));
-    v.extend(state.softness.as_flattened());
-    v.resize(COPY, 0.0);
-    v.try_into().unwrap_or([0.0; COPY])
+    let mut row = Row { numbers: [0.0; COPY], at: 0 };
+    row.put(members.map(f64::from));
+    row.put(c.weights);
+    row.put(c.normal);
+    row.put(c.carried.tangential_force);
+    row.put(state.slip);
+    row.put([at_rest, high_speed, decay]);
+    row.put([c.count as f64, c.size, c.share, c.carried.normal_force, state.closing, state.strength]);
+    row.put([kind, a, b].map(f64::from));
+    state.softness.into_iter().for_each(|of_member| row.put(of_member));
+    row.numbers
 }
 
-fn unpack(v: &[f64], place: impl Fn(u32) -> u32) -> (Constraint, ConstraintState) {
-    let three = |at: usize| [v[at], v[at + 1], v[at + 2]];
-    let (a, b) = (v[29] as u32, v[30] as u32);
-    let mut state = ConstraintState { strength: v[26], slip: three(16), closing: v[22], ..Default::default() };
-    state.softness.as_flattened_mut().copy_from_slice(&v[31..31 + 2 * MEMBERS]);
+/// A constraint from these numbers; `place` gives the local number of a point of the layout.
+fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, ConstraintState) {
+    let mut row = Row { numbers: *numbers, at: 0 };
+    let members = row.take::<MEMBERS>().map(|number| place(number as u32));
+    let weights = row.take();
+    let normal = row.take();
+    let tangential_force = row.take();
+    let slip = row.take();
+    let [at_rest, high_speed, decay] = row.take();
+    let [count, size, share, normal_force, closing, strength] = row.take();
+    let [kind, a, b] = row.take().map(|number: f64| number as u32);
+    let softness = std::array::from_fn(|_| row.take());
     let constraint = Constraint {
-        members: [0, 1, 2, 3, 4].map(|i| place(v[i] as u32)),
-        weights: [5, 6, 7, 8, 9].map(|i| v[i]),
-        normal: three(10),
-        friction: Friction { at_rest: v[19], high_speed: v[20], decay: v[21] },
+        members,
+        weights,
+        normal,
+        size,
+        share,
+        count: count as usize,
+        friction: Friction { at_rest, high_speed, decay },
         // Only its own rank asks for these.
         gap: 0.0,
         persists: true,
-        size: v[23],
-        share: v[24],
-        carried: Carried { penetration: 0.0, normal_force: v[25], tangential_force: three(13) },
-        count: v[27] as usize,
-        origin: match v[28] as u32 {
+        carried: Carried { penetration: 0.0, normal_force, tangential_force },
+        origin: match kind {
             0 => Origin::Face(a, b),
             1 => Origin::Edges(a, b),
             _ => Origin::Plane(a),
         },
     };
-    (constraint, state)
+    (constraint, ConstraintState { strength, softness, slip, closing, ..Default::default() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constraint_arrives_as_it_was_sent() {
+        for origin in [Origin::Face(7, 2), Origin::Edges(3, 9), Origin::Plane(5)] {
+            let constraint = Constraint {
+                members: [10, 11, 12, 13, 14],
+                weights: [1.0, -0.1, -0.2, -0.3, -0.4],
+                count: 5,
+                normal: [0.6, -0.0, 0.8],
+                gap: 0.0,
+                persists: true,
+                size: 0.01,
+                share: 0.5,
+                friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },
+                carried: Carried { penetration: 0.0, normal_force: 17.0, tangential_force: [1.5, -2.5, 3.5] },
+                origin,
+            };
+            let state = ConstraintState {
+                strength: 6.0,
+                softness: [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0], [9.0, 10.0]],
+                slip: [0.1, 0.2, -0.3],
+                closing: -1e-3,
+                ..Default::default()
+            };
+            let numbers = pack(&constraint, &state, constraint.members.map(|place| place + 100));
+            let (unpacked, its_state) = unpack(&numbers, |number| number - 100);
+            assert_eq!(unpacked, constraint);
+            assert_eq!(pack(&unpacked, &its_state, constraint.members.map(|place| place + 100)), numbers);
+            assert_eq!((its_state.strength, its_state.closing, its_state.slip), (6.0, -1e-3, state.slip));
+            assert_eq!(its_state.softness, state.softness);
+        }
+    }
 }

@@ -18,9 +18,10 @@ use crate::comm::{Communicator, numbers_of_others};
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
-use crate::solver::contact::contact_nodes::{ANSWER, ContactNode, ContactNodes, FORCES, STATUS};
+use crate::solver::contact::contact_nodes::{ContactNode, ContactNodes};
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
+use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,7 +51,7 @@ pub struct Remote {
     cuts: Option<Bisection>,
     motion: MessagePattern,
     /// Ways of the answers to other ranks.
-    answers: MessagePattern,
+    results: MessagePattern,
     /// For every point of the arena that may be pushed and is at home here, its site here; else [`ABSENT`].
     own: Vec<u32>,
     links: IterationMessages,
@@ -94,7 +95,7 @@ impl Remote {
             method,
             cuts: None,
             motion: MessagePattern::default(),
-            answers: MessagePattern::default(),
+            results: MessagePattern::default(),
             own: Vec::new(),
             links: IterationMessages::default(),
         }
@@ -140,19 +141,17 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) {
         contact_nodes.loaded.clear();
-        self.answers.exchange(
+        self.results.exchange(
             &mut (&mut *contact_nodes, problem),
             |(_, problem), point| {
-                let answer = &problem.answers[point as usize];
-                if answer[STATUS] == 0.0 { AT_REST } else { std::array::from_fn(|i| answer[i]) }
+                let result = &problem.results[point as usize];
+                if result.details.status == Status::Free { AT_REST } else { result.pack_forces() }
             },
             |(contact_nodes, _), contact_node, forces| {
                 // All bits at once: comparing the arrays would be a call for every point.
                 let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
                 if unlike != 0 {
-                    let answer = &mut contact_nodes.answers[contact_node as usize];
-                    answer[..FORCES].copy_from_slice(&forces);
-                    answer[FORCES..].fill(0.0);
+                    contact_nodes.results[contact_node as usize] = NodeResult::unpack_forces(forces);
                     contact_nodes.loaded.push(contact_node);
                 }
             },
@@ -160,22 +159,25 @@ impl Remote {
         );
         for &point in &problem.loaded {
             if let Some(&contact_node) = self.own.get(point as usize).filter(|&&contact_node| contact_node != ABSENT) {
-                contact_nodes.answers[contact_node as usize] = problem.answers[point as usize];
+                contact_nodes.results[contact_node as usize] = problem.results[point as usize];
                 contact_nodes.loaded.push(contact_node);
             }
         }
         contact_nodes.loaded.sort_unstable();
     }
 
-    /// Brings the rest of what contact has found in this step to the nodes that other ranks push: only output asks for it.
-    pub fn send_rest(&mut self, contact_nodes: &mut ContactNodes, problem: &LocalProblem, comm: &mut dyn Communicator) {
-        self.answers.exchange(
+    /// Brings the details of what contact has found in this step to the nodes that other ranks load: only output asks for them.
+    pub fn send_details(
+        &mut self,
+        contact_nodes: &mut ContactNodes,
+        problem: &LocalProblem,
+        comm: &mut dyn Communicator,
+    ) {
+        self.results.exchange(
             &mut (contact_nodes, problem),
-            |(_, problem), point| -> [f64; ANSWER - FORCES] {
-                std::array::from_fn(|i| problem.answers[point as usize][FORCES + i])
-            },
-            |(contact_nodes, _), contact_node, rest| {
-                contact_nodes.answers[contact_node as usize][FORCES..].copy_from_slice(&rest)
+            |(_, problem), point| problem.results[point as usize].details.pack(),
+            |(contact_nodes, _), contact_node, details| {
+                contact_nodes.results[contact_node as usize].details = Details::unpack(details);
             },
             comm,
         );
@@ -271,7 +273,7 @@ impl Remote {
         loaded.extend(plane_nodes.iter().map(|plane_node| plane_node.point));
         loaded.sort_unstable();
         loaded.dedup();
-        self.connect_answers(&loaded, contact_nodes, problem, comm);
+        self.connect_results(&loaded, contact_nodes, problem, comm);
         let rank = comm.rank();
         let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
             lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| problem.place(p)).collect())).collect()
@@ -282,7 +284,7 @@ impl Remote {
     }
 
     /// Tells every other rank that has the node of a point which may be pushed that forces will come for it.
-    fn connect_answers(
+    fn connect_results(
         &mut self,
         loaded: &[u32],
         contact_nodes: &ContactNodes,
@@ -301,7 +303,7 @@ impl Remote {
         let records = parcels.exchange(comm);
         let contact_node = |point: &u32| contact_nodes.of(*point).map(|contact_node| contact_node as u32);
         let receive = by_sender(&records, |ids| ids.iter().filter_map(contact_node).collect());
-        self.answers = MessagePattern::new(send, receive, comm.rank());
+        self.results = MessagePattern::new(send, receive, comm.rank());
         // Few are pushed: those that are at home here need not all be asked.
         self.own = vec![ABSENT; problem.numbering.points.len()];
         for point in loaded {

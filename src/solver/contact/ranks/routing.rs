@@ -3,7 +3,7 @@
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use crate::solver::contact::check::edge_edge::EdgeContact;
-use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NO_CONTACT, NONE};
+use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NO_CONTACT};
 use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::enforcement::carried::{Carried, WIDTH};
 use crate::solver::contact::local_problem::{History, PlaneHistory};
@@ -38,18 +38,15 @@ pub fn route(
         edges.add(rank(end_of(past.pair[0])), past.pair[0], &values);
     }
     let mut come = History::default();
-    let records = points.exchange(comm);
-    for i in 0..records.len() {
+    for (point, numbers) in points.exchange(comm).rows::<PASTS>() {
         let mut pasts = NO_CONTACT;
-        pasts.iter_mut().zip(records.values(i).chunks_exact(PAST)).for_each(|(past, v)| *past = unpack_past(v));
-        come.points.push((records.ids[i], pasts));
+        pasts.iter_mut().zip(numbers.as_chunks().0).for_each(|(past, numbers)| *past = unpack_past(*numbers));
+        come.points.push((point, pasts));
     }
-    let records = edges.exchange(comm);
-    come.edges.extend((0..records.len()).map(|i| {
-        let v = records.values(i);
-        let pair = [records.ids[i], v[0] as u32];
-        EdgeContact { pair, sense: v[1], tolerated: v[2], carried: Carried::from_slice(&v[3..]) }
-    }));
+    for (first, [second, sense, tolerated, carried @ ..]) in edges.exchange(comm).rows::<PAIR>() {
+        let pair = [first, second as u32];
+        come.edges.push(EdgeContact { pair, sense, tolerated, carried: Carried::from_array(carried) });
+    }
     let of = |number: u32| rank(plane_nodes[number as usize].point);
     come.planes = share_planes(&history.planes, |number| of(number)..of(number) + 1, comm);
     come
@@ -66,8 +63,7 @@ pub fn share_planes(
         ranks(*number).for_each(|rank| parcels.add(rank, *number, &carried.to_array()));
     }
     let records = parcels.exchange(comm);
-    let slave_nodes = |i: usize| (records.ids[i], Carried::from_slice(records.values(i)));
-    (0..records.len()).map(slave_nodes).collect()
+    records.rows().map(|(number, carried)| (number, Carried::from_array(carried))).collect()
 }
 
 fn pack_past(past: FaceContact) -> [f64; PAST] {
@@ -76,11 +72,6 @@ fn pack_past(past: FaceContact) -> [f64; PAST] {
     [f64::from(past.face), past.tolerated, penetration, normal_force, x, y, z]
 }
 
-fn unpack_past(v: &[f64]) -> FaceContact {
-    let face = v[0] as u32;
-    FaceContact {
-        face: if face == u32::MAX { NONE } else { face },
-        tolerated: v[1],
-        carried: Carried::from_slice(&v[2..]),
-    }
+fn unpack_past([face, tolerated, carried @ ..]: [f64; PAST]) -> FaceContact {
+    FaceContact { face: face as u32, tolerated, carried: Carried::from_array(carried) }
 }

@@ -9,7 +9,7 @@ pub const SYMPTOM: Symptom = Symptom {
     threshold: 0.0,
     cause: f64::INFINITY,
     measure: |exam, _| {
-        let left = exam.facts.overlap.left;
+        let left = exam.facts.overlap.deep;
         let count = left.nodes as u64;
         vec![Evidence { share: count as f64, count, amount: left.deepest, ..Evidence::default() }]
     },

@@ -77,7 +77,7 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let nodes = of_all(sunk(exam, comm).iter().map(|sunk| sunk.node).collect(), comm);
     let count = nodes.len() as u64;
     // Those that begin there are told at the start.
-    let new = count.saturating_sub(exam.facts.overlap.left.nodes as u64);
+    let new = count.saturating_sub(exam.facts.overlap.deep.nodes as u64);
     vec![Evidence { share: new as f64, count, ..Evidence::default() }]
 }
 
