@@ -1,4 +1,4 @@
-//! The points of contact that are nodes of this rank: where they would go, and what contact does to them.
+//! The contact nodes of this rank: where they would go, and what contact does to them.
 
 use super::geometry::motion::{NodeMotion, larger};
 use super::geometry::swept_box::SweptBox;
@@ -7,10 +7,10 @@ use super::node_result::NodeResult;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
-/// A point that is a node here.
+/// A contact node that is a node of this rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactNode {
-    /// The point.
+    /// Its number in the layout.
     pub point: u32,
     /// The local node.
     pub node: u32,
@@ -18,10 +18,11 @@ pub struct ContactNode {
     pub owned: bool,
 }
 
-/// Room of a site's box on all sides, as a part of half the way that the box is made for: at full speed a site turns little.
+/// Room of a contact node's box on all sides, as a part of half the path that the box is made for: at full
+/// speed a node turns little.
 const SIDE: f64 = 0.25;
 
-/// Points of this rank, in the order of their numbers.
+/// Contact nodes of this rank, in the order of their numbers in the layout.
 #[derive(Debug, Clone, Default)]
 pub struct ContactNodes {
     /// Who they are.
@@ -34,21 +35,21 @@ pub struct ContactNodes {
     pub motion: NodeMotion,
     /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
     search_boxes: Vec<SweptBox>,
-    /// Whether there was a search, and whether one is due: a site leaves its box in this step, or there was none.
+    /// Whether there was a search, and whether one is due: a contact node leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
-    /// What contact says of each.
+    /// What contact says of each, in this step.
     pub results: Vec<NodeResult>,
-    /// Sites with a force now, ascending.
+    /// Contact nodes on which forces act now, ascending.
     pub loaded: Vec<u32>,
     /// Rank that computes the contact of each; empty on one rank.
     pub owner_ranks: Vec<u32>,
-    /// Work of normal and of friction forces so far.
+    /// Work of normal and of friction forces so far, energies.
     pub works: Vec<[f64; 2]>,
 }
 
 impl ContactNodes {
-    /// Sites at these points; `here` gives the local node of a point, or [`ABSENT`], `held` the constraints of nodes.
+    /// Those of all points that are here: `here` gives the local node of a point, or [`ABSENT`], `held` the constraints of nodes.
     pub fn new(
         (points, origin): (usize, [f64; 3]),
         here: impl Fn(u32) -> u32,
@@ -79,7 +80,7 @@ impl ContactNodes {
         contact_nodes
     }
 
-    /// All points as sites at rest.
+    /// All points as contact nodes, for a search around them as they are.
     pub fn still(motion: &NodeMotion) -> ContactNodes {
         let contact_node = |point: u32| ContactNode { point, node: point, owned: true };
         let list: Vec<ContactNode> = (0..motion.len() as u32).map(contact_node).collect();
@@ -90,13 +91,13 @@ impl ContactNodes {
         contact_nodes
     }
 
-    /// The site of a point.
+    /// The contact node of a point.
     #[inline]
     pub fn of(&self, point: u32) -> Option<usize> {
         self.places.get(point as usize).filter(|&&place| place != ABSENT).map(|&place| place as usize)
     }
 
-    /// Where the sites would go without contact, and whether one of them leaves the box that the last search gave it.
+    /// Where the contact nodes would go without contact, and whether one of them leaves the box that the last search gave it.
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
         self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
         self.motion.begin(step.drift);
@@ -109,8 +110,8 @@ impl ContactNodes {
         self.expired = leaves || !self.searched;
     }
 
-    /// Gives every site a new box: around the way that it would go in `steps` of the present one, with room on all sides
-    /// for a turn, but at least `least`.
+    /// Gives every contact node a new search box: around the path that it would go in `steps` of the present one, with room on
+    /// all sides for a turn, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
         self.searched = true;
         self.search_boxes.clear();
@@ -125,12 +126,12 @@ impl ContactNodes {
         }
     }
 
-    /// Low and high corner of the box in which a site stays until the next search, seen from the origin of the points.
+    /// Low and high corner of the box in which a contact node stays until the next search, seen from the origin of the points.
     pub fn reach(&self, contact_node: usize) -> [[f64; 3]; 2] {
         self.search_boxes[contact_node].corners()
     }
 
-    /// Force on a site, normal and friction apart.
+    /// Normal and friction force on a contact node, forces.
     pub fn forces(&self, contact_node: usize) -> [[f64; 3]; 2] {
         let NodeResult { normal_force, tangential_force, .. } = self.results[contact_node];
         [normal_force, tangential_force]

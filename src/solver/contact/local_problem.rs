@@ -1,4 +1,4 @@
-//! Where contact is computed: some points and faces of the layout, their candidates and their history.
+//! The local contact problem: some points and faces of the layout, their candidates and their history; contact is computed here.
 //!
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
@@ -29,18 +29,18 @@ use std::sync::Arc;
 /// What contact carries from step to step, by the numbers of the layout.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
-    /// Points and what they touch.
+    /// Points and the faces that they touch.
     pub points: Vec<(u32, [FaceContact; MAX_FACES])>,
     /// Pairs of edges that touch.
     pub edges: Vec<EdgeContact>,
-    /// Watches of planes and their forces.
+    /// Nodes of planes with contact.
     pub planes: Vec<PlaneHistory>,
 }
 
-/// A watch of a plane: its number, and what its contact carries.
+/// A node of a plane: its number among those of all planes, and what its contact carries.
 pub type PlaneHistory = (u32, Carried);
 
-/// Points, faces and edges of an arena, by the numbers of the layout, ascending.
+/// Numbers in the layout of the points, faces and edges of a local problem, ascending: the place in a list is the local number.
 #[derive(Debug, Clone, Default)]
 pub struct Numbering {
     /// Points whose motion is known here.
@@ -56,11 +56,11 @@ pub struct Numbering {
 /// Points that may touch, and everything about them.
 #[derive(Default)]
 pub struct LocalProblem {
-    /// The points.
+    /// Motion of the points.
     pub motion: NodeMotion,
     /// Candidates.
     pub locator: Locator,
-    /// Who is here.
+    /// Which points, faces and edges are here.
     pub numbering: Numbering,
     /// Where each point of the layout is here.
     places: Vec<u32>,
@@ -74,9 +74,9 @@ pub struct LocalProblem {
     /// Constraints of this step.
     pub constraints: Vec<Constraint>,
     enforcer: Enforcer,
-    /// What has come out for each point, and of which points that is not nothing.
+    /// What contact says of each point.
     pub results: Vec<NodeResult>,
-    /// Points with a force now, ascending.
+    /// Points on which contact forces act now, ascending.
     pub loaded: Vec<u32>,
     near: Vec<Candidate>,
     near_faces: Vec<u32>,
@@ -84,21 +84,21 @@ pub struct LocalProblem {
     contacts: Vec<DetectedContact>,
 }
 
-/// What a step needs to know of the problem.
+/// What a step needs to know of the model.
 pub struct StepInput<'a> {
     /// What holds between blocks and pairs.
     pub pairings: &'a Pairings,
     /// Rigid planes.
     pub planes: &'a [RigidSurface],
-    /// Length that overlaps with planes are small against.
+    /// Mean size of the faces, a length: what overlaps with planes are small against.
     pub mean_size: f64,
-    /// How far the passes go.
+    /// How far the iterations go.
     pub limits: Limits,
 }
 
 impl LocalProblem {
-    /// An arena with this cast. `found` is in numbers of the layout, as is `plane_nodes`, the planes' points that this rank
-    /// answers for.
+    /// A local problem with these points, faces and edges. `found` is in numbers of the layout, as is `plane_nodes`, the
+    /// planes' points that this rank answers for.
     pub fn new(
         numbering: Numbering,
         found: SearchResult,
@@ -341,7 +341,7 @@ impl LocalProblem {
         outcome
     }
 
-    /// Keeps the force of a constraint: the passes of the next step begin with it.
+    /// Keeps the force of a constraint: the iterations of the next step begin with it.
     fn remember(&mut self, constraint: usize) {
         let c = self.constraints[constraint];
         match c.origin {
@@ -424,7 +424,7 @@ fn carried_before(
     same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
 }
 
-/// Pasts with the faces that are left first.
+/// Contacts with those first whose faces are left.
 fn tidy(mut pasts: [FaceContact; MAX_FACES]) -> [FaceContact; MAX_FACES] {
     pasts.sort_by_key(|past| past.face == NONE);
     pasts

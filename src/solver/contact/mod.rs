@@ -1,7 +1,7 @@
 //! Contact: a predictor finds where nodes would go, and forces take the overlaps out (Attaway et al. 1996).
 //!
 //! [`Contact::apply`] is steps 1.6 to 1.9 of the paper's figure 1: predict, locate, check in detail, enforce. Nodes of this
-//! rank are `ContactNodes`; check and enforcement happen in an `LocalProblem`, of whole bodies on one rank, of a region
+//! rank are `ContactNodes`; check and enforcement happen in a `LocalProblem`, of whole bodies on one rank, of a region
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
 pub mod check;
@@ -53,12 +53,12 @@ pub struct Contact {
     layout: Layout,
     skin: Skin,
     pairings: Pairings,
-    /// Points that are nodes here.
+    /// Contact nodes of this rank.
     contact_nodes: ContactNodes,
     problem: LocalProblem,
     /// The other ranks, where there are any that this one must know.
     remote: Option<Remote>,
-    /// What the next search puts back, where the arena has been given up.
+    /// History that the next search puts back, where the local problem has been given up.
     carried: Option<History>,
     /// For each axis of each local node, the constraint that holds it, or [`ABSENT`].
     held: Vec<[u32; 3]>,
@@ -70,7 +70,7 @@ pub struct Contact {
     planes: Vec<RigidSurface>,
     /// Mean size of the faces: what overlaps with planes are small against.
     mean_size: f64,
-    /// All points that planes watch.
+    /// All nodes that may meet planes.
     plane_nodes: Vec<PlaneNode>,
     limits: Limits,
     /// Work of normal and friction forces at points that are gone, those of this rank.
@@ -85,7 +85,7 @@ pub struct Contact {
     searches: u64,
     /// Number of steps so far.
     age: u64,
-    /// Watched points and pairs of the last search, of all ranks.
+    /// Slave nodes and pairs of the last search, of all ranks.
     counts: [u64; 2],
 }
 
@@ -143,7 +143,7 @@ impl Contact {
         let here = |point: u32| local(layout.nodes[point as usize]);
         self.contact_nodes = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
-            // Planes alone need nobody else's nodes. Where there was more before, their forces were known at homes only.
+            // Planes alone need nobody else's nodes. Where there was more before, their forces were known at owner ranks only.
             if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
                 let all = 0..comm.size() as u32;
                 history.planes = share_planes(&history.planes, |_| all.clone(), comm);
@@ -197,7 +197,7 @@ impl Contact {
         self.contact_nodes.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
     }
 
-    /// Finds where the nodes would go, searches if that is due, and brings their motion to the arena.
+    /// Finds where the nodes would go, searches if that is due, and brings their motion to the local problem.
     fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
         self.contact_nodes.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
@@ -209,12 +209,12 @@ impl Contact {
         let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
             Some(remote) => remote.send_motion(contact_nodes, problem, step.drift, comm),
-            // The arena's points are the sites: lent, not copied.
+            // The points of the local problem are the contact nodes: their motion is lent, not copied.
             None => std::mem::swap(&mut problem.motion, &mut contact_nodes.motion),
         }
     }
 
-    /// Brings the forces that the arena has found to the sites.
+    /// Brings the forces that the local problem has found to the contact nodes.
     fn bring_forces(&mut self, comm: &mut dyn Communicator) {
         let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
@@ -311,7 +311,7 @@ impl Contact {
     }
 }
 
-/// An arena that holds what this rank has, and everything when there is no other.
+/// The local problem that holds what this rank has, and everything when there is no other.
 fn alone(
     layout: &Layout,
     contact_nodes: &ContactNodes,
@@ -373,8 +373,8 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     Reach { steps: control.reach.max(1.0), least, depth: node_face::KEEP }
 }
 
-/// How far the passes go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
-/// stops at the same pass; planes alone are each rank's own, and get as many passes as they can need.
+/// How far the iterations go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
+/// stops at the same iteration; planes alone are each rank's own, and get as many iterations as they can need.
 fn limits(model: &Model, plane_node_sets: &[Vec<u32>]) -> Limits {
     let control = &model.contact.control;
     if model.contact.is_some() {

@@ -30,9 +30,9 @@ pub struct Report {
 pub struct Tally {
     /// Steps in which anything was enforced.
     pub steps: u64,
-    /// Passes in all of them.
+    /// Iterations in all of them.
     pub iterations: u64,
-    /// Steps in which the passes ran out.
+    /// Steps in which the iterations ran out.
     pub capped: u64,
     /// Largest overlap that was left, as a part of the face's size.
     pub left: f64,
@@ -53,7 +53,7 @@ pub struct Work {
     pub candidates: u64,
     /// Constraints of the last step.
     pub constraints: u64,
-    /// Passes over the constraints of each step, in all steps so far.
+    /// Iterations over the constraints of each step, in all steps so far.
     pub iterations: u64,
 }
 

@@ -19,7 +19,7 @@ const SHAPES: u32 = 3;
 
 impl Contact {
     /// Counts the step, and when it is time looks which edges stand out now. Whether any has changed: history is then on its
-    /// way, and all ranks must search. All ranks call it, with the present positions in the sites.
+    /// way, and all ranks must search. All ranks call it, with the present positions in the contact nodes.
     pub(super) fn reshape(&mut self, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
         if self.layout.edges.is_empty() || !self.age.is_multiple_of(EVERY) {

@@ -130,7 +130,7 @@ impl Contact {
         }
     }
 
-    /// What touches, in the arena or on its way to the next.
+    /// What touches, in the local problem or on its way to the next.
     fn visit_history(&mut self, archive: &mut dyn Archive) {
         let now = self.carried.clone().unwrap_or_else(|| self.problem.history());
         let mut come = History {

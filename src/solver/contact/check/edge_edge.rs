@@ -35,7 +35,8 @@ const SUNK: f64 = 0.05;
 /// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
 const STEEP: f64 = 0.8;
 
-/// Two edges that touch: their numbers, and which way the first is pushed along the product of their directions.
+/// Two edges in contact, remembered from step to step: their numbers, and in which direction the normal force pushes the first
+/// along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeContact {
     /// The edges: ascending where both stand out, else the line second.
@@ -67,7 +68,7 @@ struct Crossing {
     normal: [f64; 3],
     /// Places along the edges, 0 to 1 between the ends.
     places: [f64; 2],
-    /// Way from the second to the first, along the normal.
+    /// Distance from the second to the first along the normal, a length with a sign.
     gap: f64,
     /// Lengths of the edges.
     lengths: [f64; 2],
@@ -99,7 +100,7 @@ impl Crossing {
     }
 }
 
-/// What the check says of a pair.
+/// What the check of a pair of edges finds.
 pub enum EdgeVerdict {
     /// They touch.
     Touching(EdgeContact, Box<Constraint>),
@@ -112,7 +113,7 @@ struct QuickCrossing {
     /// Product of their directions, and its square.
     product: [f64; 3],
     square: f64,
-    /// Way from the first to the second, times the product.
+    /// Vector from the first to the second, times the product.
     fall: f64,
 }
 
@@ -137,13 +138,13 @@ impl EdgeCheck<'_> {
         [self.motion.end(a), self.motion.end(b)]
     }
 
-    /// Box around the way of an edge over the step.
+    /// Box around the path of an edge over the step.
     fn swept_box(&self, edge: u32) -> Box3 {
         let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
         Box3::around(&[a, b, c, d])
     }
 
-    /// How far apart the ways of two edges are along an axis, beyond where they are near; not above 0 where they are near.
+    /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
     fn apart(&self, pair: [u32; 2]) -> f64 {
         let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
         let bounds = |edge: u32, margin: f64| {
@@ -219,7 +220,7 @@ impl EdgeCheck<'_> {
         fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
     }
 
-    /// Whether an edge has sunk into a face at one of the lines in it, by more than it may. Which side is outside is known
+    /// Whether an edge has penetrated a face at one of the lines in it, by more than it may. Which side is outside is known
     /// there, so motion need not be asked.
     fn on_line(
         &self,

@@ -1,4 +1,4 @@
-//! The detailed check: which faces a point touches, where, how deep, and which way it must be moved.
+//! Nodes against faces: which faces a slave node touches, where, how deep, and in which direction it must be moved.
 //!
 //! A point that comes anew is checked by motion: when does it come through the moving face from the front? A point
 //! that has touched before is checked where it would be at the end of the step. Of several faces those count that
@@ -19,7 +19,7 @@ pub const NONE: u32 = u32::MAX;
 /// Faces that one point can touch at a time: three planes hold a point.
 pub const MAX_FACES: usize = 3;
 
-/// A point that has left its face by less than this part of half an element is still watched by it.
+/// A point that has left its face by less than this part of half an element is still held by it, without force.
 pub const KEEP: f64 = 0.05;
 
 /// A point that has slid beyond its face by less than this part of its size is still held by it, unless another face
@@ -42,22 +42,22 @@ const FACING: f64 = -0.02;
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
-/// Where a face has seen a point before.
+/// Contact of a node with a face, remembered from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceContact {
     /// The face, or [`NONE`].
     pub face: u32,
-    /// Overlap that is tolerated because it was not made by motion; at most 0.
+    /// Overlap that is tolerated because it was not made by motion: a gap, a length of at most 0.
     pub tolerated: f64,
     /// What the contact carries.
     pub carried: Carried,
 }
 
-/// Of a point that touches nothing.
+/// Of a node that touches nothing.
 pub const NO_CONTACT: [FaceContact; MAX_FACES] =
     [FaceContact { face: NONE, tolerated: 0.0, carried: Carried::NOTHING }; MAX_FACES];
 
-/// A point on a face.
+/// A node on a face, as the check has found it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DetectedContact {
     /// The face.
@@ -68,18 +68,18 @@ pub struct DetectedContact {
     pub opposition: f64,
     /// Where the point would be at the end of the step; the weights are those of the forces, see `projection::shares_along`.
     pub projection: Projection,
-    /// Overlap that stays.
+    /// Overlap that stays, see [`FaceContact`].
     pub tolerated: f64,
 }
 
-/// How far in front of a face a point that has left it is still watched.
+/// How far in front of a face a node that has left it is still held by it, a length.
 fn keep(faces: &Faces, face: u32) -> f64 {
     KEEP * faces.depth[face as usize]
 }
 
 /// The detailed check of points against faces.
 pub struct NodeFaceCheck<'a> {
-    /// Points.
+    /// Motion of the nodes.
     pub motion: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
@@ -353,7 +353,7 @@ impl NodeFaceCheck<'_> {
         if length > 0.0 { dot(normal, projection.normal) / length } else { -1.0 }
     }
 
-    /// Puts touches in order and keeps those that push in ways of their own.
+    /// Puts contacts in order and keeps those that push in directions of their own.
     fn choose(&self, point: u32, contacts: &mut Vec<DetectedContact>) {
         for contact in contacts.iter_mut() {
             contact.opposition = self.opposition(point, &contact.projection);

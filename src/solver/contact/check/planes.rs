@@ -6,10 +6,10 @@ use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origi
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{dot, subtract};
 
-/// One point that a plane watches.
+/// A contact node that may meet a rigid plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneNode {
-    /// Number of the watch among all.
+    /// Number among the nodes of all planes.
     pub number: u32,
     /// The point.
     pub point: u32,

@@ -15,8 +15,8 @@ use super::constraint::{Constraint, ConstraintState};
 use crate::comm::ExactSum;
 use crate::vector::{dot, scaled, subtract};
 
-/// Farthest way along the ray. Passes that begin with less than the last forces end below what is needed, and everything that is
-/// pressed would creep into each other; the ray makes up for it on the whole.
+/// How far to go along the ray at most. Iterations that begin with less than the last forces end below what is needed, and
+/// everything that is pressed would creep into each other; the ray makes up for it on the whole.
 const FARTHEST: f64 = 2.0;
 
 /// A ray shortened by less than this is not shortened: round-off of its sums.
@@ -45,8 +45,8 @@ fn paid(claim: f64, amount: f64) -> f64 {
 }
 
 impl Bank {
-    /// What is granted at the beginning of a step, at the last step's forces. To rise and to be brought to rest again cost the same,
-    /// one after the other: what is lifted is paid twice in advance, or it would sink back and chatter.
+    /// What is granted at the beginning of a step, at the last step's forces. To rise and to be brought to rest again cost the
+    /// same, one after the other: what is lifted is paid twice in advance, or it would sink back and chatter.
     pub fn granted(&self) -> Granted {
         let [rest, lift] = self.asked;
         [paid(rest, self.balance), paid(2.0 * lift, self.balance - rest)]

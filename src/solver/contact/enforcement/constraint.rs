@@ -1,4 +1,4 @@
-//! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the passes.
+//! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the iterations.
 
 use super::carried::Carried;
 use super::certificate::{Target, penetration_after};
@@ -44,7 +44,7 @@ pub enum Origin {
     Face(u32, u32),
     /// Two edges.
     Edges(u32, u32),
-    /// One of the points that rigid planes watch.
+    /// A node of a rigid plane, by its number.
     Plane(u32),
 }
 
@@ -67,7 +67,8 @@ impl Constraint {
         self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(responses[point].velocity_change, w)))
     }
 
-    /// Goes only a part of the way along the ray of the forces, which give it the velocity `change` in all.
+    /// Scales the forces along their ray by the factor `ray`, which may be larger than 1; in full length all forces change the
+    /// velocity of the constraint by `change`.
     pub fn scale_along_ray(&mut self, state: &ConstraintState, change: [f64; 3], ray: f64, drift: f64) {
         let Carried { penetration: before, normal_force, tangential_force } = self.carried;
         let along = ray * dot(change, self.normal);
@@ -77,19 +78,19 @@ impl Constraint {
     }
 }
 
-/// A point in the course of the passes.
+/// How a node responds to the forces in the course of the iterations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
-    /// Change of velocity that the forces make.
+    /// Change of velocity that the forces make, length per time.
     pub velocity_change: [f64; 3],
-    /// Sum of what the active constraints weigh at the point.
+    /// Sum of what the active constraints weigh at the node, a mass.
     pub load: f64,
 }
 
-/// A constraint in the course of the passes.
+/// A constraint in the course of the iterations.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConstraintState {
-    /// Reduced mass of the constraint alone, times its share; 0 where nothing can be moved.
+    /// Reduced mass of the constraint alone, times its share, a mass; 0 where nothing can be moved.
     pub strength: f64,
     /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
     pub softness: [[f64; 2]; MEMBERS],
@@ -108,7 +109,7 @@ pub struct ConstraintState {
     pub closing: f64,
     /// Whether this rank has made it.
     pub own: bool,
-    /// Normal and friction force of the last pass.
+    /// Normal and friction force of the last iteration.
     pub last: (f64, [f64; 3]),
     /// Whether it pushes or overlaps.
     pub active: bool,

@@ -5,13 +5,13 @@
 //! normal acts on each point times its weight, so linear momentum is kept to round-off whatever λ is, and angular
 //! momentum too where the points meet along the normal.
 //!
-//! λ is found in passes. Within a pass a point that takes part in several constraints gives each a share of its mass,
+//! λ is found in iterations. Within an iteration a point that takes part in several constraints gives each a share of its mass,
 //! and every constraint closes its gap as if it were alone with these shares (mass splitting: Tonge, Benevolenski and
-//! Voroshilov 2012); the shares add up to the whole, so passes cannot overshoot. For points of equal overlap on a flat
+//! Voroshilov 2012); the shares add up to the whole, so iterations cannot overshoot. For points of equal overlap on a flat
 //! face this is the partitioned kinematic method of Attaway et al. (1996), eqs. 15–27, with eq. 25 solved for the
-//! acceleration of the face: λ = m_s δ/Δτ · m_I/(m_I + Σ N m_s), and one pass closes the gap.
+//! acceleration of the face: λ = m_s δ/Δτ · m_I/(m_I + Σ N m_s), and one iteration closes the gap.
 //!
-//! Passes begin with a part of the forces of the last step, and each goes on a little in the direction of the one
+//! Iterations begin with a part of the forces of the last step, and each goes on a little in the direction of the one
 //! before (Nesterov 1983, the sequence of Beck and Teboulle 2009), but not where a force would turn back (O'Donoghue
 //! and Candès 2015, for each force by itself).
 
@@ -25,22 +25,22 @@ use crate::solver::constraints::StepTimes;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};
 
-/// Part of the last step's force with which the passes begin. Where they end early, force follows overlap with the lag
-/// of this filter: a point on a spring of any stiffness that passes can make would gain energy from 1/2 on (the roots of
+/// Part of the last step's force with which the iterations begin. Where they end early, force follows overlap with the lag
+/// of this filter: a point on a spring of any stiffness that iterations can make would gain energy from 1/2 on (the roots of
 /// z³ − (2 + β) z² + (1 + 2β) z − β + 2α z² − α z with β = `BEGINNING` (1 − α)). The certificate would not grant it, but
 /// what it cuts off shakes the bodies: at 0.9 the energy balance of the patch test V-27 was off by a hundredth.
 const BEGINNING: f64 = 0.4;
 
 /// Least share of its members' masses that a constraint claims. With partitions by impedance a heavy node on a light face
 /// would have next to none: where light nodes answer for themselves, too, the others between them would follow in thousands
-/// of passes.
+/// of iterations.
 const LEAST_SHARE: f64 = 0.25;
 
 /// A constraint that its members can follow only by less than this part of how far they can move at all is held: a tilt of
 /// a thousandth between a normal and the directions that are held. Round-off would move it.
 const HELD: f64 = 1e-6;
 
-/// Buffers of the passes, kept from step to step.
+/// Buffers of the iterations, kept from step to step.
 #[derive(Debug, Clone, Default)]
 pub struct Enforcer {
     /// Normal forces on the points.
@@ -92,7 +92,7 @@ impl Enforcer {
             state.last = (c.carried.normal_force, c.carried.tangential_force);
             state.active = state.strength > 0.0 && (c.carried.normal_force > 0.0 || state.closing < 0.0);
         }
-        // Where nothing overlaps there is nothing to do. One pass is made for the smallest overlap:
+        // Where nothing overlaps there is nothing to do. One iteration is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
         let wanted = self.states.iter().any(|state| state.closing < 0.0);
@@ -162,7 +162,7 @@ impl Enforcer {
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
     }
 
-    /// What does not change in the passes, of each constraint.
+    /// What is known of each constraint in the course of the iterations.
     pub fn states(&mut self) -> &mut Vec<ConstraintState> {
         &mut self.states
     }
@@ -180,7 +180,7 @@ impl Enforcer {
         Some(order)
     }
 
-    /// Finds what does not change in the passes, and the friction of the last step in the new planes; before
+    /// Finds what does not change in the iterations, and the friction of the last step in the new planes; before
     /// [`Enforcer::solve`].
     pub fn prepare(&mut self, constraints: &mut [Constraint], motion: &NodeMotion, drift: f64, ledger: &Ledger) {
         self.states.clear();

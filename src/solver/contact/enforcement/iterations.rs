@@ -1,4 +1,4 @@
-//! The passes: each closes every gap as if it were alone, with shares of the masses, and goes on a little.
+//! The iterations: each closes every gap as if its constraint were alone, with shares of the masses, and goes on a little.
 
 use super::carried::Carried;
 use super::certificate::tangential;
@@ -8,14 +8,14 @@ use super::other_ranks::{Largest, OtherRanks};
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled, subtract};
 
-/// Passes go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks in while
-/// loads are small can be lifted only at the price of the loads that come.
+/// Iterations go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks
+/// in while loads are small can be lifted only at the price of the loads that come.
 const SETTLED: f64 = 0.002;
 
-/// How far the passes go.
+/// How far the iterations go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Largest number of passes.
+    /// Largest number of iterations.
     pub iterations: u32,
     /// Overlap that is left alone, as a part of the face's size.
     pub tolerance: f64,
@@ -24,9 +24,9 @@ pub struct Limits {
 /// What became of a step's constraints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Outcome {
-    /// Passes made.
+    /// Iterations made.
     pub iterations: u32,
-    /// How much the last pass still moved, as a part of the face's size: about the largest overlap left.
+    /// How much the last iteration still moved, as a part of the face's size: about the largest overlap left.
     pub residual: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
     pub deepest: f64,
@@ -36,7 +36,7 @@ pub struct Outcome {
     pub travel: f64,
 }
 
-/// Times that turn velocities into ways and forces into velocities.
+/// Times that turn velocities into displacements and forces into velocities: of the drift, of the kick, and their product.
 #[derive(Clone, Copy)]
 pub(super) struct Times {
     pub(super) drift: f64,
@@ -45,7 +45,7 @@ pub(super) struct Times {
 }
 
 impl Enforcer {
-    /// The passes; `None` where nobody wants them. Others are asked with the first: where somebody wants them, and that is
+    /// Iterates; `None` where nobody has a gap to close. Others are asked with the first: where somebody wants them, and that is
     /// nearly always, it costs nothing.
     pub(super) fn iterate(
         &mut self,
@@ -94,7 +94,7 @@ impl Enforcer {
     }
 }
 
-/// How far the next pass goes on in the direction of the one before.
+/// How far the next iteration goes on in the direction of the one before.
 struct Momentum(f64);
 
 impl Momentum {
@@ -145,7 +145,7 @@ fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Respons
     moved
 }
 
-/// From `new`, a part `ahead` of the way from the last pass to this one further, unless the correction goes back.
+/// From `new` further by a part `ahead` of the change from the last iteration to this one, unless the correction goes back.
 fn further(tried: f64, new: f64, last: f64, ahead: f64) -> f64 {
     let turns_back = (tried - new) * (new - last) > 0.0;
     if turns_back { new } else { new + ahead * (new - last) }

@@ -36,7 +36,7 @@ impl Largest {
     }
 }
 
-/// What ranks tell each other in the course of the passes; nothing on one rank.
+/// What ranks tell each other in the course of the iterations; nothing on one rank.
 pub trait OtherRanks {
     /// Appends the constraints of others that act on points which this rank answers for, and sends them those that act on
     /// theirs.

@@ -1,4 +1,7 @@
-//! The points of contact: nodes on the outside, where they are, where they would go, and how heavy they are.
+//! The motion of the contact nodes: where they are, where they would go without contact, and how heavy they are.
+//!
+//! Nodes are told by their numbers, which are those of a local problem or of the contact nodes of a rank; such a number is
+//! called a point everywhere in contact, because nodes of the mesh have other numbers.
 
 use super::swept_box::{Outside, SweptBox};
 use crate::lanes::{InstructionSet, Vectors};
@@ -23,7 +26,7 @@ impl PointMotion {
         std::array::from_fn(|i| self.start[i] + self.velocity[i] * drift)
     }
 
-    /// Box around the way to that end, seen from an origin.
+    /// Box around the path to that end, seen from an origin.
     #[inline(always)]
     fn box_to(&self, end: Four, origin: Four) -> SweptBox {
         let seen = |at: Four| std::array::from_fn(|i| at[i] - origin[i]);
@@ -31,31 +34,31 @@ impl PointMotion {
     }
 }
 
-/// Contact points, in the order of the mesh's nodes.
+/// Motion of contact nodes, in the order of the mesh's nodes.
 #[derive(Debug, Clone, Default)]
 pub struct NodeMotion {
     motion: Vec<PointMotion>,
-    /// Box around the way over that step, seen from the origin.
+    /// Box around the path over that step, seen from the origin.
     pub swept_boxes: Vec<SweptBox>,
-    /// Velocity over the step before.
+    /// Velocity over the step before, length per time.
     before: Vec<[f64; 3]>,
     /// 1/m along each axis; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
     /// Near which the points are: boxes are as fine as single precision is there.
     origin: [f64; 3],
-    /// Length of the step, for ways.
+    /// Length of the step, a time: how long paths take.
     drift: f64,
-    /// Whether a point counts in the longest way: all bits or none.
+    /// Whether a node counts in the longest path: all bits or none.
     counts: Vec<u64>,
     longest: Longest,
     instructions: InstructionSet,
 }
 
-/// The longest way along each axis. Without branches, which nobody could foretell.
+/// The longest path along each axis, a length. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Longest {
     lengths: Four,
-    /// Not a number where a way is not one or has no end, else zero.
+    /// Not a number where a path's length is not one or has no end, else zero.
     poison: Four,
 }
 
@@ -87,7 +90,7 @@ fn three([x, y, z, _]: Four) -> [f64; 3] {
 }
 
 impl NodeMotion {
-    /// So many points, all at zero. Their boxes are seen from `origin`, near which they should be.
+    /// So many nodes, all at zero. Their boxes are seen from `origin`, near which they should be.
     pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
         NodeMotion {
             origin,
@@ -116,12 +119,12 @@ impl NodeMotion {
         self.motion.is_empty()
     }
 
-    /// Begins a step of length `drift`, for which every point is to be put where it is.
+    /// Begins a step of length `drift`, a time; then the motion of every node is to be set.
     pub fn begin(&mut self, drift: f64) {
         (self.drift, self.longest) = (drift, Longest::default());
     }
 
-    /// Puts a point where it is and lets it go its way; `before` is its velocity over the step before.
+    /// Sets a node's position and its velocities over the coming step and over the step `before`, and finds its path.
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
         self.before[point] = before;
@@ -131,7 +134,7 @@ impl NodeMotion {
         (self.motion[point], self.swept_boxes[point]) = (motion, motion.box_to(end, four(self.origin)));
     }
 
-    /// Puts a point where another of the same step is, and lets it go the same way.
+    /// Gives a node the motion of another in the same step.
     #[inline]
     pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
@@ -140,8 +143,8 @@ impl NodeMotion {
         self.before[point] = others.before[other];
     }
 
-    /// Puts all points where they are, each with its velocity, and lets them go their ways. Whether one of them leaves its
-    /// home on it.
+    /// Sets the motion of all nodes: position, velocity over the coming step, velocity over the step before. Whether one of
+    /// them leaves its search box on its path.
     pub fn set_all(
         &mut self,
         motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
@@ -190,16 +193,16 @@ impl NodeMotion {
         outside.any()
     }
 
-    /// Chooses the points that count in the longest way.
+    /// Chooses the nodes that count in the longest path.
     pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
         self.counts.fill(0);
         chosen.for_each(|point| self.counts[point as usize] = u64::MAX);
     }
 
-    /// The farthest that a point which counts has gone in the last step or will go in this one, along an axis.
+    /// The farthest that a node which counts has gone in the last step or will go in this one, along an axis: a length.
     pub fn longest_path(&self) -> f64 {
         let Longest { lengths: [x, y, z, _], poison } = self.longest;
-        // A way that is not a number leaves nobody at rest.
+        // A path that is not a number leaves nobody at rest.
         if poison[..3] == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
     }
 
@@ -233,7 +236,7 @@ impl NodeMotion {
         self.before[point as usize]
     }
 
-    /// Where a point is, and how far it goes.
+    /// Where a node is, and how far it goes in the step.
     pub fn path(&self, point: u32) -> ([f64; 3], [f64; 3]) {
         let (start, end) = (self.start(point), self.end(point));
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])

@@ -125,7 +125,7 @@ fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], 
 }
 
 /// Shares of the corners in the point of a face that is met along a direction: Σ N x_I = point − α direction, in the plane
-/// of the triangle that `stand` has found. Beyond the border they are continued. `None` where the direction hardly leaves
+/// of the triangle that `projection` has found. Beyond the border they are continued. `None` where the direction hardly leaves
 /// the plane, or far beyond the border.
 ///
 /// Forces act at the beginning of a step, on the positions there; along the normal of its end they have no moment when

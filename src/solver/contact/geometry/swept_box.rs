@@ -1,4 +1,5 @@
-//! Boxes in single precision, rounded outwards: quick to compare, and never too small.
+//! Boxes around the paths of nodes over a step, in single precision and rounded outwards: quick to compare, and never too
+//! small.
 
 use super::motion::{Four, four};
 
@@ -20,7 +21,7 @@ impl SweptBox {
     /// The box that every other touches.
     pub const EVERYTHING: SweptBox = SweptBox([f32::NEG_INFINITY; 8]);
 
-    /// A box around the way from one place to another.
+    /// A box around the path from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> SweptBox {
         SweptBox::of_path(four(start), four(end))
@@ -72,7 +73,7 @@ impl SweptBox {
 pub struct Outside([f32; 8]);
 
 impl Outside {
-    /// Looks at a box and the one in which it is to be.
+    /// Looks at a box and at the search box in which it is to be.
     #[inline(always)]
     pub fn take(&mut self, own: &SweptBox, search_box: &SweptBox) {
         for i in 0..8 {

@@ -1,7 +1,7 @@
 //! Contact on many ranks: who computes what, and the messages.
 
-pub mod contract;
-pub mod links;
+pub mod communication_plan;
+pub mod iteration_messages;
 pub mod regional;
 pub mod remote;
 pub mod routing;

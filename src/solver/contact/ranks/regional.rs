@@ -1,4 +1,4 @@
-//! What each rank gets for its search: points at their homes, and all faces and edges that these may meet.
+//! What each rank gets for its search: points at their owner ranks, and all faces and edges that these may meet.
 
 use crate::comm::Communicator;
 use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
@@ -13,14 +13,14 @@ pub struct Regional {
     pub faces: Boxes,
     pub edges: Boxes,
     pub own_edges: Vec<u32>,
-    /// Homes of the corners of each face.
+    /// Owner ranks of the corners of each face.
     pub face_owners: Vec<[u32; 4]>,
-    /// Homes of the ends of each edge.
+    /// Owner ranks of the ends of each edge.
     pub edge_owners: Vec<[u32; 2]>,
 }
 
 impl Regional {
-    /// Sends points to their homes, and faces and edges to every home whose points they may meet. `faces` and `edges`
+    /// Sends points to their owner ranks, and faces and edges to every owner rank whose points they may meet. `faces` and `edges`
     /// are those of elements that are here. All ranks call it.
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),

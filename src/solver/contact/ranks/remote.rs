@@ -1,16 +1,16 @@
 //! Contact on many ranks: two decompositions and the messages between them (Attaway et al. 1996, "Parallel contact").
 //!
-//! Elements and nodes stay where they are. At every search the points of contact are shared out anew, by recursive
-//! bisection unless CONTACT DECOMPOSITION says otherwise; each goes, with its history, to the rank of its region, its
-//! home, and faces and edges go to every rank whose points they may meet. That rank searches, and checks and enforces
-//! until the next search. In between, only motion travels to the homes, changes of velocity between homes in the passes,
-//! and forces back.
+//! Elements and nodes stay where they are. At every search the points of contact are shared out anew, by recursive bisection
+//! unless CONTACT DECOMPOSITION says otherwise; each goes, with its history, to the rank of its region, its owner rank, and
+//! faces and edges go to every rank whose points they may meet. That rank searches, and checks and enforces until the next
+//! search. In between, only motion travels to the owner ranks, changes of velocity between owner ranks in the iterations, and
+//! forces back.
 //!
 //! [`Regional`] is what a search brings to a rank, [`route`] takes history along, [`CommunicationPlan`] says who must know of whose
-//! points in the passes, and [`IterationMessages`] are these messages.
+//! points in the iterations, and [`IterationMessages`] are these messages.
 
-use super::contract::{CommunicationPlan, numbering};
-use super::links::{IterationExchange, IterationMessages};
+use super::communication_plan::{CommunicationPlan, numbering};
+use super::iteration_messages::{IterationExchange, IterationMessages};
 use super::regional::Regional;
 use super::routing::route;
 use super::traffic::{Lists, MessagePattern};
@@ -29,16 +29,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
 const SLACK: f64 = 0.1;
 
-/// What a point that was pushed in the last step weighs against one that was not: about what its check and its part in the
-/// passes cost against a point that is merely put where it is.
+/// What a node with contact forces in the last step weighs against one without: about what its check and its part in the
+/// iterations cost against a node whose motion is merely set.
 const LOADED: u32 = 12;
 
-/// A point that is not pushed. No sum that begins with +0 comes out as −0.
+/// Forces on a node without contact. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
 
 /// What one rank knows of the others.
 pub struct Remote {
-    /// Rank that answers for each point.
+    /// Rank that owns the mesh's node of each point.
     node_owner: Vec<u32>,
     /// Ranks of which a point is a node: `holders[first[p]..first[p + 1]]`.
     first: Vec<u32>,
@@ -50,11 +50,11 @@ pub struct Remote {
     method: ContactDecomposition,
     cuts: Option<Bisection>,
     motion: MessagePattern,
-    /// Ways of the answers to other ranks.
+    /// Messages of the results to other ranks.
     results: MessagePattern,
-    /// For every point of the arena that may be pushed and is at home here, its site here; else [`ABSENT`].
+    /// For every point of the local problem on which forces may act and whose node is here, its contact node; else [`ABSENT`].
     own: Vec<u32>,
-    links: IterationMessages,
+    iteration_messages: IterationMessages,
 }
 
 impl Remote {
@@ -97,7 +97,7 @@ impl Remote {
             motion: MessagePattern::default(),
             results: MessagePattern::default(),
             own: Vec::new(),
-            links: IterationMessages::default(),
+            iteration_messages: IterationMessages::default(),
         }
     }
 
@@ -106,7 +106,7 @@ impl Remote {
         &self.holders[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
     }
 
-    /// Brings the motion of a step to the homes.
+    /// Brings the motion of a step to the owner ranks.
     pub fn send_motion(
         &mut self,
         contact_nodes: &mut ContactNodes,
@@ -183,12 +183,12 @@ impl Remote {
         );
     }
 
-    /// What homes tell each other, for one step.
+    /// What owner ranks tell each other, for one step.
     pub fn others<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> IterationExchange<'a> {
-        self.links.over(comm)
+        self.iteration_messages.over(comm)
     }
 
-    /// Shares out the points anew, searches, and makes the arena of this rank.
+    /// Shares out the points anew, searches, and makes the local problem of this rank.
     pub fn decompose(
         &mut self,
         search: &mut dyn Search,
@@ -203,17 +203,17 @@ impl Remote {
         let regional = Regional::gather((&self.faces, &self.edges), layout, contact_nodes, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];
         let found = neighbourhood::find(search, lists, |edge| regional.own_edges.binary_search(&edge).is_ok(), layout);
-        let contract = CommunicationPlan::new(layout, &found, &regional, comm);
+        let plan = CommunicationPlan::new(layout, &found, &regional, comm);
         let is_own = |plane_node: &&PlaneNode| regional.points.ids.binary_search(&plane_node.point).is_ok();
         let plane_nodes: Vec<PlaneNode> = plane_nodes.iter().filter(is_own).copied().collect();
-        let numbering = numbering(layout, &found, &contract, &plane_nodes);
+        let numbering = numbering(layout, &found, &plan, &plane_nodes);
         let mut problem = LocalProblem::new(numbering, found, depth, layout, &plane_nodes);
-        self.connect((layout, contact_nodes), &mut problem, &contract, &regional, &plane_nodes, comm);
+        self.connect((layout, contact_nodes), &mut problem, &plan, &regional, &plane_nodes, comm);
         problem.restore(history);
         problem
     }
 
-    /// The new home of every site.
+    /// The new owner rank of every contact node of this rank.
     fn find_owner_ranks(&mut self, contact_nodes: &ContactNodes, comm: &mut dyn Communicator) -> Vec<u32> {
         let axes = match self.method {
             ContactDecomposition::Bisection => Axes::Widest,
@@ -242,7 +242,7 @@ impl Remote {
         (0..).zip(&contact_nodes.list).map(owner).collect()
     }
 
-    /// Brings history from where it was to the new homes, by way of the ranks that own the nodes and know the homes.
+    /// Brings history from where it was to the new owner ranks, by way of the ranks that own the nodes and know the owner ranks.
     fn forward(
         &self,
         layout: &Layout,
@@ -263,13 +263,13 @@ impl Remote {
         &mut self,
         (layout, contact_nodes): (&Layout, &ContactNodes),
         problem: &mut LocalProblem,
-        contract: &CommunicationPlan,
+        plan: &CommunicationPlan,
         regional: &Regional,
         plane_nodes: &[PlaneNode],
         comm: &mut dyn Communicator,
     ) {
         self.connect_motion(contact_nodes, problem, comm);
-        let mut loaded = contract.here.list();
+        let mut loaded = plan.here.list();
         loaded.extend(plane_nodes.iter().map(|plane_node| plane_node.point));
         loaded.sort_unstable();
         loaded.dedup();
@@ -278,12 +278,12 @@ impl Remote {
         let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
             lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| problem.place(p)).collect())).collect()
         };
-        let shares = MessagePattern::new(places(&contract.send), places(&contract.receive), rank);
-        let owner_ranks = contract.owner_ranks(rank as u32, layout, regional, problem);
-        self.links = IterationMessages::new(rank as u32, owner_ranks, &problem.numbering, shares, contract);
+        let shares = MessagePattern::new(places(&plan.send), places(&plan.receive), rank);
+        let owner_ranks = plan.owner_ranks(rank as u32, layout, regional, problem);
+        self.iteration_messages = IterationMessages::new(rank as u32, owner_ranks, &problem.numbering, shares, plan);
     }
 
-    /// Tells every other rank that has the node of a point which may be pushed that forces will come for it.
+    /// Tells every other rank that has the node of a point on which forces may act that they will come.
     fn connect_results(
         &mut self,
         loaded: &[u32],
@@ -304,7 +304,7 @@ impl Remote {
         let contact_node = |point: &u32| contact_nodes.of(*point).map(|contact_node| contact_node as u32);
         let receive = by_sender(&records, |ids| ids.iter().filter_map(contact_node).collect());
         self.results = MessagePattern::new(send, receive, comm.rank());
-        // Few are pushed: those that are at home here need not all be asked.
+        // Forces act on few: not all nodes that are here need be asked.
         self.own = vec![ABSENT; problem.numbering.points.len()];
         for point in loaded {
             if let Some(own) = self.own.get_mut(problem.place(*point) as usize) {
@@ -313,7 +313,7 @@ impl Remote {
         }
     }
 
-    /// Asks the owners for the motion of all points of the arena, and for their masses.
+    /// Asks the owners for the motion of all points of the local problem, and for their masses.
     fn connect_motion(
         &mut self,
         contact_nodes: &ContactNodes,

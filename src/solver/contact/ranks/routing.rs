@@ -1,4 +1,4 @@
-//! History on its way: at a search it follows each point to its new home.
+//! History in messages: at a search it follows each point to its new owner rank.
 
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
@@ -52,7 +52,7 @@ pub fn route(
     come
 }
 
-/// Sends every watch of a plane to some `ranks`. All ranks call it.
+/// Sends the history of every plane's node to some `ranks`. All ranks call it.
 pub fn share_planes(
     planes: &[PlaneHistory],
     ranks: impl Fn(u32) -> Range<u32>,

@@ -1,5 +1,5 @@
-//! Location: which points come near which faces, and which edges each other, in a step, of those that the last search has
-//! found.
+//! Location: which slave nodes come near which faces, and which edges each other, in a step, of the candidates that the last
+//! search has found.
 
 use super::neighbourhood::SearchResult;
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
@@ -10,10 +10,10 @@ use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::vector::{dot, subtract};
 
-/// Points and faces that may touch.
+/// Nodes and faces that may touch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interface {
-    /// Whether a point takes part.
+    /// Whether a point takes part, by points.
     pub points: Vec<bool>,
     /// Faces that take part, ascending.
     pub faces: Vec<u32>,
@@ -30,7 +30,7 @@ pub enum Rule {
     Pair(u32),
 }
 
-/// A face near a point.
+/// A face that a slave node may meet before the next search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Candidate {
     /// The face.
@@ -42,7 +42,7 @@ pub struct Candidate {
 /// How far points may go before the search is repeated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
-    /// Multiple of the way that a point goes in the present step.
+    /// Multiple of the path that a point goes in the present step.
     pub steps: f64,
     /// Smallest reach, a length.
     pub least: f64,
@@ -56,7 +56,7 @@ pub struct Reach {
 pub struct Locator {
     /// How far a face looks beyond its corners, see [`Reach`].
     depth: f64,
-    /// Points with candidates, ascending, and where their candidates begin.
+    /// Slave nodes, which are those with candidates, ascending, and where their candidates begin.
     slave_nodes: Vec<u32>,
     first: Vec<u32>,
     candidates: Vec<Candidate>,
@@ -64,20 +64,20 @@ pub struct Locator {
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
     sleep: Vec<SleepState>,
-    /// How far things must have gone in all until a watched point may have anything near at all.
+    /// How far things must have gone in all until a slave node may have anything near at all.
     quiet_until: Vec<f64>,
-    /// How far things have gone in all, counted as if the fastest point of each step were always the same.
+    /// How far nodes have travelled in all, a length, counted as if the fastest node of each step were always the same.
     travelled: f64,
     /// How much of that in the present step.
     last_path: f64,
-    /// Points that are watched, corners of candidates or ends of edges, ascending.
+    /// Slave nodes, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
     /// Whether no step has been made yet.
     fresh: bool,
     capture_boxes: CaptureBoxes,
 }
 
-/// What is to be expected of a watched point's candidates.
+/// Which candidates of a slave node sleep: they are not looked at until nodes have travelled so far that they may be near.
 #[derive(Debug, Clone, Copy, Default)]
 struct SleepState {
     /// How far things must have gone in all until a candidate that sleeps may be near.
@@ -94,7 +94,7 @@ const SLEEP: f64 = 6.0;
 /// Least sleeps after which a point looks out for candidates that are awake but need not be.
 const LOOK: f64 = 8.0;
 
-/// Part of the way between two edges that either may go before they are looked at again: half, less what rounding takes.
+/// Part of the distance between two edges that either may go before they are looked at again: half, less what rounding takes.
 const SAFE: f64 = 0.499;
 
 /// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
@@ -138,7 +138,7 @@ impl CaptureBoxes {
 }
 
 impl Locator {
-    /// Takes over what a search has found, in numbers of the arena.
+    /// Takes over what a search has found, in numbers of the local problem.
     pub fn new(found: SearchResult, depth: f64, motion: &NodeMotion, faces: &Faces, edges: &[Edge]) -> Locator {
         let mut is_moving = vec![false; motion.len()];
         for &edge in found.pairs.iter().flatten() {
@@ -166,7 +166,7 @@ impl Locator {
     /// Begins a step.
     pub fn step(&mut self, motion: &NodeMotion, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
-        // On one rank what counts in the longest way is chosen after the first step's points have been put; on many these
+        // On one rank what counts in the longest path is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
         self.last_path = if first { self.longest_path(motion) } else { motion.longest_path() };
@@ -176,21 +176,21 @@ impl Locator {
     /// The farthest that a point which matters will go in this step, along an axis.
     fn longest_path(&self, motion: &NodeMotion) -> f64 {
         let lengths = self.moving.iter().flat_map(|&point| motion.path(point).1).map(f64::abs);
-        // A way that is not a number leaves nobody at rest.
+        // A path that is not a number leaves nobody at rest.
         lengths.fold(0.0, |longest, length| if length <= f64::MAX { length.max(longest) } else { f64::INFINITY })
     }
 
-    /// Points that are watched, corners of candidates or ends of edges, ascending: those that count in the longest way.
+    /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
     pub fn moving(&self) -> &[u32] {
         &self.moving
     }
 
-    /// Points with candidates, ascending.
+    /// Slave nodes: points with candidates, ascending.
     pub fn slave_nodes(&self) -> &[u32] {
         &self.slave_nodes
     }
 
-    /// Finds the candidates of the `i`-th watched point whose boxes over this step meet that of the point, and those that
+    /// Finds the candidates of the `i`-th slave node whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
     pub fn locate(
         &mut self,
@@ -226,18 +226,18 @@ impl Locator {
         candidates.iter().skip(64).for_each(look);
     }
 
-    /// Whether nothing holds the `i`-th watched point, nor comes near it in this step.
+    /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
     #[inline]
     pub fn is_quiet(&self, i: usize) -> bool {
         self.travelled + self.last_path < self.quiet_until[i]
     }
 
-    /// Whether a face holds the `i`-th watched point; in a step known from [`Locator::near`] on.
+    /// Whether a face holds the `i`-th slave node; in a step known from [`Locator::locate`] on.
     pub fn is_held(&self, i: usize) -> bool {
         self.sleep[i].held
     }
 
-    /// Hears whether a face holds the `i`-th watched point from now on.
+    /// Hears whether a face holds the `i`-th slave node from now on.
     pub fn set_held(&mut self, i: usize, held: bool) {
         let sleep = &mut self.sleep[i];
         if sleep.held != held {
@@ -262,7 +262,7 @@ impl Locator {
         self.pairs_due[i] = self.travelled + SAFE * distance;
     }
 
-    /// Finds which candidates of the `i`-th watched point may sleep, and for how long.
+    /// Finds which candidates of the `i`-th slave node may sleep, and for how long.
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
@@ -296,7 +296,7 @@ impl Locator {
         self.quiet_until[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
     }
 
-    /// Numbers of watched points and of candidate pairs.
+    /// Numbers of slave nodes and of candidate pairs.
     pub fn counts(&self) -> [usize; 2] {
         [self.slave_nodes.len(), self.candidates.len()]
     }

@@ -27,9 +27,9 @@ impl Boxes {
 /// What a search finds, by the numbers of the layout.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SearchResult {
-    /// Points with candidates, ascending.
+    /// Slave nodes: points with candidates, ascending.
     pub slave_nodes: Vec<u32>,
-    /// Where the candidates of each begin in `near`; one more than there are points.
+    /// Where the candidates of each begin in `candidates`; one more than there are slave nodes.
     pub first: Vec<u32>,
     /// Candidates, faces ascending.
     pub candidates: Vec<Candidate>,
@@ -37,13 +37,13 @@ pub struct SearchResult {
     pub pairs: Vec<[u32; 2]>,
 }
 
-/// Box in which a site stays until the next search.
+/// Box in which a contact node stays until the next search.
 fn around(contact_nodes: &ContactNodes, contact_node: usize) -> Box3 {
     let [low, high] = contact_nodes.reach(contact_node);
     Box3 { low, high }
 }
 
-/// Boxes of some sites.
+/// Boxes of some contact nodes.
 pub fn point_boxes(contact_nodes: &ContactNodes) -> Boxes {
     let mut points = Boxes::default();
     for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
@@ -52,7 +52,7 @@ pub fn point_boxes(contact_nodes: &ContactNodes) -> Boxes {
     points
 }
 
-/// Boxes of some faces, whose corners are sites.
+/// Boxes of some faces, whose corners are contact nodes.
 pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for face in faces {
@@ -66,7 +66,7 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nod
     all
 }
 
-/// Boxes of those of some edges that take part, whose ends are sites.
+/// Boxes of those of some edges that take part, whose ends are contact nodes.
 pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
     for edge in edges.filter(|&edge| layout.takes_part(edge)) {

@@ -309,7 +309,7 @@ impl Stage {
 fn step(contact: &mut Contact, nodes: &mut Nodes, awake: bool) {
     contact.bring_motion(nodes, &STEP, &mut Serial);
     if awake {
-        // On one rank the points of the arena are those of the layout.
+        // On one rank the points of the local problem are those of the layout.
         let held: Vec<u32> = contact.problem.history().points.iter().map(|(point, _)| *point).collect();
         contact.problem.locator.wake(&held);
     }

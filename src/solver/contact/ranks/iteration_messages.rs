@@ -1,6 +1,6 @@
-//! Messages in the passes: what homes tell each other of constraints that act on points of both.
+//! Messages in the iterations: what owner ranks tell each other of constraints that act on points of both.
 
-use super::contract::CommunicationPlan;
+use super::communication_plan::CommunicationPlan;
 use super::traffic::{MessagePattern, VariableMessages};
 use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
@@ -10,13 +10,13 @@ use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintStat
 use crate::solver::contact::enforcement::other_ranks::{Largest, OtherRanks};
 use crate::solver::contact::local_problem::Numbering;
 
-/// What homes tell each other in a step.
+/// What owner ranks tell each other in a step.
 #[derive(Default)]
 pub struct IterationMessages {
     rank: u32,
-    /// Home of each point of the arena, where constraints may act on it.
+    /// Owner rank of each point of the local problem, where constraints may act on it.
     owner_ranks: Vec<u32>,
-    /// Points by number of the layout: those of the arena, then its ghosts.
+    /// Points by number of the layout: those of the local problem, then its ghosts.
     points: Vec<u32>,
     ghosts: Vec<u32>,
     shares: MessagePattern,
@@ -24,15 +24,16 @@ pub struct IterationMessages {
 }
 
 impl IterationMessages {
-    /// The messages of `contract` between points of an arena with this cast, whose homes are given by their places.
+    /// The messages of `plan` between points of a local problem with this numbering, whose owner ranks are given by their
+    /// places.
     pub fn new(
         rank: u32,
         owner_ranks: Vec<u32>,
         numbering: &Numbering,
         shares: MessagePattern,
-        contract: &CommunicationPlan,
+        plan: &CommunicationPlan,
     ) -> IterationMessages {
-        let letters = VariableMessages::new(contract.partners.iter().map(|&rank| rank as usize));
+        let letters = VariableMessages::new(plan.partners.iter().map(|&rank| rank as usize));
         IterationMessages {
             rank,
             owner_ranks,
@@ -45,19 +46,19 @@ impl IterationMessages {
 
     /// With the means to send them.
     pub fn over<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> IterationExchange<'a> {
-        IterationExchange { links: self, comm }
+        IterationExchange { iteration_messages: self, comm }
     }
 }
 
-/// What homes tell each other, with the means to do it.
+/// What owner ranks tell each other, with the means to do it.
 pub struct IterationExchange<'a> {
-    links: &'a mut IterationMessages,
+    iteration_messages: &'a mut IterationMessages,
     comm: &'a mut dyn Communicator,
 }
 
 impl OtherRanks for IterationExchange<'_> {
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>) {
-        let IterationMessages { rank, owner_ranks, points, ghosts, letters, .. } = &mut *self.links;
+        let IterationMessages { rank, owner_ranks, points, ghosts, letters, .. } = &mut *self.iteration_messages;
         let number = |point: u32| match points.get(point as usize) {
             Some(&number) => number,
             None => ghosts[point as usize - points.len()],
@@ -91,7 +92,7 @@ impl OtherRanks for IterationExchange<'_> {
     }
 
     fn share(&mut self, responses: &mut [Response]) {
-        self.links.shares.exchange(
+        self.iteration_messages.shares.exchange(
             responses,
             |responses, point| {
                 let Response { velocity_change: [x, y, z], load } = responses[point as usize];

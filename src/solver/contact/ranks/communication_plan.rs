@@ -1,4 +1,5 @@
-//! Who must know of whose points until the next search, and what an arena therefore holds.
+//! The plan of communication until the next search: which ranks must know of whose points, and what a local problem therefore
+//! holds.
 
 use super::regional::Regional;
 use crate::comm::Communicator;
@@ -9,20 +10,20 @@ use crate::solver::contact::local_problem::{LocalProblem, Numbering};
 use crate::solver::contact::search::neighbourhood::SearchResult;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Who must know of whose points in the passes.
+/// Who must know of whose points in the iterations.
 #[derive(Default)]
 pub struct CommunicationPlan {
-    /// Points that this rank is the home of, and on which constraints may act.
+    /// Points that this rank owns, and on which constraints may act.
     pub here: NumberSet,
     /// Points that go to each rank, and that come from each.
     pub send: BTreeMap<u32, BTreeSet<u32>>,
     pub receive: BTreeMap<u32, BTreeSet<u32>>,
     /// Ranks with constraints that act on points of both.
     pub partners: BTreeSet<u32>,
-    /// Candidate faces, and homes of ends of candidate edges.
+    /// Candidate faces, and owner ranks of ends of candidate edges.
     faces: NumberSet,
     end_owners: BTreeMap<u32, u32>,
-    /// Homes that must know points of another: which home has the point, which must know it, and the point.
+    /// Ranks that must know points of another: the owner rank of the point, the rank that must know it, and the point.
     deliveries: Vec<(u32, u32, u32)>,
 }
 
@@ -57,24 +58,24 @@ impl CommunicationPlan {
     ) -> CommunicationPlan {
         let me = comm.rank() as u32;
         let [points, faces] = [layout.nodes.len(), layout.faces.len()];
-        let mut contract = CommunicationPlan {
+        let mut plan = CommunicationPlan {
             here: NumberSet::none_of(points),
             faces: NumberSet::none_of(faces),
             ..Default::default()
         };
         let face_places = inverse(regional.faces.ids.iter().copied(), faces);
         for (i, &point) in found.slave_nodes.iter().enumerate() {
-            contract.here.choose(point);
+            plan.here.choose(point);
             for near in &found.candidates[found.first[i] as usize..found.first[i + 1] as usize] {
-                let is_new = contract.faces.choose(near.face);
+                let is_new = plan.faces.choose(near.face);
                 let Some(&owner_ranks) = regional.face_owners.get(face_places[near.face as usize] as usize) else {
                     continue;
                 };
                 let corners = layout.faces.corners[near.face as usize];
                 if owner_ranks != [me; 4] {
-                    contract.agree(corners.into_iter().zip(owner_ranks).chain([(point, me)]), me);
+                    plan.agree(corners.into_iter().zip(owner_ranks).chain([(point, me)]), me);
                 } else if is_new {
-                    corners.iter().for_each(|&corner| _ = contract.here.choose(corner));
+                    corners.iter().for_each(|&corner| _ = plan.here.choose(corner));
                 }
             }
         }
@@ -84,14 +85,14 @@ impl CommunicationPlan {
                 Some(layout.edges[*edge as usize].ends.into_iter().zip(regional.edge_owners[place]))
             });
             let members: Vec<(u32, u32)> = ends.flatten().collect();
-            contract.end_owners.extend(members.iter().copied());
-            contract.agree(members.into_iter(), me);
+            plan.end_owners.extend(members.iter().copied());
+            plan.agree(members.into_iter(), me);
         }
-        contract.deliver(comm);
-        contract
+        plan.deliver(comm);
+        plan
     }
 
-    /// Tells all homes what they must tell others of, and hears it from them.
+    /// Tells all owner ranks what they must tell others of, and hears it from them.
     fn deliver(&mut self, comm: &mut dyn Communicator) {
         let me = comm.rank() as u32;
         self.deliveries.sort_unstable();
@@ -117,7 +118,8 @@ impl CommunicationPlan {
         }
     }
 
-    /// The home of each point of an arena that constraints may act on, `me` for all others; by places in the arena.
+    /// The owner rank of each point of a local problem that constraints may act on, `me` for all others; by places in the local
+    /// problem.
     pub fn owner_ranks(&self, me: u32, layout: &Layout, regional: &Regional, problem: &LocalProblem) -> Vec<u32> {
         let mut owner_ranks = vec![me; problem.numbering.points.len() + problem.numbering.ghosts.len()];
         let mut note = |point: u32, owner_rank: u32| {
@@ -135,7 +137,7 @@ impl CommunicationPlan {
         owner_ranks
     }
 
-    /// The homes of all members of a constraint know all of them.
+    /// The owner ranks of all members of a constraint know all of them.
     fn agree(&mut self, members: impl Iterator<Item = (u32, u32)> + Clone, me: u32) {
         let mut ranks: Vec<u32> = members.clone().map(|(_, owner_rank)| owner_rank).chain([me]).collect();
         ranks.sort_unstable();
@@ -152,11 +154,11 @@ impl CommunicationPlan {
     }
 }
 
-/// Everything that the check of these candidates looks at.
+/// Local numbers of everything that the check of these candidates looks at.
 pub fn numbering(
     layout: &Layout,
     found: &SearchResult,
-    contract: &CommunicationPlan,
+    plan: &CommunicationPlan,
     plane_nodes: &[PlaneNode],
 ) -> Numbering {
     let faces = &layout.faces;
@@ -165,7 +167,7 @@ pub fn numbering(
     edges.sort_unstable();
     edges.dedup();
     let around = found.slave_nodes.iter().flat_map(|&point| faces.around(point).iter().copied());
-    let met = contract.faces.list();
+    let met = plan.faces.list();
     let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
     let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
     for face in around.chain(of_elements).chain(beside) {
@@ -173,9 +175,9 @@ pub fn numbering(
             faces.corners[face as usize].iter().for_each(|&corner| _ = points.choose(corner));
         }
     }
-    let others = contract.here.list().into_iter().chain(plane_nodes.iter().map(|plane_node| plane_node.point));
+    let others = plan.here.list().into_iter().chain(plane_nodes.iter().map(|plane_node| plane_node.point));
     found.slave_nodes.iter().copied().chain(others).for_each(|point| _ = points.choose(point));
-    let come = contract.receive.values().flatten().copied();
+    let come = plan.receive.values().flatten().copied();
     let ghosts: BTreeSet<u32> = come.filter(|&point| !points.0[point as usize]).collect();
     Numbering { ghosts: ghosts.into_iter().collect(), points: points.list(), faces: chosen.list(), edges }
 }
