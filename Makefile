@@ -63,13 +63,17 @@ man: build             # man pages from the option table and the grammar
 	$(URTO) generate man-deck > man/urto-deck.5
 	$(URTO) generate man-mesh > man/urto-mesh.5
 
-install: build         # program, man pages and completions, under PREFIX
+install: build         # program, man pages and completions for bash, zsh and fish, under PREFIX
 	install -D $(URTO) $(DESTDIR)$(PREFIX)/bin/urto
 	install -D -m 644 man/urto.1 $(DESTDIR)$(PREFIX)/share/man/man1/urto.1
 	install -D -m 644 man/urto-deck.5 $(DESTDIR)$(PREFIX)/share/man/man5/urto-deck.5
 	install -D -m 644 man/urto-mesh.5 $(DESTDIR)$(PREFIX)/share/man/man5/urto-mesh.5
 	install -d $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 	$(URTO) generate bash > $(DESTDIR)$(PREFIX)/share/bash-completion/completions/urto
+	install -d $(DESTDIR)$(PREFIX)/share/zsh/site-functions
+	$(URTO) generate zsh > $(DESTDIR)$(PREFIX)/share/zsh/site-functions/_urto
+	install -d $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d
+	$(URTO) generate fish > $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d/urto.fish
 
 needed:
 	@.ci/packages build

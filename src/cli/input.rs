@@ -42,7 +42,8 @@ impl Given {
     /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
     pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
         let given = definitions(&input.define)?;
-        Given::read_with(input, &given, ranks, &mut |path| read_or_make(path, &given, ranks, &mut read_mesh))
+        let making = Making { refine: input.refine, given: &given, ranks };
+        Given::read_with(input, &given, ranks, &mut |path| making.read_or_make(path, &mut read_mesh))
     }
 
     /// The same on every process of a job; they read the mesh together.
@@ -56,8 +57,9 @@ impl Given {
             return Given::read(input);
         }
         let given = definitions(&input.define)?;
+        let making = Making { refine: input.refine, given: &given, ranks: None };
         Given::read_with(input, &given, None, &mut |path| {
-            read_or_make(path, &given, None, &mut |path| read_mesh_together(path, together))
+            making.read_or_make(path, &mut |path| read_mesh_together(path, together))
         })
     }
 
@@ -172,6 +174,16 @@ pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
         .ok_or_else(|| Failure::input(missing()))
 }
 
+/// What a deck asks for, without a mesh.
+pub fn deck_alone(named: &Path, define: &[String]) -> Result<(PathBuf, Problem), Failure> {
+    let given = definitions(define)?;
+    let deck = deck_path(named)?;
+    let source = open(&deck, &given, None)
+        .map_err(|e| Failure::input(format_args!("error: cannot read the deck {}: {e}", deck.display())))?;
+    let problem = examine(source, None).map_err(|mistakes| Failure::input(render(&mistakes)))?;
+    Ok((deck, problem))
+}
+
 /// Reads a text, in whose expressions the name `ranks` has this value, if there is one.
 fn open(path: &Path, given: &Arc<Definitions>, ranks: Option<u32>) -> std::io::Result<Source> {
     let source = Source::open(path)?.with_definitions(given);
@@ -181,20 +193,38 @@ fn open(path: &Path, given: &Arc<Definitions>, ranks: Option<u32>) -> std::io::R
     })
 }
 
-/// The mesh of a file: read, or made when the file is a recipe.
-fn read_or_make(
-    path: &Path,
-    given: &Arc<Definitions>,
+/// How a recipe becomes a mesh.
+struct Making<'a> {
+    refine: u32,
+    given: &'a Arc<Definitions>,
     ranks: Option<u32>,
-    read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
-) -> Result<MeshOf, Failure> {
-    if is_recipe(path) {
-        return make_mesh(path, 1, given, ranks);
-    }
-    read(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input)
 }
 
-fn is_recipe(path: &Path) -> bool {
+impl Making<'_> {
+    /// The mesh of a file: read, or made when the file is a recipe.
+    fn read_or_make(
+        &self,
+        path: &Path,
+        read: &mut dyn FnMut(&Path) -> Result<Mesh, MeshError>,
+    ) -> Result<MeshOf, Failure> {
+        if is_recipe(path) {
+            return make_mesh(path, self.refine, self.given, self.ranks);
+        }
+        if self.refine > 1 {
+            return Err(Failure::input(format_args!(
+                "error: --refine {} needs a mesh that is made from a recipe, and {} is a mesh file\n\
+                 help: `urto refine {} -o fine.g` divides each of its elements; then --mesh fine.g",
+                self.refine,
+                path.display(),
+                path.display()
+            )));
+        }
+        read(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input)
+    }
+}
+
+/// Whether a file is a recipe, by its suffix.
+pub fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|suffix| suffix == "mesh")
 }
 

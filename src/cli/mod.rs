@@ -1,6 +1,7 @@
 //! What the user types at the shell, and what becomes of it. Every verb ends in an exit code.
 
 mod check;
+mod curve;
 mod date;
 mod display;
 mod input;
@@ -8,10 +9,13 @@ mod manual;
 mod options;
 mod outputs;
 mod plot;
+mod report;
 mod restart;
 mod run;
 mod scale;
 mod signals;
+mod summary;
+mod sweep;
 mod terminal;
 mod verbs;
 mod view;
@@ -135,8 +139,11 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Check(options) => check::check(&options),
         Verb::Explain(options) => verbs::explain(&options),
         Verb::Mesh(options) => verbs::mesh(&options),
+        Verb::Sweep(options) => sweep::sweep(&options),
+        Verb::Refine(options) => verbs::refine(&options),
         Verb::View(options) => view::view(&options),
         Verb::Plot(options) => plot::plot(&options),
+        Verb::Report(options) => report::report(&options),
         Verb::Diff(options) => verbs::diff(&options),
         Verb::Scale(options) => scale::scale(&options),
         Verb::Join(options) => verbs::join(&options),

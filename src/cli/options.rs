@@ -29,6 +29,7 @@ Examples:
   urto decks/taylor_bar.i                   runs it on all cores
   urto view taylor_bar.e -v EQPS            draws the last state
   urto plot taylor_bar.e                    its energies over time
+  urto report taylor_bar                    all of it on one page, for somebody else
   urto explain INITIAL VELOCITY MATERIAL    a command of the deck
   mpiexec -n 4 urto decks/taylor_bar.i      the same bits, over MPI
 
@@ -41,9 +42,12 @@ pub enum Verb {
     Run(Run),
     Check(Check),
     Explain(Explain),
+    Sweep(Sweep),
     Mesh(Mesh),
+    Refine(Refine),
     View(View),
     Plot(Box<Plot>),
+    Report(Report),
     Diff(Diff),
     Scale(Scale),
     Join(Join),
@@ -64,6 +68,9 @@ pub struct Input {
     /// Gives a name in the expressions of deck and recipe this value, in place of what {NAME = ...} gives it there
     #[arg(short = 'D', long, value_name = "NAME=VALUE")]
     pub define: Vec<String>,
+    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub refine: u32,
 }
 
 /// Runs a deck
@@ -97,6 +104,56 @@ pub struct Run {
     /// Warnings count as a failure: the run goes on to its end, but the exit code is 1
     #[arg(long)]
     pub strict: bool,
+    /// Writes at the end, for other programs, how it went: JSON with how it ended, warnings, energies, extremes and times
+    #[arg(long, value_name = "FILE")]
+    pub summary: Option<PathBuf>,
+}
+
+/// Runs a deck with all combinations of some values
+///
+/// Each -D gives a name of the deck's or the recipe's expressions its values: start:end:step, or a list with commas between.
+/// Every combination runs in a folder of its own, called by its values, several at a time as there are cores. What has come
+/// to its end is not run again when the study is started again, unless deck or mesh have changed since. A table of results
+/// (last value, peak and its time, and filtered peak) goes to table.txt and table.csv, and a plot of each variable's peak
+/// over the first parameter to VARIABLE.png. The peak of a variable is its value farthest from zero. A member that fails is
+/// named, and the others go on; the exit code is 1 then.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    /// The deck, x.i; the suffix may be left out
+    pub deck: PathBuf,
+    /// The mesh, or a recipe of one; else as for `run`
+    #[arg(short, long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// A name and its values: angle=0:40:10, or foam=0.2,0.3
+    #[arg(short = 'D', long, value_name = "NAME=VALUES", required = true)]
+    pub define: Vec<String>,
+    /// Folder of the study; else the deck's name with _sweep, here
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub refine: u32,
+    /// Ranks of each run
+    #[arg(short, long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub ranks: u32,
+    /// Runs at a time; else as many as have a core for each of their ranks
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub jobs: Option<u32>,
+    /// Variables of results and histories that the table has, with commas between, as for `plot`
+    #[arg(short, long, value_name = "NAMES", value_delimiter = ',')]
+    pub variables: Vec<String>,
+    /// Numbers of nodes at which nodal variables are taken
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub node: Vec<i64>,
+    /// Numbers of elements in which element variables are taken
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub element: Vec<i64>,
+    /// Filter of the filtered peak, as for `plot`: CFC60, CFC180, ...
+    #[arg(long, value_name = "CFCnnn")]
+    pub filter: Option<String>,
+    /// How long a second is in the deck's units of time, for the filter
+    #[arg(long, value_name = "T", default_value_t = 1.0)]
+    pub second: f64,
 }
 
 /// Reads deck and mesh and says what would be modelled; runs nothing
@@ -112,12 +169,30 @@ pub struct Check {
 
 /// Explains a command of decks or mesh recipes
 ///
-/// Syntax, arguments, units, defaults, an example and where the form comes from. Without a command, lists all.
-/// Names of material models, of their properties and of plot variables lead to the page that they stand on.
+/// Syntax, arguments, units, defaults, an example and where the form comes from; laws with their formulas and numbers worked
+/// through. Without a command, lists all. Names of material models, of their properties and of variables lead to the page
+/// that they stand on, words of other codes (wall, tied, mass scaling, d3plot) to what is here in their place, and other
+/// words to all pages whose text has them. --curve draws how the law of a block answers to tension, compression and shear
+/// of one element, before anything is run.
 #[derive(Debug, Args)]
 pub struct Explain {
     /// The command's words, quoted or not: urto explain INITIAL VELOCITY MATERIAL
     pub words: Vec<String>,
+    /// Draws stress over strain of the law that a deck gives a block
+    #[arg(long, num_args = 2, value_names = ["DECK", "BLOCK"], conflicts_with = "words")]
+    pub curve: Vec<String>,
+    /// The picture to write; else the deck's name with _blockN.png, here
+    #[arg(short, long, value_name = "FILE", requires = "curve")]
+    pub output: Option<PathBuf>,
+    /// Largest strain, logarithmic; in shear that of the tensor, half of the angle
+    #[arg(long, value_name = "S", default_value_t = 0.5, requires = "curve")]
+    pub strain: f64,
+    /// Strain rate, for laws that know it
+    #[arg(long, value_name = "R", default_value_t = 1.0, requires = "curve")]
+    pub rate: f64,
+    /// Gives a name in the deck's expressions this value
+    #[arg(short = 'D', long, value_name = "NAME=VALUE", requires = "curve")]
+    pub define: Vec<String>,
 }
 
 /// Makes a mesh from a recipe
@@ -140,6 +215,21 @@ pub struct Mesh {
     /// Value of the name `ranks` in the recipe's expressions
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub ranks: Option<u32>,
+}
+
+/// Divides every element of a mesh
+///
+/// Hexahedra become eight, quadrilaterals four, bars two, wedges six hexahedra, pyramids four hexahedra and four pyramids.
+/// Old nodes keep their numbers, elements are numbered anew; blocks, sets, names and attributes stay, and so does the
+/// surface: curved sides keep their facets. A model that is run on both meshes tells how far it is from converged. Recipes
+/// are better made anew: `urto mesh x.mesh --refine 2`.
+#[derive(Debug, Args)]
+pub struct Refine {
+    /// The mesh, x.g
+    pub mesh: PathBuf,
+    /// The mesh to write; else the mesh's name with _fine.g, here
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Draws a picture of results
@@ -284,6 +374,48 @@ pub struct Plot {
     /// Lists what there is to plot; draws nothing
     #[arg(long)]
     pub list: bool,
+}
+
+/// Makes a page of a run, for somebody else
+///
+/// One file of HTML that opens anywhere, without a network, and can be printed: how the run went and what it warned of,
+/// pictures of the mesh, of some states and of where the variable shown is largest, what was modelled, curves of energies
+/// and of all histories, extremes, contact, where the time went, and the deck. It is made from x.e, and from x.o and x.h
+/// where they are.
+#[derive(Debug, Args)]
+pub struct Report {
+    /// The run: its base name, or one of its files, x.e
+    pub run: PathBuf,
+    /// The page to write; else the run's name with .html, here
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Variable that colours the pictures, as for `view`
+    #[arg(short, long, value_name = "NAME")]
+    pub variable: Option<String>,
+    /// States side by side, with commas between, as for `view`; else four from the first to the last
+    #[arg(short, long, value_name = "STATES")]
+    pub states: Option<String>,
+    /// Side to look from, as for `view`
+    #[arg(short, long, value_name = "SIDE", default_value = "iso", allow_hyphen_values = true)]
+    pub from: String,
+    /// Factor on displacements
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub magnify: f64,
+    /// Planes of symmetry, as for `view`
+    #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
+    pub mirror: String,
+    /// Planes that cut the body open, as for `view`
+    #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
+    pub cut: String,
+    /// Leaves these blocks out
+    #[arg(long, value_name = "IDS", value_delimiter = ',')]
+    pub hide: Vec<i64>,
+    /// Shows accelerations of histories filtered too: CFC60, CFC180, ...
+    #[arg(long, value_name = "CFCnnn")]
+    pub filter: Option<String>,
+    /// How long a second is in the deck's units of time, for the filter
+    #[arg(long, value_name = "T", default_value_t = 1.0)]
+    pub second: f64,
 }
 
 /// Maps of colours that `view` knows.

@@ -4,7 +4,7 @@ use super::input::Given;
 use super::outputs::{Inputs, writable};
 use super::signals::Wishes;
 use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, date, display, options, restart};
+use super::{DONE, FAILED, Failure, date, display, options, restart, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, with_warnings};
 use crate::partition::Decomposition;
@@ -26,16 +26,16 @@ pub fn run(options: &options::Run) -> Result<u8, Failure> {
 const ANOTHER_BASE: &str = "results take the deck's name, or that of --output: name another with --output";
 
 /// What a run needs besides its communicator.
-struct Prepared {
-    given: Given,
+pub(super) struct Prepared {
+    pub(super) given: Given,
     body: Body,
-    ranks: usize,
-    files: Files,
+    pub(super) ranks: usize,
+    pub(super) files: Files,
     split: bool,
     continuation: Option<Continuation>,
     banner: Vec<String>,
-    qa: [String; 4],
-    clock: [Instant; 2],
+    pub(super) qa: [String; 4],
+    pub(super) clock: [Instant; 2],
 }
 
 impl Prepared {
@@ -56,6 +56,7 @@ impl Prepared {
         let written = files.written(if options.split { ranks } else { 0 });
         let restart = continuation.iter().map(|continuation| &continuation.path);
         given.inputs().spare(written.iter().chain(&files.restarts_written()), ANOTHER_BASE)?;
+        given.inputs().spare(&options.summary, "name another file with --summary")?;
         // A run that goes on renews its own restart states.
         Inputs::default().with("the restart file", restart).spare(&written, ANOTHER_BASE)?;
         let (day, date, time) = date::now();
@@ -66,7 +67,12 @@ impl Prepared {
                 ranks_in_words(ranks),
                 crate::lanes::InstructionSet::detect().name()
             ),
-            format!("deck {}   mesh {}", given.deck.display(), given.mesh_path.display()),
+            format!(
+                "deck {}   mesh {}{}",
+                given.deck.display(),
+                given.mesh_path.display(),
+                refined(options.input.refine)
+            ),
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
         let split = options.split;
@@ -103,6 +109,11 @@ impl Prepared {
             say(continuation.in_words());
         }
     }
+}
+
+/// How much finer a recipe's mesh is than the recipe says, in words.
+fn refined(times: u32) -> String {
+    if times == 1 { String::new() } else { format!(" refined {times} times") }
 }
 
 fn ranks_in_words(ranks: usize) -> String {
@@ -178,9 +189,13 @@ fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     match outcome {
         Ok(ended) => {
             wishes.obeyed();
-            Ok(report(&prepared, options.quiet, options.strict, ended.first()))
+            let code = report(&prepared, options.quiet, options.strict, ended.first());
+            match ended.first() {
+                Some(ended) => summary::write(options, &prepared, Ok(ended), code).map(|()| code),
+                None => Ok(code),
+            }
         }
-        Err(RankFailure::Failed { error, .. }) => Err(failure(&error)),
+        Err(RankFailure::Failed { error, .. }) => Err(failed(options, &prepared, &error)),
         Err(other) => Err(Failure::run(format_args!("error: {other}"))),
     }
 }
@@ -244,7 +259,15 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     match outcome {
         Ok(ended) => {
             wishes.obeyed();
-            Ok(report(&prepared, options.quiet || rank != 0, options.strict && rank == 0, Some(&ended)))
+            let code = report(&prepared, options.quiet || rank != 0, options.strict && rank == 0, Some(&ended));
+            if rank == 0 {
+                summary::write(options, &prepared, Ok(&ended), code)?;
+            }
+            Ok(code)
+        }
+        Err(error) if rank == 0 => {
+            let failure = failed(options, &prepared, &error);
+            all_leave(&mut world, failure)
         }
         Err(error) => all_leave(&mut world, failure(&error)),
     }
@@ -317,6 +340,15 @@ fn report(prepared: &Prepared, quiet: bool, strict: bool, ended: Option<&Ended>)
         Request::Interrupt => 130,
         Request::Terminate => 143,
     }
+}
+
+/// What is told of a run that failed, with its summary written.
+fn failed(options: &options::Run, prepared: &Prepared, error: &RunError) -> Failure {
+    let mut failure = failure(error);
+    if let Err(unwritten) = summary::write(options, prepared, Err(error), failure.code) {
+        failure.message += &format!("\n{}", unwritten.message);
+    }
+    failure
 }
 
 fn failure(error: &RunError) -> Failure {

@@ -1,15 +1,20 @@
-//! The smaller verbs: explain, mesh, diff, join, generate.
+//! The smaller verbs: explain, mesh, refine, diff, join, generate.
 
 use super::options::{self, Generated};
 use super::outputs::{ANOTHER_NAME, Inputs};
 use super::terminal::{complain, print, say};
 use super::{DONE, FAILED, Failure};
+use crate::mesh::Mesh;
+use crate::mesh::refine::refined;
 use crate::output::GLOBAL_VARIABLES;
 use crate::{deck, exodus, mesher};
 use std::path::PathBuf;
 
 /// `urto explain`
 pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
+    if let [deck, block] = &options.curve[..] {
+        return super::curve::curve(options, deck, block);
+    }
     let words = options.words.join(" ");
     if words.trim().is_empty() {
         print(&overview());
@@ -20,12 +25,20 @@ pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
         print(&format!("{name}\n   Global variable of the plot file, always written: {meaning}.\n"));
         return Ok(DONE);
     }
+    if let Some(text) = deck::explain_word(&words) {
+        print(&text);
+        return Ok(DONE);
+    }
     // A name that both languages have is most likely the deck's.
     let text = deck::explain(&words).or_else(|unknown| {
         let recipe = deck::explain_in(mesher::language(), &words);
         recipe.map_err(|other| if unknown.near.is_some() { unknown } else { other })
     });
-    print(&text.map_err(|e| Failure::input(format_args!("error: {e}")))?);
+    let found = |unknown: deck::UnknownTopic| match deck::search(&words) {
+        Some(pages) => Ok(format!("{words} stands in\n{pages}")),
+        None => Err(Failure::input(format_args!("error: {unknown}"))),
+    };
+    print(&text.or_else(found)?);
     Ok(DONE)
 }
 
@@ -49,6 +62,26 @@ pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     exodus::write_mesh(&output, &mesh).map_err(|e| Failure::run(format_args!("error: {e}")))?;
     let (nodes, elements, blocks) = (mesh.coordinates.len(), mesh.element_count(), mesh.blocks.len());
     say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s)", output.display()));
+    Ok(DONE)
+}
+
+/// `urto refine`
+pub fn refine(options: &options::Refine) -> Result<u8, Failure> {
+    let path = &options.mesh;
+    if super::input::is_recipe(path) {
+        let help = format_args!("help: `urto mesh {} --refine 2` makes the finer mesh", path.display()).to_string();
+        return Err(Failure::input(format_args!("error: {} is a recipe, not a mesh\n{help}", path.display())));
+    }
+    let output = options.output.clone().unwrap_or_else(|| {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        PathBuf::from(stem + "_fine.g")
+    });
+    Inputs::default().with("the mesh", [path]).spare(exodus::names_in_writing(&output), ANOTHER_NAME)?;
+    let coarse = exodus::read_mesh(path).map_err(Failure::input)?;
+    let fine = refined(&coarse).map_err(|e| Failure::input(format_args!("error: {}: {e}", path.display())))?;
+    exodus::write_mesh(&output, &fine).map_err(|e| Failure::run(format_args!("error: {e}")))?;
+    let counts = |mesh: &Mesh| format!("{} nodes, {} elements", mesh.coordinates.len(), mesh.element_count());
+    say(format_args!("{}: {}; {} had {}", output.display(), counts(&fine), path.display(), counts(&coarse)));
     Ok(DONE)
 }
 

@@ -85,16 +85,19 @@ fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
 /// The states asked for; none stands for the last.
 fn states(options: &options::View) -> Result<Vec<StateChoice>, Failure> {
     match (&options.state, options.time) {
-        (Some(list), _) => {
-            list.split(',').map(|text| text.trim().parse::<StateChoice>().map_err(Failure::input_error)).collect()
-        }
+        (Some(list), _) => state_list(list),
         (None, Some(time)) => Ok(vec![StateChoice::Nearest(time)]),
         (None, None) => Ok(vec![StateChoice::Last]),
     }
 }
 
+/// States with commas between.
+pub(super) fn state_list(list: &str) -> Result<Vec<StateChoice>, Failure> {
+    list.split(',').map(|text| text.trim().parse::<StateChoice>().map_err(Failure::input_error)).collect()
+}
+
 /// Planes such as `x=5,z=0`: axis and place.
-fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Failure> {
+pub(super) fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Failure> {
     let plane = |text: &str| {
         let (axis, place) = text.split_once('=')?;
         let axis = ["x", "y", "z"].iter().position(|name| name.eq_ignore_ascii_case(axis.trim()))?;
@@ -108,7 +111,7 @@ fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Failure> {
 }
 
 /// Mirror planes: `xy` for those through the origin, or each with its place.
-fn mirrors(text: &str) -> Result<[Option<f64>; 3], Failure> {
+pub(super) fn mirrors(text: &str) -> Result<[Option<f64>; 3], Failure> {
     let mut mirror = [None; 3];
     let letters = |part: &str| part.chars().map(|c| "xyz".find(c.to_ascii_lowercase())).collect::<Option<Vec<_>>>();
     for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{
+    glossary,
     grammar::{Entry, Form, Grammar, Kind, Standing, Status},
     language,
     lexer::{Field, Lexer},
@@ -41,12 +42,56 @@ pub fn explain(words: &str) -> Result<String, UnknownTopic> {
     let source = asked(words);
     let Some(record) = Lexer::new(&source).next_record() else { return Ok(overview()) };
     match spelling::recognise(&record.fields, topics()) {
-        Spelled::As { what, .. } => Ok(text(&page_of(what))),
+        Spelled::As { what, .. } => Ok(text(&page_of(what)) + &elsewhere(&record.fields, what)),
         _ => several(language(), source.text()).or_else(|| parts_named(&record.fields)).ok_or_else(|| {
             let names = topics().map(|(name, _)| name).chain(parts().into_iter().map(|(name, _)| name));
             UnknownTopic::new(source.text(), names.collect())
         }),
     }
+}
+
+/// Pages on which what these words name stands too: DAMAGE is a model and another's state variable.
+fn elsewhere(fields: &[Field], named: Topic) -> String {
+    let mut pages: Vec<String> = Vec::new();
+    for (name, topic) in parts() {
+        let same = spelling::word_count(name) == fields.len() && spelling::agreement(fields, name).is_some();
+        // What a command has of its own name is no news.
+        let title = page_of(topic).title;
+        if same && topic != named && !title.starts_with("PLOT ") && !pages.contains(&title) {
+            pages.push(title);
+        }
+    }
+    if pages.is_empty() { String::new() } else { format!("\n It also stands on the page of {}.\n", pages.join(", ")) }
+}
+
+/// What the glossaries say of a word or a variable, and the commands that begin with it.
+pub fn explain_word(words: &str) -> Option<String> {
+    let term = glossary::find(glossary::words(), words).or_else(|| glossary::find(glossary::variables(), words))?;
+    let commands = several(language(), asked(words).text()).map(|list| format!("\n Commands\n{list}"));
+    Some(text(&page::of_term(term)) + &commands.unwrap_or_default())
+}
+
+/// The pages whose text has all of these words, a line each; `None` where there is none. Searched are the glossaries,
+/// commands of decks and recipes, materials and equations of state.
+pub fn search(words: &str) -> Option<String> {
+    let wanted: Vec<String> = words.split_whitespace().map(str::to_lowercase).collect();
+    let entries = [language(), crate::mesher::language()].into_iter().flat_map(|grammar| &grammar.entries);
+    let pages = (glossary::words().iter().chain(glossary::variables()).map(page::of_term))
+        .chain(entries.map(page::of_entry))
+        .chain(MATERIALS.iter().map(|entry| page::of_material(entry)))
+        .chain(EQUATIONS_OF_STATE.iter().map(|entry| page::of_equation(entry)));
+    let found = pages.filter_map(|page| {
+        let text = text(&page);
+        let lower = text.to_lowercase();
+        let first = wanted.first().map_or("", String::as_str);
+        let line = text.lines().skip(1).find(|line| line.to_lowercase().contains(first)).or(text.lines().nth(1));
+        wanted
+            .iter()
+            .all(|word| lower.contains(word))
+            .then(|| format!("   {:<28}{}\n", page.title, line.unwrap_or("").trim()))
+    });
+    let found: String = found.collect();
+    (!found.is_empty() && !wanted.is_empty()).then_some(found)
 }
 
 /// As [`explain`], for the commands of another language, such as that of mesh recipes.
@@ -182,9 +227,12 @@ fn line(entry: &Entry) -> String {
 
 /// A page for a terminal.
 fn text(page: &Page) -> String {
-    let mut text = format!("{}\n{}", page.title, wrap(&page.summary, 3));
+    let summary = if page.summary.is_empty() { String::new() } else { wrap(&page.summary, 3) };
+    let mut text = format!("{}\n{summary}", page.title);
     for (heading, body) in &page.sections {
-        let _ = write!(text, "\n {heading}\n");
+        if !heading.is_empty() {
+            let _ = write!(text, "\n {heading}\n");
+        }
         match body {
             Body::Text(lines) => text.extend(lines.iter().map(|line| wrap(line, 3))),
             Body::Lines(lines) => text.extend(lines.iter().map(|line| format!("   {line}\n"))),

@@ -2,6 +2,7 @@
 
 use super::{
     fields::range_in_words,
+    glossary::{self, Term},
     grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
 };
 use crate::material::{self, EQUATIONS_OF_STATE, EquationOfState, MATERIALS, Origin, Property};
@@ -110,18 +111,45 @@ fn of_properties<T>(entry: &material::Entry<T>, first: String, see: &str) -> Pag
     }));
     form.push("END".into());
     let state = entry.state.iter().map(|v| (v.name.to_string(), v.meaning.to_string())).collect();
-    Page::new(
-        entry.name,
-        entry.summary.to_string(),
-        vec![
-            ("Form", Body::Lines(form)),
-            ("Properties", Body::Terms(entry.properties.iter().map(property).collect())),
-            ("State variables, for PLOT STATE", Body::Terms(state)),
-            ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
-            ("See also", Body::Text(vec![see.into()])),
-            (SPELLING, Body::Text(vec![origin(entry.origin).to_string()])),
-        ],
-    )
+    let law = glossary::law(entry.name).cloned().unwrap_or_default();
+    let mut sections = vec![
+        ("Form", Body::Lines(form)),
+        ("Properties", Body::Terms(entry.properties.iter().map(property).collect())),
+        ("State variables, for PLOT STATE", Body::Terms(state)),
+    ];
+    sections.extend(said("Formula", law.text));
+    sections.push(("Numbers", Body::Text(law.worked)));
+    sections.extend([
+        ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
+        ("See also", Body::Text(vec![see.into()])),
+        (SPELLING, Body::Text(vec![origin(entry.origin).to_string()])),
+    ]);
+    Page::new(entry.name, entry.summary.to_string(), sections)
+}
+
+/// The page of a word or a variable of the glossary.
+pub(super) fn of_term(term: &Term) -> Page {
+    let title = term.names.first().cloned().unwrap_or_default();
+    let mut sections = said("", term.text.clone());
+    let others = term.names.iter().skip(1).cloned().collect::<Vec<_>>();
+    sections.push(("Other words", Body::Text(if others.is_empty() { others } else { vec![others.join(", ")] })));
+    sections.push(("See also", Body::Text(if term.see.is_empty() { Vec::new() } else { vec![term.see.join(", ")] })));
+    Page::new(&title, String::new(), sections)
+}
+
+/// Paragraphs and lines that stay as they are, each kind in sections of its own; only the first has the heading.
+fn said(heading: &'static str, text: Vec<String>) -> Vec<(&'static str, Body)> {
+    let mut sections: Vec<(&'static str, Body)> = Vec::new();
+    for line in text {
+        let heading = if sections.is_empty() { heading } else { "" };
+        match (line.strip_prefix("  "), sections.last_mut()) {
+            (Some(kept), Some((_, Body::Lines(lines)))) => lines.push(kept.to_owned()),
+            (Some(kept), _) => sections.push((heading, Body::Lines(vec![kept.to_owned()]))),
+            (None, Some((_, Body::Text(lines)))) => lines.push(line),
+            (None, _) => sections.push((heading, Body::Text(vec![line]))),
+        }
+    }
+    sections
 }
 
 fn field(rule: &FieldRule) -> (String, String) {

@@ -17,6 +17,7 @@ mod plastic;
 mod point;
 mod power_hardening;
 mod property;
+pub mod response;
 mod soil;
 #[cfg(test)]
 mod tests;

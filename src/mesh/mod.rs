@@ -12,6 +12,7 @@ pub mod hexahedron;
 mod kind;
 pub mod locate;
 mod part;
+pub mod refine;
 mod shape;
 
 pub use connectivity::Connectivity;

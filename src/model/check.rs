@@ -32,6 +32,9 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY NODE").filter(|card| card.complete) {
         nodes_there(card, mesh, &mut found);
     }
+    for card in problem.deck.cards_of("HISTORY RIGID SURFACE").filter(|card| card.complete) {
+        walls_there(card, problem, &mut found);
+    }
     found
 }
 
@@ -45,6 +48,20 @@ fn nodes_there(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
                 Diagnostic::error(format!("{}: the mesh has no node {id}", card.name))
                     .at(span, "no node of the mesh has this number")
                     .help(format!("its nodes are numbered from {} to {}", ends[0], ends[1])),
+            );
+        }
+    }
+}
+
+/// Reports side sets to watch that meet no rigid surface.
+fn walls_there(card: &Card, problem: &Problem, found: &mut Diagnostics) {
+    for item in card.items("side_set") {
+        let (Some(id), Some(span)) = (item.value.integer(), item.span) else { continue };
+        if !problem.model.rigid_surfaces.iter().any(|plane| plane.side_set == id) {
+            found.push(
+                Diagnostic::error(format!("{}: side set {id} meets no rigid surface", card.name))
+                    .at(span, "there is no RIGID SURFACE for this side set")
+                    .help("the force on a node set is written by HISTORY NODE SET"),
             );
         }
     }

@@ -127,6 +127,8 @@ pub enum Watched {
     NodeSet(i64),
     /// The node with this number.
     Node(i64),
+    /// The force of rigid surfaces on the nodes of the side set with this number.
+    RigidSurface(i64),
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.

@@ -22,6 +22,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("HISTORY BLOCK", history_block),
     ("HISTORY NODE SET", |card, draft| watch(card, draft, "node_set", Watched::NodeSet)),
     ("HISTORY NODE", |card, draft| watch(card, draft, "node", Watched::Node)),
+    ("HISTORY RIGID SURFACE", |card, draft| watch(card, draft, "side_set", Watched::RigidSurface)),
 ];
 
 /// Lines of the print log when OUTPUT TIME does not say.
@@ -150,7 +151,7 @@ fn check_histories(draft: &mut Draft) {
         draft.report(
             Diagnostic::warning("HISTORY TIME: nothing is watched, so that nothing follows from this")
                 .at(card.record, "interval of histories")
-                .help("HISTORY BLOCK, HISTORY NODE SET, HISTORY NODE and MATERIAL POINT say what to watch"),
+                .help("HISTORY BLOCK, HISTORY NODE SET, HISTORY NODE, HISTORY RIGID SURFACE and MATERIAL POINT say what to watch"),
         );
     }
 }

@@ -13,6 +13,8 @@ pub struct Curve {
     pub y: Vec<f64>,
     /// Belongs to the axis on the right.
     pub right: bool,
+    /// Its points are shown where they are few.
+    pub points: bool,
     /// Comes from a file of numbers, not from a run.
     pub reference: bool,
     /// Which of the runs it comes from.
@@ -30,6 +32,13 @@ pub struct Extremes {
     pub greatest: [f64; 2],
     /// Where the last value is, and the value.
     pub last: [f64; 2],
+}
+
+impl Extremes {
+    /// Where the value farthest from zero is, and the value.
+    pub fn farthest(&self) -> [f64; 2] {
+        if self.least[1].abs() > self.greatest[1].abs() { self.least } else { self.greatest }
+    }
 }
 
 impl Curve {

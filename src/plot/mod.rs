@@ -22,9 +22,8 @@ pub use curve::{Curve, Extremes};
 pub use error::PlotError;
 pub use filter::Class;
 pub use options::{Log, PlotOptions, Range};
+pub use paper::Texts;
 pub use run::{Run, Site};
-
-use paper::Texts;
 
 /// What a plot shows, for the lines that are printed about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +50,20 @@ pub fn curves(options: &PlotOptions) -> Result<Drawn, PlotError> {
     }
     let title = runs.first().map(Run::title).unwrap_or_default();
     Ok(Drawn { title, curves, warnings })
+}
+
+/// All variables of the whole body in a file and what belongs to it, as they are.
+///
+/// # Errors
+/// When it cannot be read, or has no states.
+pub fn whole_body(path: &Path) -> Result<Vec<Curve>, PlotError> {
+    let run = Run::open(path)?;
+    let curve = |name: &String| {
+        let y = run.values(name, Site::Global)?;
+        let (label, x) = (name.clone(), run.times().to_vec());
+        Ok(Curve { label, x, y, right: false, points: false, reference: false, run: 0, site: Site::Global })
+    };
+    run.names(Site::Global).iter().map(curve).collect()
 }
 
 /// What is written around the curves. The name of an axis' only curve stands at the axis.
@@ -80,6 +93,15 @@ pub fn draw(picture: &Path, options: &PlotOptions) -> Result<Drawn, PlotError> {
     let bytes = paper::draw(picture, &drawn.curves, &texts(&drawn, options), options)?;
     write(picture, &bytes)?;
     Ok(drawn)
+}
+
+/// Curves that the caller has made, as the bytes of a picture, whose kind the suffix of `name` tells.
+///
+/// # Errors
+/// When they hold nothing that can be drawn.
+pub fn picture(name: &Path, curves: &[Curve], texts: &Texts, options: &PlotOptions) -> Result<Vec<u8>, PlotError> {
+    options.check()?;
+    paper::draw(name, curves, texts, options)
 }
 
 /// The same as comma-separated values.

@@ -37,7 +37,7 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
         for (chosen, right) in wanted {
             let y = values(run, &chosen)?;
             let (x, label) = (run.times().to_vec(), chosen.label.clone());
-            curves.push(Curve { label, x, y, right, reference: false, run: number, site: chosen.site });
+            curves.push(Curve { label, x, y, right, points: false, reference: false, run: number, site: chosen.site });
         }
     }
     name_runs(&mut curves, runs);

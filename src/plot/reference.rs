@@ -50,6 +50,7 @@ pub fn read(path: &Path) -> Result<Vec<Curve>, PlotError> {
             x: x.clone(),
             y,
             right: false,
+            points: true,
             reference: true,
             run: 0,
             site: Site::Global,

@@ -50,7 +50,10 @@ impl Run {
             if !next.exists() && !any_pieces_of(&next) {
                 break;
             }
-            parts.push(Part::open(&next)?);
+            let part = Part::open(&next)?;
+            // What an earlier run of this name was continued into lies there still, and is no part of this one.
+            let stale = parts.first().and_then(Part::begun).zip(part.begun()).is_some_and(|(first, own)| own < first);
+            parts.extend((!stale).then_some(part));
         }
         // A run that goes on from before the end of the one before replaces what that one went on to.
         for i in (1..parts.len()).rev() {
@@ -153,6 +156,13 @@ impl Part {
         let pieces = files.iter().map(|file| Results::open(file)).collect::<Result<Vec<_>, _>>()?;
         let states = pieces.iter().map(|piece| piece.times().len()).min().unwrap_or(0);
         Ok(Part { pieces, states })
+    }
+
+    /// When the program was started that wrote it, as year, month, day and time; `None` where its records do not tell.
+    fn begun(&self) -> Option<[String; 4]> {
+        let [_, _, date, time] = self.pieces.first()?.qa().pop()?;
+        let [month, day, year]: [&str; 3] = date.split('/').collect::<Vec<_>>().try_into().ok()?;
+        Some([year, month, day, &time].map(|text| text.trim().to_owned()))
     }
 
     /// The times of the states that count.

@@ -56,6 +56,7 @@ mod tests {
             x: x.to_vec(),
             y: y.to_vec(),
             right: false,
+            points: false,
             reference: false,
             run: 0,
             site: Site::Global,

@@ -119,7 +119,16 @@ mod tests {
 
     fn curve(count: usize, interval: f64) -> Curve {
         let x: Vec<f64> = (0..count).map(|i| i as f64 * interval).collect();
-        Curve { label: "A".into(), y: vec![1.0; count], x, right: false, reference: false, run: 0, site: Site::Global }
+        Curve {
+            label: "A".into(),
+            y: vec![1.0; count],
+            x,
+            right: false,
+            points: false,
+            reference: false,
+            run: 0,
+            site: Site::Global,
+        }
     }
 
     #[test]

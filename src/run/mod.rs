@@ -23,7 +23,7 @@ use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, block_energy_names};
 use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
-use crate::solver::{Body, Request, Section, Solver, Stop};
+use crate::solver::{Body, Finding, Request, Section, Solver, Stop};
 use plots::Plots;
 use restart::RestartFiles;
 use std::path::PathBuf;
@@ -82,6 +82,12 @@ pub struct Ended {
     pub grind: f64,
     /// Wall-clock seconds of the step loop.
     pub wall: f64,
+    /// What it has found out about itself.
+    pub findings: Vec<Finding>,
+    /// Wall-clock seconds of each section of the step, the mean over all ranks.
+    pub sections: Vec<(String, f64)>,
+    /// Most memory held by this process, in bytes, where the system tells.
+    pub memory: Option<f64>,
 }
 
 /// Why a run failed.
@@ -95,9 +101,11 @@ pub enum RunError {
         /// Time.
         time: f64,
         /// Cause.
-        stop: Stop,
+        stop: Box<Stop>,
         /// Why the last state could not be written, if it could not.
         unwritten: Option<Box<RunError>>,
+        /// What the run had found out about itself.
+        findings: Vec<Finding>,
     },
     /// The first step is so short that the run would take for ever.
     #[error(transparent)]
@@ -210,7 +218,8 @@ fn give_up(
     let written = writer.warnings(solver, comm, display).and_then(|()| writer.state(solver, comm));
     let written = written.and_then(|()| writer.history(solver, comm, false));
     let unwritten = written.err().map(Box::new);
-    Err(RunError::Stopped { step: solver.step, time: solver.time, stop, unwritten })
+    let findings = solver.findings().to_vec();
+    Err(RunError::Stopped { step: solver.step, time: solver.time, stop: Box::new(stop), unwritten, findings })
 }
 
 /// Plot file and print log of a run; the log is open on rank 0 only, but every rank takes part in collecting.
@@ -471,6 +480,9 @@ impl<'a> Writer<'a> {
             warnings,
             grind: table.grind(),
             wall,
+            findings: solver.findings().to_vec(),
+            sections: table.sections.iter().map(|part| (part.name.clone(), part.spread.mean)).collect(),
+            memory: table.memory,
         })
     }
 }

@@ -2,33 +2,26 @@
 //! numbered PNGs or one moving GIF.
 //!
 //! Data flows one way: a results file and [`ViewOptions`] become a `scene` (`subject`, `skin`, `section`, `field`); a
-//! `camera` and a `raster` turn it into pixels; `arrows` are drawn on it; `annotate` writes around it what it shows. `film`
+//! `camera` and a `raster` (in `paint`) turn it into pixels; `arrows` are drawn on it; `annotate` writes around it what it shows. `film`
 //! and `row` show many states.
 
-mod annotate;
-mod arrows;
-mod camera;
-mod colour;
+mod body;
 mod error;
-mod field;
-mod film;
-mod lines;
-pub(crate) mod numbers;
 mod options;
-mod palette;
-mod raster;
-mod row;
-mod scene;
-mod section;
-mod subject;
-pub(crate) mod text;
+mod paint;
+mod sheet;
 
 use std::path::{Path, PathBuf};
 
 pub use error::ViewError;
-pub use film::draw_many;
 pub use options::{Direction, MapChoice, StateChoice, ViewOptions};
-pub use row::draw_row;
+pub use sheet::film::draw_many;
+pub use sheet::row::{draw_row, picture_of_row};
+
+use body::{field, scene, subject};
+use paint::{camera, colour, lines, palette, raster};
+pub(crate) use paint::{numbers, text};
+use sheet::{annotate, arrows};
 
 use annotate::{Key, Layout, Notes, annotate};
 use camera::{Axes, Bounds, Camera};
@@ -67,7 +60,17 @@ pub struct Summary {
 /// # Errors
 /// [`ViewError`], when the file cannot be read, lacks the variable, state or block asked for, an option cannot be
 /// used, or the picture cannot be written.
-pub fn draw(results: &Path, picture: &Path, options: &ViewOptions) -> Result<Summary, ViewError> {
+pub fn draw(results: &Path, path: &Path, options: &ViewOptions) -> Result<Summary, ViewError> {
+    let (bytes, summary) = picture(results, options)?;
+    write(path, &bytes)?;
+    Ok(Summary { path: path.to_owned(), ..summary })
+}
+
+/// The same as the bytes of a PNG; the summary has no path.
+///
+/// # Errors
+/// As [`draw`].
+pub fn picture(results: &Path, options: &ViewOptions) -> Result<(Vec<u8>, Summary), ViewError> {
     options.check()?;
     let subject = Subject::open(results, options)?;
     let state = subject.state(options.state)?;
@@ -75,8 +78,8 @@ pub fn draw(results: &Path, picture: &Path, options: &ViewOptions) -> Result<Sum
     let axes = Axes::new(options.from);
     let studio = Studio::new(&subject, options, bounds(&shot.scene, &axes), shot.scene.extremes());
     let image = studio.picture(&shot, state)?;
-    write(picture, &png(&image, picture)?)?;
-    Ok(studio.summary(picture, &shot, state))
+    let unnamed = Path::new("");
+    Ok((png(&image, unnamed)?, studio.summary(unnamed, &shot, state)))
 }
 
 /// Everything that the pictures of a film have in common.

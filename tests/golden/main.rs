@@ -55,6 +55,7 @@ const LIGHTER: &[Lighter] = &[
             ("5, 60, QUARTER", "2, 16, QUARTER"),
         ],
     },
+    Lighter { deck: "lined_box", until: None, mesh: &[("10, 10, 20", "5, 5, 10")] },
     Lighter { deck: "taylor_bar", until: None, mesh: &[("8, 160, QUARTER", "2, 40, QUARTER")] },
     Lighter { deck: "taylor_bar_steel", until: None, mesh: &[("3, 81, QUARTER", "2, 40, QUARTER")] },
     Lighter { deck: "taylor_bar_wall", until: Some(30e-6), mesh: &[] },

@@ -7,6 +7,7 @@
 mod blocks;
 mod points;
 mod sets;
+mod walls;
 
 use blocks::{Motion, block_motions};
 pub use blocks::{block_energies, block_energy_names};
@@ -17,6 +18,7 @@ use crate::model::{Model, Watched};
 use crate::solver::{Remembered, Solver};
 use points::Points;
 use sets::NodeGroup;
+use walls::Wall;
 
 /// Kinds of what is watched, as [`Remembered`] tells them apart.
 const POINT: u8 = 1;
@@ -31,18 +33,21 @@ pub struct HistoryPlan {
     /// Positions and numbers of blocks in the mesh.
     blocks: Vec<(usize, i64)>,
     groups: Vec<NodeGroup>,
+    walls: Vec<Wall>,
 }
 
 impl HistoryPlan {
     /// Finds what the model names in the mesh.
     pub fn new(mesh: &Mesh, model: &Model) -> HistoryPlan {
-        let mut plan = HistoryPlan { points: Points::new(mesh, model), blocks: Vec::new(), groups: Vec::new() };
+        let mut plan =
+            HistoryPlan { points: Points::new(mesh, model), blocks: Vec::new(), groups: Vec::new(), walls: Vec::new() };
         for watched in &model.histories {
             match *watched {
                 Watched::Blocks => plan.blocks.extend(mesh.blocks.iter().map(|block| block.id).enumerate()),
                 Watched::Block(id) => plan.blocks.extend(mesh.block_index(id).map(|index| (index, id))),
                 Watched::NodeSet(id) => plan.groups.extend(NodeGroup::of_set(mesh, id)),
                 Watched::Node(id) => plan.groups.extend(NodeGroup::of_node(mesh, id)),
+                Watched::RigidSurface(id) => plan.walls.push(Wall::new(mesh, id)),
             }
         }
         plan.blocks.sort_unstable();
@@ -52,14 +57,15 @@ impl HistoryPlan {
 
     /// Whether nothing is watched.
     pub fn is_empty(&self) -> bool {
-        self.points.is_empty() && self.blocks.is_empty() && self.groups.is_empty()
+        self.points.is_empty() && self.blocks.is_empty() && self.groups.is_empty() && self.walls.is_empty()
     }
 
-    /// Names of the variables: points, then blocks, then nodes and their sets.
+    /// Names of the variables: points, then blocks, then nodes and their sets, then rigid surfaces.
     pub fn names(&self) -> Vec<String> {
         let blocks = self.blocks.iter().flat_map(|(_, id)| Motion::NAMES.map(|name| format!("{name}_BLOCK{id}")));
         let groups = self.groups.iter().flat_map(NodeGroup::names);
-        self.points.names().into_iter().chain(blocks).chain(groups).collect()
+        let walls = self.walls.iter().flat_map(Wall::names);
+        self.points.names().into_iter().chain(blocks).chain(groups).chain(walls).collect()
     }
 
     /// Lines for the records: where points are.
@@ -78,6 +84,7 @@ impl HistoryPlan {
         let points = self.points.values(solver, comm);
         let blocks = block_motions(&self.blocks.iter().map(|(index, _)| *index).collect::<Vec<_>>(), solver, comm);
         let groups = sets::values(&self.groups, solver, comm);
+        let walls = walls::forces(&self.walls, solver, comm);
         let mut points = points?;
         let time = solver.time;
         let kept = &mut solver.remembered;
@@ -95,6 +102,7 @@ impl HistoryPlan {
             accelerate(kept, group.key(), time, due, &mut of_group, 6);
             values.append(&mut of_group);
         }
+        values.extend(walls.concat());
         Some(values)
     }
 }

@@ -24,7 +24,7 @@ const FAINT: RGBColor = RGBColor(107, 107, 115);
 const GRID: RGBColor = RGBColor(228, 228, 231);
 const ZERO: RGBColor = RGBColor(170, 170, 176);
 const LINE_WIDTH: f64 = 2.0;
-/// A curve from a file with fewer points than this shows them.
+/// A curve with fewer points than this shows them, if it is one that does.
 const FEW_POINTS: usize = 60;
 /// Letters of an SVG, where the viewer has them: widths were measured with the first.
 const FAMILY: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
@@ -106,7 +106,7 @@ impl<DB: DrawingBackend> Paper<'_, DB> {
         let colour = RGBColor(red, green, blue);
         let width = LINE_WIDTH * layout.unit.max(0.6);
         let pattern: Vec<f64> = pen.pattern.iter().map(|length| length * width).collect();
-        let few = curve.reference && curve.x.len() <= FEW_POINTS;
+        let few = curve.points && curve.x.len() <= FEW_POINTS;
         for run in unbroken(&spots) {
             for line in clipped(&thinned(run, 1.0), layout.field) {
                 for dash in dashed(&line, &pattern) {

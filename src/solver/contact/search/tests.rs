@@ -45,7 +45,7 @@ impl Scene {
         search.find(&self.nodes, &self.faces, &self.connectivity, found);
         assert_eq!(found.nodes(), self.nodes.len());
         let lists: Vec<Vec<u32>> = (0..self.nodes.len()).map(|node| found.of(node).to_vec()).collect();
-        assert_eq!(found.len(), lists.iter().map(Vec::len).sum());
+        assert_eq!(found.len(), lists.iter().map(Vec::len).sum::<usize>());
         assert_eq!(found.is_empty(), lists.iter().all(Vec::is_empty));
         lists
     }

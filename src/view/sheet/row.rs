@@ -5,11 +5,11 @@ use std::path::Path;
 use tiny_skia::{Color, Pixmap, PixmapPaint, Transform};
 
 use super::annotate::{annotate, label};
-use super::camera::{Axes, Camera, Rectangle};
 use super::film::survey;
-use super::numbers::number;
-use super::subject::{Shot, Subject};
-use super::{StateChoice, Studio, Summary, ViewError, ViewOptions, png, too_large, write};
+use crate::view::camera::{Axes, Camera, Rectangle};
+use crate::view::numbers::number;
+use crate::view::subject::{Shot, Subject};
+use crate::view::{StateChoice, Studio, Summary, ViewError, ViewOptions, png, too_large, write};
 
 /// Share of the room of a state that its label takes, in pixels of a picture 900 high, and the gap between two.
 const LABEL: f64 = 34.0;
@@ -18,13 +18,27 @@ const GAP: f64 = 12.0;
 /// Draws several states into one PNG. The state in `options` is not used.
 ///
 /// # Errors
-/// As [`draw`](super::draw).
+/// As [`draw`](crate::view::draw).
 pub fn draw_row(
     results: &Path,
-    picture: &Path,
+    path: &Path,
     choices: &[StateChoice],
     options: &ViewOptions,
 ) -> Result<Vec<Summary>, ViewError> {
+    let (bytes, shown) = picture_of_row(results, choices, options)?;
+    write(path, &bytes)?;
+    Ok(shown.into_iter().map(|summary| Summary { path: path.to_owned(), ..summary }).collect())
+}
+
+/// The same as the bytes of a PNG; the summaries have no path.
+///
+/// # Errors
+/// As [`draw`](crate::view::draw).
+pub fn picture_of_row(
+    results: &Path,
+    choices: &[StateChoice],
+    options: &ViewOptions,
+) -> Result<(Vec<u8>, Vec<Summary>), ViewError> {
     options.check()?;
     let subject = Subject::open(results, options)?;
     let states = choices.iter().map(|&choice| subject.state(choice)).collect::<Result<Vec<_>, _>>()?;
@@ -66,8 +80,9 @@ pub fn draw_row(
     }
     let notes = studio.notes(&shots.iter().zip(states.iter().copied()).collect::<Vec<(&Shot, _)>>());
     annotate(&mut sheet, &studio.layout, &notes, studio.camera.axes(), &studio.map);
-    write(picture, &png(&sheet, picture)?)?;
-    Ok(shots.iter().zip(states).map(|(shot, state)| studio.summary(picture, shot, state)).collect())
+    let unnamed = Path::new("");
+    let shown = shots.iter().zip(states).map(|(shot, state)| studio.summary(unnamed, shot, state)).collect();
+    Ok((png(&sheet, unnamed)?, shown))
 }
 
 fn label_height(unit: f64) -> f64 {

@@ -2,8 +2,8 @@
 
 /// Variables drawn when none is asked for, the first that the file has.
 const CUSTOMARY: [&str; 4] = ["EQPS", "VONMISES", "VEL", "DISPL"];
-/// Stems under which displacements are found.
-const DISPLACEMENTS: [&str; 2] = ["DISPL", "DISP"];
+/// Stems under which programs write displacements.
+const DISPLACEMENTS: [&str; 6] = ["DISPL", "DISP", "DISPLACEMENT", "DISPLACEMENTS", "DIS", "U"];
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
 /// Where a variable has its values.

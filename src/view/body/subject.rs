@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::ViewError;
-use super::camera::Axes;
 use super::field::{Field, Names, Place};
-use super::options::{StateChoice, ViewOptions};
 use super::scene::{Scene, Values};
 use super::section::{Between, Cutting, Plane};
 use crate::exodus::{Results, ResultsError};
 use crate::mesh::exterior::{SIDES, exterior};
 use crate::mesh::{Block, Mesh, Shape};
 use crate::vector::dot;
+use crate::view::ViewError;
+use crate::view::camera::Axes;
+use crate::view::options::{StateChoice, ViewOptions};
 
 /// A face of the outer surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

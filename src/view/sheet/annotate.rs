@@ -2,10 +2,10 @@
 
 use tiny_skia::{FillRule, LineCap, Paint, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
-use super::camera::{Axes, Rectangle};
-use super::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
-use super::numbers::{number, ticks};
-use super::text::{Align, Style, Typeface};
+use crate::view::camera::{Axes, Rectangle};
+use crate::view::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
+use crate::view::numbers::{number, ticks};
+use crate::view::text::{Align, Style, Typeface};
 
 const INK: Rgb = [0.13, 0.13, 0.15];
 const FAINT: Rgb = [0.42, 0.42, 0.45];

@@ -9,8 +9,8 @@ use tiny_skia::Pixmap;
 use super::camera::Camera;
 use super::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
 use super::lines::{Line, Pen};
-use super::scene::{Scene, Values};
 use crate::vector::dot;
+use crate::view::scene::{Scene, Values};
 
 /// Samples per pixel in each direction.
 const SAMPLES: usize = 4;

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use tiny_skia::{FillRule, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
-use super::camera::Camera;
-use super::scene::Scene;
 use crate::vector::dot;
+use crate::view::camera::Camera;
+use crate::view::scene::Scene;
 
 /// Pixels, of a picture 900 high, that an arrow has for itself, and of the longest arrow.
 const APART: f64 = 30.0;

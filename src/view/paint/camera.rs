@@ -1,6 +1,6 @@
 //! Parallel projection of the body onto the picture.
 
-use super::options::Direction;
+use crate::view::options::Direction;
 
 /// A rectangle of the picture in pixels, y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use gif::{Encoder, Frame, Repeat};
 use tiny_skia::Pixmap;
 
-use super::camera::{Axes, Bounds};
-use super::colour::ColourMap;
-use super::palette::Palette;
-use super::subject::Subject;
-use super::{Studio, Summary, ViewError, ViewOptions, bounds, png, write};
+use crate::view::camera::{Axes, Bounds};
+use crate::view::colour::ColourMap;
+use crate::view::palette::Palette;
+use crate::view::subject::Subject;
+use crate::view::{Studio, Summary, ViewError, ViewOptions, bounds, png, write};
 
 /// How long a GIF shows each state, in hundredths of a second.
 const DELAY: u16 = 10;
@@ -23,7 +23,7 @@ const DELAY: u16 = 10;
 /// their colours mean the same values. The state in `options` is not used.
 ///
 /// # Errors
-/// As [`draw`](super::draw).
+/// As [`draw`](crate::view::draw).
 pub fn draw_many(
     results: &Path,
     picture: &Path,
@@ -49,10 +49,10 @@ pub fn draw_many(
     Ok(summaries)
 }
 
-pub(super) type Extremes = Option<(f64, f64)>;
+pub(in crate::view) type Extremes = Option<(f64, f64)>;
 
 /// The box around all states, and the smallest and largest value in them.
-pub(super) fn survey(
+pub(in crate::view) fn survey(
     subject: &Subject,
     states: &[Option<usize>],
     axes: &Axes,

@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
-use super::annotate::AXIS_COLOURS;
 use super::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
+use crate::view::annotate::AXIS_COLOURS;
 
 /// Steps of the colour map, and the brightness that light and lines leave of a colour.
 const MAP_STEPS: usize = 46;

@@ -1,7 +1,7 @@
 //! The lines along a face's edges. Each face draws its half of a line on itself, so that a line is hidden exactly
 //! where its face is.
 
-use super::scene::Edge;
+use crate::view::scene::Edge;
 
 /// Half the widths (pixels of a picture 900 high) and the darkness of lines.
 const MESH: (f64, f32) = (0.45, 0.50);
