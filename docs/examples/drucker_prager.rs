@@ -6,42 +6,39 @@ use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
-/// Von Mises stress at most c + p tan β at the pressure p; flow without change of volume (Drucker and Prager 1952).
-#[derive(Debug, Clone, PartialEq)]
-pub struct DruckerPrager {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Strength without pressure c, force/length².
-    pub cohesion: f64,
-    /// tan β
-    pub friction: f64,
+parameters! {
+    /// Von Mises stress at most c + p tan β at the pressure p; flow without change of volume (Drucker and Prager 1952).
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct DruckerPrager {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Strength without pressure c, force/length².
+        pub cohesion: f64 = [
+            Property::required("COHESION", "c", STRESS, Range::NotNegative, "Von Mises stress at yield without pressure."),
+        ],
+        /// tan β
+        pub friction: f64 = [
+            Property::required("FRICTION", "tan(beta)", "-", Range::NotNegative, "Growth of that with the pressure.")
+                .or(0.0),
+        ],
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "DRUCKER PRAGER",
     aliases: &[],
     summary: "Strength that grows linearly with the pressure.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        Property::required("COHESION", "c", STRESS, Range::NotNegative, "Von Mises stress at yield without pressure."),
-        Property::required("FRICTION", "tan(beta)", "-", Range::NotNegative, "Growth of that with the pressure.")
-            .or(0.0),
-    ],
+    properties: DruckerPrager::PROPERTIES,
     state: &[StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." }],
     origin: Origin::Ours,
-    build: |v| Ok(Law::DruckerPrager(DruckerPrager { young: v[0], poisson: v[1], cohesion: v[2], friction: v[3] })),
+    build: |given| Ok(Law::DruckerPrager(DruckerPrager::read(given)?)),
 };
 
 impl DruckerPrager {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.poisson, self.cohesion, self.friction]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

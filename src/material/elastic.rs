@@ -4,15 +4,6 @@ use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
-/// Isotropic linear elasticity, σ̇ = λ tr(d) I + 2μ d in the unrotated frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elastic {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-}
-
 /// Poisson's ratios for which λ and μ are finite and positive definite.
 const POISSON_RANGE: Range = Range::Between { low: (-1.0, false), high: (0.5, false) };
 
@@ -24,23 +15,30 @@ pub(super) const YOUNGS_MODULUS: Property =
 pub(super) const POISSONS_RATIO: Property =
     Property::required("POISSONS RATIO", "nu", "-", POISSON_RANGE, "Poisson's ratio.");
 
+parameters! {
+    /// Isotropic linear elasticity, σ̇ = λ tr(d) I + 2μ d in the unrotated frame.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Elastic {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+    }
+}
+
 pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC",
     aliases: &[],
     summary: "Isotropic linear elasticity in rate form, objective under any rotation.",
-    properties: &[YOUNGS_MODULUS, POISSONS_RATIO],
+    properties: Elastic::PROPERTIES,
     state: &[],
     origin: Origin::Recalled,
-    build: |v| Ok(Law::Elastic(Elastic { young: v[0], poisson: v[1] })),
+    build: |given| Ok(Law::Elastic(Elastic::read(given)?)),
 };
 
 impl Elastic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.poisson]
     }
 
     pub(super) fn state(&self, _: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -5,21 +5,6 @@ use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
-/// J2 flow theory with linear isotropic and kinematic hardening.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ElasticPlastic {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Initial yield stress in uniaxial tension Y₀, force/length².
-    pub yield_stress: f64,
-    /// Uniaxial plastic hardening modulus H = dσ/dε̄ᵖ, force/length².
-    pub hardening: f64,
-    /// β: 1 is isotropic hardening, 0 kinematic, linear between.
-    pub beta: f64,
-}
-
 /// Yield stress, for every law with one.
 pub(super) const YIELD_STRESS: Property =
     Property::required("YIELD STRESS", "Y0", STRESS, Range::NotNegative, "Initial yield stress in uniaxial tension.");
@@ -44,11 +29,28 @@ const BETA: Property = Property::required(
 )
 .or(1.0);
 
+parameters! {
+    /// J2 flow theory with linear isotropic and kinematic hardening.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct ElasticPlastic {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Initial yield stress in uniaxial tension Y₀, force/length².
+        pub yield_stress: f64 = [YIELD_STRESS],
+        /// Uniaxial plastic hardening modulus H = dσ/dε̄ᵖ, force/length².
+        pub hardening: f64 = [HARDENING_MODULUS],
+        /// β: 1 is isotropic hardening, 0 kinematic, linear between.
+        pub beta: f64 = [BETA],
+    }
+}
+
 pub(super) static ENTRY: Entry = Entry {
     name: "ELASTIC PLASTIC",
     aliases: &["ELASTIC-PLASTIC"],
     summary: "Von Mises plasticity with linear hardening, isotropic, kinematic or combined.",
-    properties: &[YOUNGS_MODULUS, POISSONS_RATIO, YIELD_STRESS, HARDENING_MODULUS, BETA],
+    properties: ElasticPlastic::PROPERTIES,
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "RADIUS", meaning: "Radius of the yield surface in deviatoric stress space." },
@@ -60,24 +62,12 @@ pub(super) static ENTRY: Entry = Entry {
         StateVariable { name: "ALPHA31", meaning: "Back stress, zx component turning with the material." },
     ],
     origin: Origin::Verified,
-    build: |v| {
-        Ok(Law::ElasticPlastic(ElasticPlastic {
-            young: v[0],
-            poisson: v[1],
-            yield_stress: v[2],
-            hardening: v[3],
-            beta: v[4],
-        }))
-    },
+    build: |given| Ok(Law::ElasticPlastic(ElasticPlastic::read(given)?)),
 };
 
 impl ElasticPlastic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.poisson, self.yield_stress, self.hardening, self.beta]
     }
 
     /// Equivalent plastic strain, radius of the yield surface, back stress in space.

@@ -8,44 +8,42 @@ use super::plastic::{Flow, compose, radial_return};
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
-/// A solid under high pressure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ElasticPlasticHydrodynamic {
-    /// Equation of state of the pressure.
-    pub equation: EquationOfState,
-    /// Young's modulus E, force/length²; with Poisson's ratio it makes the shear modulus.
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Initial yield stress in uniaxial tension Y₀, force/length².
-    pub yield_stress: f64,
-    /// Uniaxial plastic hardening modulus H, force/length².
-    pub hardening: f64,
-    /// Largest tension that it bears, as a positive number, force/length².
-    pub tension: f64,
+parameters! {
+    /// A solid under high pressure.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct ElasticPlasticHydrodynamic {
+        /// Young's modulus E, force/length²; with Poisson's ratio it makes the shear modulus.
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Initial yield stress in uniaxial tension Y₀, force/length².
+        pub yield_stress: f64 = [YIELD_STRESS],
+        /// Uniaxial plastic hardening modulus H, force/length².
+        pub hardening: f64 = [HARDENING_MODULUS],
+        /// Largest tension that it bears, as a positive number, force/length².
+        pub tension: f64 = [PRESSURE_CUTOFF],
+    }
+    with(given) {
+        /// Equation of state of the pressure.
+        pub equation: EquationOfState = given.equation_of_state()?,
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "EP HYDRODYNAMIC",
     aliases: &["EP HYDRO", "ELASTIC PLASTIC HYDRODYNAMIC"],
     summary: "Solid with the pressure of an EQUATION OF STATE and the strength of von Mises, hardening linearly.",
-    properties: &[YOUNGS_MODULUS, POISSONS_RATIO, YIELD_STRESS, HARDENING_MODULUS, PRESSURE_CUTOFF],
+    properties: ElasticPlasticHydrodynamic::PROPERTIES,
     state: &[StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." }],
     origin: Origin::Recalled,
-    build: |v| {
-        let equation = v.equation_of_state()?;
-        if let EquationOfState::Jwl(_) = equation {
+    build: |given| {
+        let law = ElasticPlasticHydrodynamic::read(given)?;
+        if let EquationOfState::Jwl(_) = law.equation {
             let reason = "is for an explosive, which has no strength: make the material HYDRODYNAMIC".to_string();
             return Err(Refusal { keyword: "EQUATION OF STATE", reason });
         }
-        Ok(Law::ElasticPlasticHydrodynamic(ElasticPlasticHydrodynamic {
-            equation,
-            young: v[0],
-            poisson: v[1],
-            yield_stress: v[2],
-            hardening: v[3],
-            tension: v[4].abs(),
-        }))
+        let tension = law.tension.abs();
+        Ok(Law::ElasticPlasticHydrodynamic(ElasticPlasticHydrodynamic { tension, ..law }))
     },
 };
 
@@ -54,10 +52,6 @@ impl ElasticPlasticHydrodynamic {
     pub(super) fn moduli(&self) -> Moduli {
         let two_mu = Moduli::from_young(self.young, self.poisson).two_mu;
         Moduli { lambda: self.equation.initial().bulk - two_mu / 3.0, two_mu }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.poisson, self.yield_stress, self.hardening, self.tension]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -8,17 +8,6 @@ use super::{
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 use std::sync::Arc;
 
-/// A fluid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Hydrodynamic {
-    /// Its equation of state.
-    pub equation: EquationOfState,
-    /// Largest tension that it bears, as a positive number, force/length².
-    pub tension: f64,
-    /// Where it is lit, if it is an explosive.
-    pub points: Arc<[DetonationPoint]>,
-}
-
 /// Pressure cutoff, for every law with an equation of state. Decks write it with either sign.
 pub(super) const PRESSURE_CUTOFF: Property = Property::required(
     "PRESSURE CUTOFF",
@@ -28,22 +17,34 @@ pub(super) const PRESSURE_CUTOFF: Property = Property::required(
     "Largest tension that the material bears, with either sign.",
 );
 
+parameters! {
+    /// A fluid.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Hydrodynamic {
+        /// Largest tension that it bears, as a positive number, force/length².
+        pub tension: f64 = [PRESSURE_CUTOFF],
+    }
+    with(given) {
+        /// Its equation of state.
+        pub equation: EquationOfState = given.equation_of_state()?,
+        /// Where it is lit, if it is an explosive.
+        pub points: Arc<[DetonationPoint]> = given.detonation.into(),
+    }
+}
+
 pub(super) static ENTRY: Entry = Entry {
     name: "HYDRODYNAMIC",
     aliases: &["HYDRO"],
     summary: "Fluid, gas or explosive: pressure from an EQUATION OF STATE, no strength.",
-    properties: &[PRESSURE_CUTOFF],
+    properties: Hydrodynamic::PROPERTIES,
     state: &[
         StateVariable { name: "BURN", meaning: "Part of an explosive that has burnt; 0 in other materials." },
         StateVariable { name: "LIGHTING", meaning: "Time at which an explosive begins to burn; 0 in others." },
     ],
     origin: Origin::Recalled,
-    build: |v| {
-        Ok(Law::Hydrodynamic(Hydrodynamic {
-            equation: v.equation_of_state()?,
-            tension: v[0].abs(),
-            points: v.detonation.into(),
-        }))
+    build: |given| {
+        let law = Hydrodynamic::read(given)?;
+        Ok(Law::Hydrodynamic(Hydrodynamic { tension: law.tension.abs(), ..law }))
     },
 };
 
@@ -56,10 +57,6 @@ const HOURGLASS_KEPT: f64 = 0.5;
 impl Hydrodynamic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli { lambda: self.equation.initial().bulk, two_mu: 0.0 }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.tension]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -11,102 +11,94 @@ use super::{
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, exp, ln, power};
 
-/// Y = (A + B ε̄ᵖⁿ)(1 + C ln ε̇*)(1 − T*ᵐ), with ε̇* = max(1, ε̄̇ᵖ/ε̇₀) and T* = (T − T_r)/(T_m − T_r) between 0 and 1.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JohnsonCook {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// A, force/length².
-    pub yield_stress: f64,
-    /// B, force/length².
-    pub constant: f64,
-    /// n
-    pub exponent: f64,
-    /// C
-    pub rate_constant: f64,
-    /// ε̇₀, 1/time.
-    pub reference_rate: f64,
-    /// m
-    pub thermal_exponent: f64,
-    /// T_r, at which the material starts.
-    pub reference_temperature: f64,
-    /// T_m; no softening unless it is above the reference temperature.
-    pub melt_temperature: f64,
-    /// c_p, energy/(mass temperature); no heating where it is 0.
-    pub specific_heat: f64,
-    /// χ, the part of plastic work that turns into heat.
-    pub heat_fraction: f64,
-    /// D₁ to D₅; no damage where D₁ and D₂ are 0.
-    pub damage: [f64; 5],
-    /// Mass density ρ, which heat is stored in.
-    pub density: f64,
-}
-
 const fn damage(keyword: &'static str, symbol: &'static str, meaning: &'static str) -> Property {
     Property::required(keyword, symbol, "-", Range::Any, meaning).or(0.0)
+}
+
+parameters! {
+    /// Y = (A + B ε̄ᵖⁿ)(1 + C ln ε̇*)(1 − T*ᵐ), with ε̇* = max(1, ε̄̇ᵖ/ε̇₀) and T* = (T − T_r)/(T_m − T_r) between 0 and 1.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct JohnsonCook {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// A, force/length².
+        pub yield_stress: f64 = [YIELD_STRESS],
+        /// B, force/length².
+        pub constant: f64 = [
+            Property::required("HARDENING CONSTANT", "B", STRESS, Range::NotNegative, "Factor of strain hardening."),
+        ],
+        /// n
+        pub exponent: f64 = [
+            Property::required("HARDENING EXPONENT", "n", "-", Range::Positive, "Exponent of strain hardening."),
+        ],
+        /// C
+        pub rate_constant: f64 = [
+            Property::required("RATE CONSTANT", "C", "-", Range::NotNegative, "Factor on the logarithm of the strain rate.")
+                .or(0.0),
+        ],
+        /// ε̇₀, 1/time.
+        pub reference_rate: f64 = [
+            Property::required("REFERENCE RATE", "rate0", "1/time", Range::Positive, "Plastic strain rate of no effect.")
+                .or(1.0),
+        ],
+        /// m
+        pub thermal_exponent: f64 = [
+            Property::required("THERMAL EXPONENT", "m", "-", Range::Positive, "Exponent of thermal softening.").or(1.0),
+        ],
+        /// T_r, at which the material starts.
+        pub reference_temperature: f64 = [
+            Property::required(
+                "REFERENCE TEMPERATURE", "Tr", "temperature", Range::Any,
+                "Temperature of no effect, with which the material starts.",
+            )
+            .or(0.0),
+        ],
+        /// T_m; no softening unless it is above the reference temperature.
+        pub melt_temperature: f64 = [
+            Property::required(
+                "MELT TEMPERATURE", "Tm", "temperature", Range::Any,
+                "Temperature at which no strength is left; no softening if it is the reference temperature.",
+            )
+            .or(0.0),
+        ],
+        /// c_p, energy/(mass temperature); no heating where it is 0.
+        pub specific_heat: f64 = [
+            Property::required(
+                "SPECIFIC HEAT", "cp", "energy/(mass temperature)", Range::NotNegative,
+                "Heat capacity of a unit of mass; 0 for no heating.",
+            )
+            .or(0.0),
+        ],
+        /// χ, the part of plastic work that turns into heat.
+        pub heat_fraction: f64 = [
+            Property::required(
+                "HEAT FRACTION", "chi", "-", Range::Between { low: (0.0, true), high: (1.0, true) },
+                "Part of the plastic work that turns into heat.",
+            )
+            .or(0.9),
+        ],
+        /// D₁ to D₅; no damage where D₁ and D₂ are 0.
+        pub damage: [f64; 5] = [
+            damage("D1", "D1", "Strain at fracture: constant part."),
+            damage("D2", "D2", "Strain at fracture: factor of the exponential of triaxiality."),
+            damage("D3", "D3", "Strain at fracture: factor on mean stress over von Mises stress in the exponent."),
+            damage("D4", "D4", "Strain at fracture: factor on the logarithm of the strain rate."),
+            damage("D5", "D5", "Strain at fracture: factor on the homologous temperature."),
+        ],
+    }
+    with(given) {
+        /// Mass density ρ, which heat is stored in.
+        pub density: f64 = given.density,
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "JOHNSON COOK",
     aliases: &["JOHNSON-COOK"],
     summary: "Plasticity with strain hardening, strain rate, adiabatic heating and damage by Johnson and Cook.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        YIELD_STRESS,
-        Property::required("HARDENING CONSTANT", "B", STRESS, Range::NotNegative, "Factor of strain hardening."),
-        Property::required("HARDENING EXPONENT", "n", "-", Range::Positive, "Exponent of strain hardening."),
-        Property::required(
-            "RATE CONSTANT",
-            "C",
-            "-",
-            Range::NotNegative,
-            "Factor on the logarithm of the strain rate.",
-        )
-        .or(0.0),
-        Property::required("REFERENCE RATE", "rate0", "1/time", Range::Positive, "Plastic strain rate of no effect.")
-            .or(1.0),
-        Property::required("THERMAL EXPONENT", "m", "-", Range::Positive, "Exponent of thermal softening.").or(1.0),
-        Property::required(
-            "REFERENCE TEMPERATURE",
-            "Tr",
-            "temperature",
-            Range::Any,
-            "Temperature of no effect, with which the material starts.",
-        )
-        .or(0.0),
-        Property::required(
-            "MELT TEMPERATURE",
-            "Tm",
-            "temperature",
-            Range::Any,
-            "Temperature at which no strength is left; no softening if it is the reference temperature.",
-        )
-        .or(0.0),
-        Property::required(
-            "SPECIFIC HEAT",
-            "cp",
-            "energy/(mass temperature)",
-            Range::NotNegative,
-            "Heat capacity of a unit of mass; 0 for no heating.",
-        )
-        .or(0.0),
-        Property::required(
-            "HEAT FRACTION",
-            "chi",
-            "-",
-            Range::Between { low: (0.0, true), high: (1.0, true) },
-            "Part of the plastic work that turns into heat.",
-        )
-        .or(0.9),
-        damage("D1", "D1", "Strain at fracture: constant part."),
-        damage("D2", "D2", "Strain at fracture: factor of the exponential of triaxiality."),
-        damage("D3", "D3", "Strain at fracture: factor on mean stress over von Mises stress in the exponent."),
-        damage("D4", "D4", "Strain at fracture: factor on the logarithm of the strain rate."),
-        damage("D5", "D5", "Strain at fracture: factor on the homologous temperature."),
-    ],
+    properties: JohnsonCook::PROPERTIES,
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "TEMP", meaning: "Temperature." },
@@ -114,56 +106,20 @@ pub(super) static ENTRY: Entry = Entry {
         StateVariable { name: "EQPSDOT", meaning: "Rate of the equivalent plastic strain in the last step." },
     ],
     origin: Origin::Recalled,
-    build: |v| {
-        if v[9] < v[8] {
-            let reason = format!("is {}, below the reference temperature {}", v[9], v[8]);
+    build: |given| {
+        let law = JohnsonCook::read(given)?;
+        let (melt, reference) = (law.melt_temperature, law.reference_temperature);
+        if melt < reference {
+            let reason = format!("is {melt}, below the reference temperature {reference}");
             return Err(Refusal { keyword: "MELT TEMPERATURE", reason });
         }
-        Ok(Law::JohnsonCook(JohnsonCook {
-            young: v[0],
-            poisson: v[1],
-            yield_stress: v[2],
-            constant: v[3],
-            exponent: v[4],
-            rate_constant: v[5],
-            reference_rate: v[6],
-            thermal_exponent: v[7],
-            reference_temperature: v[8],
-            melt_temperature: v[9],
-            specific_heat: v[10],
-            heat_fraction: v[11],
-            damage: [v[12], v[13], v[14], v[15], v[16]],
-            density: v.density,
-        }))
+        Ok(Law::JohnsonCook(law))
     },
 };
 
 impl JohnsonCook {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        let [d1, d2, d3, d4, d5] = self.damage;
-        vec![
-            self.young,
-            self.poisson,
-            self.yield_stress,
-            self.constant,
-            self.exponent,
-            self.rate_constant,
-            self.reference_rate,
-            self.thermal_exponent,
-            self.reference_temperature,
-            self.melt_temperature,
-            self.specific_heat,
-            self.heat_fraction,
-            d1,
-            d2,
-            d3,
-            d4,
-            d5,
-        ]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -12,73 +12,64 @@ use super::{
 use crate::lanes::{CHUNK, Lanes, Matrix3, Row, Sym3};
 use nalgebra::{Matrix3 as Dense, SymmetricEigen};
 
-/// σ = σˢᵏ + σᵃⁱʳ I. The skeleton has E and no Poisson's ratio; its principal stresses are at most f = A ⟨II′⟩ + B (1 + C ε_V)
-/// in size, where ⟨II′⟩ is 1 if the strain has a deviator, else 0. Air: σᵃⁱʳ = p₀ ε_V/(ε_V + 1 − φ). ε_V = V/V₀ − 1.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LowDensityFoam {
-    /// Young's modulus of the skeleton E, force/length².
-    pub young: f64,
-    /// A, force/length².
-    pub a: f64,
-    /// B, force/length².
-    pub b: f64,
-    /// C; negative where the foam hardens in compression.
-    pub c: f64,
-    /// Whether the air is trapped: not 0.
-    pub air: f64,
-    /// Pressure of the air at the start p₀, force/length².
-    pub pressure: f64,
-    /// Part of the volume that is solid φ.
-    pub solid: f64,
+parameters! {
+    /// σ = σˢᵏ + σᵃⁱʳ I. The skeleton has E and no Poisson's ratio; its principal stresses are at most f = A ⟨II′⟩ + B (1 + C ε_V)
+    /// in size, where ⟨II′⟩ is 1 if the strain has a deviator, else 0. Air: σᵃⁱʳ = p₀ ε_V/(ε_V + 1 − φ). ε_V = V/V₀ − 1.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct LowDensityFoam {
+        /// Young's modulus of the skeleton E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// A, force/length².
+        pub a: f64 = [
+            Property::required(
+                "A", "A", STRESS, Range::Any,
+                "Strength that the skeleton has beside B where it changes shape.",
+            ),
+        ],
+        /// B, force/length².
+        pub b: f64 = [
+            Property::required("B", "B", STRESS, Range::Any, "Strength of the skeleton at the initial volume."),
+        ],
+        /// C; negative where the foam hardens in compression.
+        pub c: f64 = [
+            Property::required(
+                "C", "C", "-", Range::Any,
+                "Relative growth of B with the volume strain; < 0 hardens when pressed.",
+            ),
+        ],
+        /// Whether the air is trapped: not 0.
+        pub air: f64 = [
+            Property::required("NAIR", "NAIR", "-", Range::Any, "0 if air can escape, another number if it is trapped."),
+        ],
+        /// Pressure of the air at the start p₀, force/length².
+        pub pressure: f64 = [
+            Property::required("P0", "p0", STRESS, Range::NotNegative, "Pressure of the air at the start."),
+        ],
+        /// Part of the volume that is solid φ.
+        pub solid: f64 = [
+            Property::required(
+                "PHI", "phi", "-", Range::Between { low: (0.0, true), high: (1.0, false) },
+                "Part of the volume that is solid.",
+            ),
+        ],
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "LOW DEN FOAM",
     aliases: &["LOW DENSITY FOAM"],
     summary: "Low density foam: a skeleton that yields in principal stress, and the air trapped in it.",
-    properties: &[
-        YOUNGS_MODULUS,
-        Property::required(
-            "A",
-            "A",
-            STRESS,
-            Range::Any,
-            "Strength that the skeleton has beside B where it changes shape.",
-        ),
-        Property::required("B", "B", STRESS, Range::Any, "Strength of the skeleton at the initial volume."),
-        Property::required(
-            "C",
-            "C",
-            "-",
-            Range::Any,
-            "Relative growth of B with the volume strain; < 0 hardens when pressed.",
-        ),
-        Property::required("NAIR", "NAIR", "-", Range::Any, "0 if air can escape, another number if it is trapped."),
-        Property::required("P0", "p0", STRESS, Range::NotNegative, "Pressure of the air at the start."),
-        Property::required(
-            "PHI",
-            "phi",
-            "-",
-            Range::Between { low: (0.0, true), high: (1.0, false) },
-            "Part of the volume that is solid.",
-        ),
-    ],
+    properties: LowDensityFoam::PROPERTIES,
     state: &[StateVariable { name: "AIRPRES", meaning: "Pressure of the trapped air above its initial one." }],
     origin: Origin::Verified,
-    build: |v| {
-        if v[1] + v[2] < 0.0 || v[2] < 0.0 {
-            let reason = format!("is {}, which with A = {} makes a strength below 0", v[2], v[1]);
+    build: |given| {
+        let law = LowDensityFoam::read(given)?;
+        let LowDensityFoam { a, b, .. } = law;
+        if a + b < 0.0 || b < 0.0 {
+            let reason = format!("is {b}, which with A = {a} makes a strength below 0");
             return Err(Refusal { keyword: "B", reason });
         }
-        Ok(Law::LowDensityFoam(LowDensityFoam {
-            young: v[0],
-            a: v[1],
-            b: v[2],
-            c: v[3],
-            air: v[4],
-            pressure: v[5],
-            solid: v[6],
-        }))
+        Ok(Law::LowDensityFoam(law))
     },
 };
 
@@ -96,10 +87,6 @@ impl LowDensityFoam {
     /// p₀ of the air that matters.
     fn trapped(&self) -> f64 {
         if self.air == 0.0 { 0.0 } else { self.pressure }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.a, self.b, self.c, self.air, self.pressure, self.solid]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -3,6 +3,9 @@
 
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
+#[macro_use]
+mod parameters;
+
 mod elastic;
 mod elastic_plastic;
 mod ep_hydrodynamic;
@@ -23,7 +26,7 @@ mod soil;
 mod tests;
 mod viscoplastic;
 
-pub use crate::vocabulary::{Origin, Property, Range, StateVariable};
+pub use crate::vocabulary::{Description, Models, Origin, Property, Range, StateVariable};
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;
 pub use ep_hydrodynamic::ElasticPlasticHydrodynamic;
@@ -54,6 +57,33 @@ pub struct Entry<T = Law> {
     pub origin: Origin,
     /// Makes the law from its parameter values, in the order of `properties`, and whatever else the deck gives it.
     pub build: fn(&Given) -> Result<T, Refusal>,
+}
+
+impl<T> Entry<T> {
+    /// What there is to tell of it.
+    pub fn description(&self) -> Description {
+        let Entry { name, aliases, summary, properties, state, origin, .. } = *self;
+        Description { name, aliases, summary, properties, state, origin }
+    }
+}
+
+/// Laws and equations of state, as messages, manual and `urto explain` tell of them.
+pub fn models() -> [Models; 2] {
+    let laws = Models {
+        command: "MATERIAL",
+        heading: "material models",
+        form: ["MATERIAL, block, ", ", density"],
+        see: "MATERIAL, PLOT STATE",
+        models: MATERIALS.iter().map(|law| law.description()).collect(),
+    };
+    let equations = Models {
+        command: "EQUATION OF STATE",
+        heading: "equations of state",
+        form: ["EQUATION OF STATE, block, ", ""],
+        see: "EQUATION OF STATE",
+        models: EQUATIONS_OF_STATE.iter().map(|equation| equation.description()).collect(),
+    };
+    [laws, equations]
 }
 
 macro_rules! laws {

@@ -4,35 +4,38 @@ use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Step, Stiffness};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
 
-/// W = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3) + ½ K (J − 1)², with the invariants of b̄ = J^(−2/3) F Fᵀ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MooneyRivlin {
-    /// C₁₀, force/length².
-    pub c10: f64,
-    /// C₀₁, force/length².
-    pub c01: f64,
-    /// Bulk modulus K, force/length².
-    pub bulk: f64,
+parameters! {
+    /// W = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3) + ½ K (J − 1)², with the invariants of b̄ = J^(−2/3) F Fᵀ.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct MooneyRivlin {
+        /// C₁₀, force/length².
+        pub c10: f64 = [
+            Property::required("C10", "C10", STRESS, Range::Any, "Factor of the first invariant in the stored energy."),
+        ],
+        /// C₀₁, force/length².
+        pub c01: f64 = [
+            Property::required("C01", "C01", STRESS, Range::Any, "Factor of the second invariant.").or(0.0),
+        ],
+        /// Bulk modulus K, force/length².
+        pub bulk: f64 = [Property::required("BULK MODULUS", "K", STRESS, Range::Positive, "Bulk modulus.")],
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "MOONEY RIVLIN",
     aliases: &["MOONEY", "NEO HOOKEAN"],
     summary: "Rubber after Mooney and Rivlin, nearly incompressible; neo-Hookean without C01.",
-    properties: &[
-        Property::required("C10", "C10", STRESS, Range::Any, "Factor of the first invariant in the stored energy."),
-        Property::required("C01", "C01", STRESS, Range::Any, "Factor of the second invariant.").or(0.0),
-        Property::required("BULK MODULUS", "K", STRESS, Range::Positive, "Bulk modulus."),
-    ],
+    properties: MooneyRivlin::PROPERTIES,
     state: &[],
     origin: Origin::Recalled,
-    build: |v| {
-        let (c10, c01, bulk) = (v[0], v[1], v[2]);
+    build: |given| {
+        let law = MooneyRivlin::read(given)?;
+        let MooneyRivlin { c10, c01, .. } = law;
         if c10 + c01 <= 0.0 {
             let reason = format!("is {c10}, which with C01 = {c01} makes a shear modulus that is not positive");
             return Err(Refusal { keyword: "C10", reason });
         }
-        Ok(Law::MooneyRivlin(MooneyRivlin { c10, c01, bulk }))
+        Ok(Law::MooneyRivlin(law))
     },
 };
 
@@ -41,10 +44,6 @@ impl MooneyRivlin {
     pub(super) fn moduli(&self) -> Moduli {
         let two_mu = 4.0 * (self.c10 + self.c01);
         Moduli { lambda: self.bulk - two_mu / 3.0, two_mu }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.c10, self.c01, self.bulk]
     }
 
     pub(super) fn state(&self, _: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

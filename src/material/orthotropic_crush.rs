@@ -8,28 +8,10 @@ use super::elastic_plastic::YIELD_STRESS;
 use super::property::STRESS;
 use super::soil::interpolate;
 use super::{
-    Curve, Entry, Given, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Start,
-    StateVariable, Step,
+    Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Start, StateVariable,
+    Step,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
-
-/// Six decoupled stresses along the space axes of the initial state; isotropic perfect plasticity once V/V₀ has been below
-/// `compact`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OrthotropicCrush {
-    /// Young's modulus of the compact material E, force/length².
-    pub young: f64,
-    /// Poisson's ratio of the compact material ν.
-    pub poisson: f64,
-    /// Yield stress of the compact material, force/length².
-    pub yield_stress: f64,
-    /// Moduli at the start: EX, EY, EZ, then shear moduli GXY, GYZ, GZX, force/length².
-    pub moduli: [f64; 6],
-    /// Strengths over 1 − V/V₀: XX, YY, ZZ, XY, YZ, ZX.
-    pub crush: [Curve; 6],
-    /// Relative volume at which it is compact.
-    pub compact: f64,
-}
 
 const fn modulus(keyword: &'static str, meaning: &'static str) -> Property {
     Property::required(keyword, keyword, STRESS, Range::Positive, meaning)
@@ -48,53 +30,64 @@ const fn crush(keyword: &'static str) -> Property {
 /// Keywords of the crush functions.
 const CRUSH: [&str; 6] = ["CRUSH XX", "CRUSH YY", "CRUSH ZZ", "CRUSH XY", "CRUSH YZ", "CRUSH ZX"];
 
+parameters! {
+    /// Six decoupled stresses along the space axes of the initial state; isotropic perfect plasticity once V/V₀ has been below
+    /// `compact`.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct OrthotropicCrush {
+        /// Young's modulus of the compact material E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio of the compact material ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Yield stress of the compact material, force/length².
+        pub yield_stress: f64 = [YIELD_STRESS],
+        /// Moduli at the start: EX, EY, EZ, then shear moduli GXY, GYZ, GZX, force/length².
+        pub moduli: [f64; 6] = [
+            modulus("EX", "Young's modulus in x before crushing."),
+            modulus("EY", "Young's modulus in y before crushing."),
+            modulus("EZ", "Young's modulus in z before crushing."),
+            modulus("GXY", "Shear modulus in xy before crushing."),
+            modulus("GYZ", "Shear modulus in yz before crushing."),
+            modulus("GZX", "Shear modulus in zx before crushing."),
+        ],
+        /// Strengths over 1 − V/V₀: XX, YY, ZZ, XY, YZ, ZX.
+        pub crush: [Curve; 6] = [
+            crush(CRUSH[0]),
+            crush(CRUSH[1]),
+            crush(CRUSH[2]),
+            crush(CRUSH[3]),
+            crush(CRUSH[4]),
+            crush(CRUSH[5]),
+        ],
+        /// Relative volume at which it is compact.
+        pub compact: f64 = [
+            Property::required(
+                "VMIN", "vmin", "-", Range::Between { low: (0.0, false), high: (1.0, false) },
+                "Relative volume V/V0 at which the material is compact.",
+            ),
+        ],
+    }
+}
+
 pub(super) static ENTRY: Entry = Entry {
     name: "ORTHOTROPIC CRUSH",
     aliases: &["WOOD", "HONEYCOMB"],
     summary: "Honeycomb or wood: crushes along the space axes of its initial state, each by a function, until compact.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        YIELD_STRESS,
-        modulus("EX", "Young's modulus in x before crushing."),
-        modulus("EY", "Young's modulus in y before crushing."),
-        modulus("EZ", "Young's modulus in z before crushing."),
-        modulus("GXY", "Shear modulus in xy before crushing."),
-        modulus("GYZ", "Shear modulus in yz before crushing."),
-        modulus("GZX", "Shear modulus in zx before crushing."),
-        crush(CRUSH[0]),
-        crush(CRUSH[1]),
-        crush(CRUSH[2]),
-        crush(CRUSH[3]),
-        crush(CRUSH[4]),
-        crush(CRUSH[5]),
-        Property::required(
-            "VMIN",
-            "vmin",
-            "-",
-            Range::Between { low: (0.0, false), high: (1.0, false) },
-            "Relative volume V/V0 at which the material is compact.",
-        ),
-    ],
+    properties: OrthotropicCrush::PROPERTIES,
     state: &[StateVariable { name: "CRUSH", meaning: "Smallest relative volume so far." }],
     origin: Origin::Recalled,
-    build: |v| Ok(Law::OrthotropicCrush(crushing(v)?)),
+    build: |given| Ok(Law::OrthotropicCrush(checked(OrthotropicCrush::read(given)?)?)),
 };
 
-fn crushing(v: &Given) -> Result<OrthotropicCrush, Refusal> {
-    let curve = |i: usize| -> Result<Curve, Refusal> {
-        let curve = v.curve(9 + i, CRUSH[i])?;
-        match curve.points.iter().find(|point| point.1 < 0.0) {
-            Some(point) => {
-                let reason = format!("is {}, a function that is {} at {}", curve.id, point.1, point.0);
-                Err(Refusal { keyword: CRUSH[i], reason })
-            }
-            None => Ok(curve),
+/// A law none of whose strengths is negative.
+fn checked(law: OrthotropicCrush) -> Result<OrthotropicCrush, Refusal> {
+    for (curve, keyword) in law.crush.iter().zip(CRUSH) {
+        if let Some(point) = curve.points.iter().find(|point| point.1 < 0.0) {
+            let reason = format!("is {}, a function that is {} at {}", curve.id, point.1, point.0);
+            return Err(Refusal { keyword, reason });
         }
-    };
-    let crush = [curve(0)?, curve(1)?, curve(2)?, curve(3)?, curve(4)?, curve(5)?];
-    let moduli = [v[3], v[4], v[5], v[6], v[7], v[8]];
-    Ok(OrthotropicCrush { young: v[0], poisson: v[1], yield_stress: v[2], moduli, crush, compact: v[15] })
+    }
+    Ok(law)
 }
 
 impl OrthotropicCrush {
@@ -106,11 +99,6 @@ impl OrthotropicCrush {
         // An uncoupled shear modulus G needs no more than λ + 2μ ≥ 2G.
         let dilatational = normal.max(shear);
         Moduli { lambda: dilatational - shear, two_mu: shear }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        let head = [self.young, self.poisson, self.yield_stress].into_iter().chain(self.moduli);
-        head.chain(self.crush.iter().map(|curve| curve.id as f64)).chain([self.compact]).collect()
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

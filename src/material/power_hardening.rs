@@ -11,59 +11,56 @@ use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
 
-/// Y = Y₀ + A ⟨ε̄ᵖ − ε_L⟩ⁿ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PowerHardening {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Initial yield stress in uniaxial tension Y₀, force/length².
-    pub yield_stress: f64,
-    /// Hardening constant A, force/length².
-    pub constant: f64,
-    /// Hardening exponent n.
-    pub exponent: f64,
-    /// Lüders strain ε_L: plastic strain at the end of the yield plateau.
-    pub luders: f64,
-    /// Tearing parameter at which the material begins to fail; 0 if it never does.
-    pub critical_tearing: f64,
-    /// Strain across the crack over which the strength is lost.
-    pub opening: f64,
-}
-
 /// Exponents for which hardening is steepest at its start.
 const EXPONENT: Range = Range::Between { low: (0.0, false), high: (1.0, true) };
+
+parameters! {
+    /// Y = Y₀ + A ⟨ε̄ᵖ − ε_L⟩ⁿ.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct PowerHardening {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Initial yield stress in uniaxial tension Y₀, force/length².
+        pub yield_stress: f64 = [YIELD_STRESS],
+        /// Hardening constant A, force/length².
+        pub constant: f64 = [
+            Property::required("HARDENING CONSTANT", "A", STRESS, Range::NotNegative, "Factor of the power law."),
+        ],
+        /// Hardening exponent n.
+        pub exponent: f64 = [
+            Property::required("HARDENING EXPONENT", "n", "-", EXPONENT, "Exponent of the power law."),
+        ],
+        /// Lüders strain ε_L: plastic strain at the end of the yield plateau.
+        pub luders: f64 = [
+            Property::required("LUDERS STRAIN", "eL", "-", Range::NotNegative, "Plastic strain at which hardening begins.")
+                .or(0.0),
+        ],
+        /// Tearing parameter at which the material begins to fail; 0 if it never does.
+        pub critical_tearing: f64 = [
+            Property::required(
+                "CRITICAL TEARING PARAMETER", "tp", "-", Range::NotNegative,
+                "Tearing parameter at which the material begins to fail; 0 for one that does not.",
+            )
+            .or(0.0),
+        ],
+        /// Strain across the crack over which the strength is lost.
+        pub opening: f64 = [
+            Property::required(
+                "CRITICAL CRACK OPENING STRAIN", "ec", "-", Range::Positive,
+                "Strain across the crack over which the strength falls to nothing.",
+            )
+            .or(0.01),
+        ],
+    }
+}
 
 pub(super) static ENTRY: Entry = Entry {
     name: "EP POWER HARD",
     aliases: &["EP POWER HARDENING"],
     summary: "Von Mises plasticity with power law hardening after a Lueders plateau, and failure by tearing.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        YIELD_STRESS,
-        Property::required("HARDENING CONSTANT", "A", STRESS, Range::NotNegative, "Factor of the power law."),
-        Property::required("HARDENING EXPONENT", "n", "-", EXPONENT, "Exponent of the power law."),
-        Property::required("LUDERS STRAIN", "eL", "-", Range::NotNegative, "Plastic strain at which hardening begins.")
-            .or(0.0),
-        Property::required(
-            "CRITICAL TEARING PARAMETER",
-            "tp",
-            "-",
-            Range::NotNegative,
-            "Tearing parameter at which the material begins to fail; 0 for one that does not.",
-        )
-        .or(0.0),
-        Property::required(
-            "CRITICAL CRACK OPENING STRAIN",
-            "ec",
-            "-",
-            Range::Positive,
-            "Strain across the crack over which the strength falls to nothing.",
-        )
-        .or(0.01),
-    ],
+    properties: PowerHardening::PROPERTIES,
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "RADIUS", meaning: "Radius of the yield surface in deviatoric stress space." },
@@ -71,18 +68,7 @@ pub(super) static ENTRY: Entry = Entry {
         StateVariable { name: "DECAY", meaning: "Part of the strength that is lost, from 0 to 1." },
     ],
     origin: Origin::Recalled,
-    build: |v| {
-        Ok(Law::PowerHardening(PowerHardening {
-            young: v[0],
-            poisson: v[1],
-            yield_stress: v[2],
-            constant: v[3],
-            exponent: v[4],
-            luders: v[5],
-            critical_tearing: v[6],
-            opening: v[7],
-        }))
-    },
+    build: |given| Ok(Law::PowerHardening(PowerHardening::read(given)?)),
 };
 
 /// Bound on σ₁ over ⅔(σ₁ − σ_m), which has none where there is tension without shear strength.
@@ -94,19 +80,6 @@ const ROOT_TWO_THIRDS: f64 = 0.816_496_580_927_726;
 impl PowerHardening {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![
-            self.young,
-            self.poisson,
-            self.yield_stress,
-            self.constant,
-            self.exponent,
-            self.luders,
-            self.critical_tearing,
-            self.opening,
-        ]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -2,7 +2,6 @@
 
 use super::equation_of_state::{DetonationPoint, EquationOfState};
 use std::cell::Cell;
-use std::ops::Index;
 use std::sync::Arc;
 
 /// Dimension of stresses and moduli.
@@ -31,13 +30,6 @@ pub struct Given<'a> {
     pub equation_wanted: Cell<bool>,
     /// Where explosives are lit.
     pub detonation: &'a [DetonationPoint],
-}
-
-impl Index<usize> for Given<'_> {
-    type Output = f64;
-    fn index(&self, property: usize) -> &f64 {
-        &self.values[property]
-    }
 }
 
 impl Given<'_> {

@@ -6,63 +6,61 @@
 use super::plastic::compose;
 use super::property::STRESS;
 use super::{
-    Curve, Entry, Given, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable,
-    Step,
+    Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, ln};
 
-/// Pressure from a function of the largest compression so far, unloading with a constant bulk modulus; deviator returned
-/// at that pressure to σ̄ = A₀ + A₁p + A₂p².
-#[derive(Debug, Clone, PartialEq)]
-pub struct Soil {
-    /// Twice the shear modulus 2μ, force/length².
-    pub two_mu: f64,
-    /// Bulk modulus of unloading K, force/length².
-    pub bulk: f64,
-    /// A₀, force/length².
-    pub a0: f64,
-    /// A₁
-    pub a1: f64,
-    /// A₂, length²/force.
-    pub a2: f64,
-    /// Largest tension, as a positive number, force/length².
-    pub tension: f64,
-    /// Pressure over compression −ln(V/V₀) when it grows for the first time.
-    pub curve: Curve,
+parameters! {
+    /// Pressure from a function of the largest compression so far, unloading with a constant bulk modulus; deviator returned
+    /// at that pressure to σ̄ = A₀ + A₁p + A₂p².
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Soil {
+        /// Twice the shear modulus 2μ, force/length².
+        pub two_mu: f64 = [
+            Property::required("TWO MU", "2mu", STRESS, Range::Positive, "Twice the shear modulus."),
+        ],
+        /// Bulk modulus of unloading K, force/length².
+        pub bulk: f64 = [
+            Property::required("BULK MODULUS", "K", STRESS, Range::Positive, "Bulk modulus of unloading and reloading."),
+        ],
+        /// A₀, force/length².
+        pub a0: f64 = [
+            Property::required("A0", "A0", STRESS, Range::Any, "Von Mises stress at yield without pressure."),
+        ],
+        /// A₁
+        pub a1: f64 = [
+            Property::required("A1", "A1", "-", Range::Any, "Von Mises stress at yield: factor of the pressure.").or(0.0),
+        ],
+        /// A₂, length²/force.
+        pub a2: f64 = [
+            Property::required(
+                "A2", "A2", "length^2/force", Range::Any,
+                "Von Mises stress at yield: factor of the square of the pressure.",
+            )
+            .or(0.0),
+        ],
+        /// Largest tension, as a positive number, force/length².
+        pub tension: f64 = [
+            Property::required(
+                "PRESSURE CUTOFF", "pc", STRESS, Range::Any,
+                "Largest tension that the material bears, with either sign.",
+            ),
+        ],
+        /// Pressure over compression −ln(V/V₀) when it grows for the first time.
+        pub curve: Curve = [
+            Property::required(
+                "FUNCTION ID", "f", "-", Range::Function,
+                "Function that gives the pressure over the compression -ln(V/V0) of virgin material.",
+            ),
+        ],
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "SOIL N FOAMS",
     aliases: &["SOILS N FOAMS", "SOILS AND FOAMS", "SOIL AND FOAMS", "SOIL AND CRUSHABLE FOAM"],
     summary: "Soil or crushable foam: pressure from a function of compression, strength that depends on pressure.",
-    properties: &[
-        Property::required("TWO MU", "2mu", STRESS, Range::Positive, "Twice the shear modulus."),
-        Property::required("BULK MODULUS", "K", STRESS, Range::Positive, "Bulk modulus of unloading and reloading."),
-        Property::required("A0", "A0", STRESS, Range::Any, "Von Mises stress at yield without pressure."),
-        Property::required("A1", "A1", "-", Range::Any, "Von Mises stress at yield: factor of the pressure.").or(0.0),
-        Property::required(
-            "A2",
-            "A2",
-            "length^2/force",
-            Range::Any,
-            "Von Mises stress at yield: factor of the square of the pressure.",
-        )
-        .or(0.0),
-        Property::required(
-            "PRESSURE CUTOFF",
-            "pc",
-            STRESS,
-            Range::Any,
-            "Largest tension that the material bears, with either sign.",
-        ),
-        Property::required(
-            "FUNCTION ID",
-            "f",
-            "-",
-            Range::Function,
-            "Function that gives the pressure over the compression -ln(V/V0) of virgin material.",
-        ),
-    ],
+    properties: Soil::PROPERTIES,
     state: &[
         StateVariable { name: "EVMAX", meaning: "Largest compression -ln(V/V0) so far." },
         StateVariable { name: "EVFRAC", meaning: "Compression below which the largest tension acts." },
@@ -70,11 +68,12 @@ pub(super) static ENTRY: Entry = Entry {
         StateVariable { name: "NUM", meaning: "Number of the function's segment that the largest compression is in." },
     ],
     origin: Origin::Recalled,
-    build: |v| Ok(Law::Soil(soil(v)?)),
+    build: |given| Ok(Law::Soil(checked(Soil::read(given)?)?)),
 };
 
-fn soil(v: &Given) -> Result<Soil, Refusal> {
-    let curve = v.curve(6, "FUNCTION ID")?;
+/// A soil whose function is one of pressure over compression.
+fn checked(law: Soil) -> Result<Soil, Refusal> {
+    let curve = &law.curve;
     let refusal = |reason: String| Refusal { keyword: "FUNCTION ID", reason };
     let id = curve.id;
     let start = interpolate(&curve.points, 0.0);
@@ -86,14 +85,14 @@ fn soil(v: &Given) -> Result<Soil, Refusal> {
         if slope < 0.0 {
             return Err(refusal(format!("is {id}, a function that falls after {}", pair[0].0)));
         }
-        if slope > v[1] * (1.0 + 1e-9) {
+        if slope > law.bulk * (1.0 + 1e-9) {
             return Err(refusal(format!(
                 "is {id}, a function that rises by {slope:e} after {}, steeper than the BULK MODULUS",
                 pair[0].0
             )));
         }
     }
-    Ok(Soil { two_mu: v[0], bulk: v[1], a0: v[2], a1: v[3], a2: v[4], tension: v[5].abs(), curve })
+    Ok(Soil { tension: law.tension.abs(), ..law })
 }
 
 /// A function at x: linear between its points, constant outside.
@@ -114,10 +113,6 @@ pub(super) fn interpolate<V: Lanes>(points: &[(f64, f64)], x: V) -> V {
 impl Soil {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli { lambda: self.bulk - self.two_mu / 3.0, two_mu: self.two_mu }
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.two_mu, self.bulk, self.a0, self.a1, self.a2, self.tension, self.curve.id as f64]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

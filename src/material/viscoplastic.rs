@@ -8,72 +8,52 @@ use super::plastic::{Flow, compose, radial_return};
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
 
-/// ε̄̇ᵖ = γ ⟨σ̄/Y − 1⟩ᵖ with Y = Y₀ + H ε̄ᵖ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Viscoplastic {
-    /// Young's modulus E, force/length².
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Yield stress at rest Y₀, force/length².
-    pub yield_stress: f64,
-    /// Hardening modulus H, force/length².
-    pub hardening: f64,
-    /// Fluidity γ, 1/time.
-    pub gamma: f64,
-    /// Exponent p.
-    pub exponent: f64,
+parameters! {
+    /// ε̄̇ᵖ = γ ⟨σ̄/Y − 1⟩ᵖ with Y = Y₀ + H ε̄ᵖ.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Viscoplastic {
+        /// Young's modulus E, force/length².
+        pub young: f64 = [YOUNGS_MODULUS],
+        /// Poisson's ratio ν.
+        pub poisson: f64 = [POISSONS_RATIO],
+        /// Yield stress at rest Y₀, force/length².
+        pub yield_stress: f64 = [Property { range: Range::Positive, ..YIELD_STRESS }],
+        /// Hardening modulus H, force/length².
+        pub hardening: f64 = [HARDENING_MODULUS],
+        /// Fluidity γ, 1/time.
+        pub gamma: f64 = [
+            Property::required(
+                "GAMMA", "gamma", "1/time", Range::Positive,
+                "Plastic strain rate at twice the yield stress.",
+            ),
+        ],
+        /// Exponent p.
+        pub exponent: f64 = [
+            Property::required(
+                "P", "p", "-", Range::Between { low: (1.0, true), high: (100.0, true) },
+                "Exponent of the overstress.",
+            )
+            .or(1.0),
+        ],
+    }
 }
 
 pub(super) static ENTRY: Entry = Entry {
     name: "VISCOPLASTIC",
     aliases: &[],
     summary: "Von Mises plasticity with linear hardening that flows at a finite rate, by a power of the overstress.",
-    properties: &[
-        YOUNGS_MODULUS,
-        POISSONS_RATIO,
-        Property { range: Range::Positive, ..YIELD_STRESS },
-        HARDENING_MODULUS,
-        Property::required(
-            "GAMMA",
-            "gamma",
-            "1/time",
-            Range::Positive,
-            "Plastic strain rate at twice the yield stress.",
-        ),
-        Property::required(
-            "P",
-            "p",
-            "-",
-            Range::Between { low: (1.0, true), high: (100.0, true) },
-            "Exponent of the overstress.",
-        )
-        .or(1.0),
-    ],
+    properties: Viscoplastic::PROPERTIES,
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "EQPSDOT", meaning: "Rate of the equivalent plastic strain in the last step." },
     ],
     origin: Origin::Recalled,
-    build: |v| {
-        Ok(Law::Viscoplastic(Viscoplastic {
-            young: v[0],
-            poisson: v[1],
-            yield_stress: v[2],
-            hardening: v[3],
-            gamma: v[4],
-            exponent: v[5],
-        }))
-    },
+    build: |given| Ok(Law::Viscoplastic(Viscoplastic::read(given)?)),
 };
 
 impl Viscoplastic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
-    }
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.young, self.poisson, self.yield_stress, self.hardening, self.gamma, self.exponent]
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -5,45 +5,38 @@ use super::super::{Entry, Origin, Property, Range};
 use super::{EquationOfState, Terms};
 use crate::lanes::Lanes;
 
-/// p = (γ − 1) ρ e = (γ − 1) E/v.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IdealGas {
-    /// Ratio of specific heats γ.
-    pub gamma: f64,
-    /// Internal energy per initial volume at the start.
-    pub initial_energy: f64,
+parameters! {
+    /// p = (γ − 1) ρ e = (γ − 1) E/v.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct IdealGas {
+        /// Ratio of specific heats γ.
+        pub gamma: f64 = [
+            Property::required(
+                "GAMMA", "gamma", "-", Range::Between { low: (1.0, false), high: (100.0, true) },
+                "Ratio of specific heats.",
+            ),
+        ],
+        /// Internal energy per initial volume at the start.
+        pub initial_energy: f64 = [
+            Property::required(
+                "INITIAL ENERGY", "E0", STRESS, Range::Positive,
+                "Internal energy per initial volume at the start; the pressure is gamma - 1 times it.",
+            ),
+        ],
+    }
 }
 
 pub(super) static ENTRY: Entry<EquationOfState> = Entry {
     name: "IDEAL GAS",
     aliases: &[],
     summary: "Ideal gas with constant specific heats.",
-    properties: &[
-        Property::required(
-            "GAMMA",
-            "gamma",
-            "-",
-            Range::Between { low: (1.0, false), high: (100.0, true) },
-            "Ratio of specific heats.",
-        ),
-        Property::required(
-            "INITIAL ENERGY",
-            "E0",
-            STRESS,
-            Range::Positive,
-            "Internal energy per initial volume at the start; the pressure is gamma - 1 times it.",
-        ),
-    ],
+    properties: IdealGas::PROPERTIES,
     state: &[],
     origin: Origin::Recalled,
-    build: |v| Ok(EquationOfState::IdealGas(IdealGas { gamma: v[0], initial_energy: v[1] })),
+    build: |given| Ok(EquationOfState::IdealGas(IdealGas::read(given)?)),
 };
 
 impl IdealGas {
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.gamma, self.initial_energy]
-    }
-
     #[inline(always)]
     pub(super) fn terms<V: Lanes>(&self, volume: V) -> Terms<V> {
         let (zero, inverse) = (V::splat(0.0), V::splat(1.0) / volume);

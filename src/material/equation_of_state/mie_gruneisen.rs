@@ -7,32 +7,6 @@ use super::super::{Entry, Origin, Property, Range};
 use super::{EquationOfState, Terms, stiff};
 use crate::lanes::Lanes;
 
-/// p_H = ρ₀c₀² η/(1 − sη)²: the shock speed is c₀ + s times the particle speed. In tension p_H = ρ₀c₀² η.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UsUp {
-    /// Bulk sound speed c₀.
-    pub speed: f64,
-    /// Slope s of shock speed over particle speed.
-    pub slope: f64,
-    /// Grüneisen parameter Γ at the initial density.
-    pub gamma: f64,
-    /// Internal energy per initial volume at the start.
-    pub initial_energy: f64,
-    /// Initial mass density ρ₀.
-    pub density: f64,
-}
-
-/// p_H = K₁η + K₂η² + K₃η³ + K₄η⁴ + K₅η⁵. In tension p_H = K₁ η.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PowerSeries {
-    /// Coefficients K₁ to K₅, force/length².
-    pub coefficients: [f64; 5],
-    /// Grüneisen parameter Γ at the initial density.
-    pub gamma: f64,
-    /// Internal energy per initial volume at the start.
-    pub initial_energy: f64,
-}
-
 const GAMMA: Property =
     Property::required("GAMMA", "Gamma", "-", Range::NotNegative, "Grueneisen parameter at the initial density.");
 
@@ -44,56 +18,72 @@ const fn coefficient(keyword: &'static str) -> Property {
     Property::required(keyword, keyword, STRESS, Range::Any, "Factor of this power of the compression.").or(0.0)
 }
 
+parameters! {
+    /// p_H = ρ₀c₀² η/(1 − sη)²: the shock speed is c₀ + s times the particle speed. In tension p_H = ρ₀c₀² η.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct UsUp {
+        /// Bulk sound speed c₀.
+        pub speed: f64 = [
+            Property::required("C0", "c0", "length/time", Range::Positive, "Shock speed of a weak shock."),
+        ],
+        /// Slope s of shock speed over particle speed.
+        pub slope: f64 = [
+            Property::required("S", "s", "-", Range::NotNegative, "Slope of shock speed over particle speed."),
+        ],
+        /// Grüneisen parameter Γ at the initial density.
+        pub gamma: f64 = [GAMMA],
+        /// Internal energy per initial volume at the start.
+        pub initial_energy: f64 = [INITIAL_ENERGY],
+    }
+    with(given) {
+        /// Initial mass density ρ₀.
+        pub density: f64 = given.density,
+    }
+}
+
 pub(super) static US_UP: Entry<EquationOfState> = Entry {
     name: "MG US-UP",
     aliases: &["MG US UP", "MIE GRUNEISEN US-UP"],
     summary: "Mie and Grueneisen, with a shock speed linear in the particle speed.",
-    properties: &[
-        Property::required("C0", "c0", "length/time", Range::Positive, "Shock speed of a weak shock."),
-        Property::required("S", "s", "-", Range::NotNegative, "Slope of shock speed over particle speed."),
-        GAMMA,
-        INITIAL_ENERGY,
-    ],
+    properties: UsUp::PROPERTIES,
     state: &[],
     origin: Origin::Recalled,
-    build: |v| {
-        let (speed, slope, gamma, initial_energy) = (v[0], v[1], v[2], v[3]);
-        stiff(EquationOfState::UsUp(UsUp { speed, slope, gamma, initial_energy, density: v.density }), "INITIAL ENERGY")
-    },
+    build: |given| stiff(EquationOfState::UsUp(UsUp::read(given)?), "INITIAL ENERGY"),
 };
+
+parameters! {
+    /// p_H = K₁η + K₂η² + K₃η³ + K₄η⁴ + K₅η⁵. In tension p_H = K₁ η.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct PowerSeries {
+        /// Coefficients K₁ to K₅, force/length².
+        pub coefficients: [f64; 5] = [
+            Property::required("K1", "K1", STRESS, Range::Positive, "Initial bulk modulus: factor of the compression."),
+            coefficient("K2"),
+            coefficient("K3"),
+            coefficient("K4"),
+            coefficient("K5"),
+        ],
+        /// Grüneisen parameter Γ at the initial density.
+        pub gamma: f64 = [GAMMA],
+        /// Internal energy per initial volume at the start.
+        pub initial_energy: f64 = [INITIAL_ENERGY],
+    }
+}
 
 pub(super) static POWER_SERIES: Entry<EquationOfState> = Entry {
     name: "MG POWER SERIES",
     aliases: &["MIE GRUNEISEN POWER SERIES"],
     summary: "Mie and Grueneisen, with a Hugoniot that is a polynomial of the compression 1 - V/V0.",
-    properties: &[
-        Property::required("K1", "K1", STRESS, Range::Positive, "Initial bulk modulus: factor of the compression."),
-        coefficient("K2"),
-        coefficient("K3"),
-        coefficient("K4"),
-        coefficient("K5"),
-        GAMMA,
-        INITIAL_ENERGY,
-    ],
+    properties: PowerSeries::PROPERTIES,
     state: &[],
     origin: Origin::Recalled,
-    build: |v| {
-        let coefficients = [v[0], v[1], v[2], v[3], v[4]];
-        stiff(
-            EquationOfState::PowerSeries(PowerSeries { coefficients, gamma: v[5], initial_energy: v[6] }),
-            "INITIAL ENERGY",
-        )
-    },
+    build: |given| stiff(EquationOfState::PowerSeries(PowerSeries::read(given)?), "INITIAL ENERGY"),
 };
 
 /// 1 − sη is not below this: there, at many times the bulk modulus, the Hugoniot ends.
 const LIMIT: f64 = 0.05;
 
 impl UsUp {
-    pub(super) fn values(&self) -> Vec<f64> {
-        vec![self.speed, self.slope, self.gamma, self.initial_energy]
-    }
-
     #[inline(always)]
     pub(super) fn terms<V: Lanes>(&self, volume: V) -> Terms<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
@@ -108,10 +98,6 @@ impl UsUp {
 }
 
 impl PowerSeries {
-    pub(super) fn values(&self) -> Vec<f64> {
-        self.coefficients.into_iter().chain([self.gamma, self.initial_energy]).collect()
-    }
-
     #[inline(always)]
     pub(super) fn terms<V: Lanes>(&self, volume: V) -> Terms<V> {
         let compression = V::splat(1.0) - volume;
