@@ -107,3 +107,41 @@ pub enum Origin {
     /// Our own addition.
     Ours,
 }
+
+/// What there is to tell of a model: a thing that a deck chooses by its name and gives properties.
+#[derive(Clone, Copy)]
+pub struct Description {
+    /// Name as spelled in the deck, e.g. `ELASTIC PLASTIC`.
+    pub name: &'static str,
+    /// Other spellings that are understood.
+    pub aliases: &'static [&'static str],
+    /// One sentence for the manual.
+    pub summary: &'static str,
+    /// Its parameters in the order the print log lists them.
+    pub properties: &'static [Property],
+    /// Its state variables as PLOT STATE names them.
+    pub state: &'static [StateVariable],
+    /// Where the deck form comes from.
+    pub origin: Origin,
+}
+
+impl Description {
+    /// All its names.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        std::iter::once(self.name).chain(self.aliases.iter().copied())
+    }
+}
+
+/// The models that a command chooses from.
+pub struct Models {
+    /// The command.
+    pub command: &'static str,
+    /// What they are, as the heading of a list.
+    pub heading: &'static str,
+    /// First line of the group that describes one, before its name and after.
+    pub form: [&'static str; 2],
+    /// Commands to read beside.
+    pub see: &'static str,
+    /// All of them, in the order of the manual.
+    pub models: Vec<Description>,
+}

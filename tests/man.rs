@@ -6,7 +6,7 @@ mod program;
 fn pages() -> [(&'static str, &'static str, String); 3] {
     [
         ("man", "man/urto.1", urto::cli::manual()),
-        ("man-deck", "man/urto-deck.5", urto::deck::manual()),
+        ("man-deck", "man/urto-deck.5", urto::deck::manual(&urto::material::models())),
         ("man-mesh", "man/urto-mesh.5", urto::mesher::manual()),
     ]
 }

@@ -7,7 +7,7 @@ use super::{DONE, FAILED, Failure};
 use crate::mesh::Mesh;
 use crate::mesh::refine::refined;
 use crate::output::GLOBAL_VARIABLES;
-use crate::{deck, exodus, mesher};
+use crate::{deck, exodus, material, mesher};
 use std::path::PathBuf;
 
 /// `urto explain`
@@ -30,11 +30,11 @@ pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
         return Ok(DONE);
     }
     // A name that both languages have is most likely the deck's.
-    let text = deck::explain(&words).or_else(|unknown| {
+    let text = deck::explain(&words, &material::models()).or_else(|unknown| {
         let recipe = deck::explain_in(mesher::language(), &words);
         recipe.map_err(|other| if unknown.near.is_some() { unknown } else { other })
     });
-    let found = |unknown: deck::UnknownTopic| match deck::search(&words) {
+    let found = |unknown: deck::UnknownTopic| match deck::search(&words, mesher::language(), &material::models()) {
         Some(pages) => Ok(format!("{words} stands in\n{pages}")),
         None => Err(Failure::input(format_args!("error: {unknown}"))),
     };
@@ -45,7 +45,11 @@ pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
 /// All commands of decks, then those of recipes.
 fn overview() -> String {
     let list = |text: Result<String, _>| text.unwrap_or_else(|e: deck::UnknownTopic| e.to_string());
-    format!("{}\nmesh recipes\n{}", list(deck::explain("")), list(deck::explain_in(mesher::language(), "")))
+    format!(
+        "{}\nmesh recipes\n{}",
+        list(deck::explain("", &material::models())),
+        list(deck::explain_in(mesher::language(), ""))
+    )
 }
 
 /// `urto mesh`
@@ -119,7 +123,7 @@ pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     let mut complete = |shell| clap_complete::generate(shell, &mut super::command(), "urto", &mut out);
     match options.what {
         Generated::Man => out = super::manual().into_bytes(),
-        Generated::ManDeck => out = deck::manual().into_bytes(),
+        Generated::ManDeck => out = deck::manual(&material::models()).into_bytes(),
         Generated::ManMesh => out = mesher::manual().into_bytes(),
         Generated::Bash => complete(clap_complete::Shell::Bash),
         Generated::Zsh => complete(clap_complete::Shell::Zsh),

@@ -1,4 +1,4 @@
-//! `urto explain`: what a command or a material model does, from the same tables that the reader works from.
+//! `urto explain`: what a command or a model with properties does, from the same tables that the reader works from.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use super::{
     source::Source,
     spelling::{self, Spelled},
 };
-use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
+use crate::vocabulary::{Description, Models};
 
 /// Nothing is known by these words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -31,32 +31,36 @@ fn hint(near: &Option<String>) -> String {
 #[derive(Clone, Copy, PartialEq)]
 enum Topic {
     Entry(usize),
-    Material(usize),
-    Equation(usize),
+    /// A model, by the place of its kind and its own among these.
+    Model(usize, usize),
 }
 
-/// The text about a command or a material model, which may be abbreviated. A property, a state variable or a plot
-/// variable leads to the page that it stands on. Words that begin several names give a list of these; no words give the
-/// list of all commands.
-pub fn explain(words: &str) -> Result<String, UnknownTopic> {
+/// The text about a command or one of the models that commands choose from, which may be abbreviated. A property, a state
+/// variable or a plot variable leads to the page that it stands on. Words that begin several names give a list of these; no
+/// words give the list of all commands.
+///
+/// # Errors
+///
+/// Nothing is known by these words.
+pub fn explain(words: &str, models: &[Models]) -> Result<String, UnknownTopic> {
     let source = asked(words);
-    let Some(record) = Lexer::new(&source).next_record() else { return Ok(overview()) };
-    match spelling::recognise(&record.fields, topics()) {
-        Spelled::As { what, .. } => Ok(text(&page_of(what)) + &elsewhere(&record.fields, what)),
-        _ => several(language(), source.text()).or_else(|| parts_named(&record.fields)).ok_or_else(|| {
-            let names = topics().map(|(name, _)| name).chain(parts().into_iter().map(|(name, _)| name));
+    let Some(record) = Lexer::new(&source).next_record() else { return Ok(overview(models)) };
+    match spelling::recognise(&record.fields, topics(models)) {
+        Spelled::As { what, .. } => Ok(text(&page_of(what, models)) + &elsewhere(&record.fields, what, models)),
+        _ => several(language(), source.text()).or_else(|| parts_named(&record.fields, models)).ok_or_else(|| {
+            let names = topics(models).map(|(name, _)| name).chain(parts(models).into_iter().map(|(name, _)| name));
             UnknownTopic::new(source.text(), names.collect())
         }),
     }
 }
 
 /// Pages on which what these words name stands too: DAMAGE is a model and another's state variable.
-fn elsewhere(fields: &[Field], named: Topic) -> String {
+fn elsewhere(fields: &[Field], named: Topic, models: &[Models]) -> String {
     let mut pages: Vec<String> = Vec::new();
-    for (name, topic) in parts() {
+    for (name, topic) in parts(models) {
         let same = spelling::word_count(name) == fields.len() && spelling::agreement(fields, name).is_some();
         // What a command has of its own name is no news.
-        let title = page_of(topic).title;
+        let title = page_of(topic, models).title;
         if same && topic != named && !title.starts_with("PLOT ") && !pages.contains(&title) {
             pages.push(title);
         }
@@ -72,14 +76,13 @@ pub fn explain_word(words: &str) -> Option<String> {
 }
 
 /// The pages whose text has all of these words, a line each; `None` where there is none. Searched are the glossaries,
-/// commands of decks and recipes, materials and equations of state.
-pub fn search(words: &str) -> Option<String> {
+/// commands of decks and of another language, and models.
+pub fn search(words: &str, other: &'static Grammar, models: &[Models]) -> Option<String> {
     let wanted: Vec<String> = words.split_whitespace().map(str::to_lowercase).collect();
-    let entries = [language(), crate::mesher::language()].into_iter().flat_map(|grammar| &grammar.entries);
+    let entries = [language(), other].into_iter().flat_map(|grammar| &grammar.entries);
     let pages = (glossary::words().iter().chain(glossary::variables()).map(page::of_term))
-        .chain(entries.map(page::of_entry))
-        .chain(MATERIALS.iter().map(|entry| page::of_material(entry)))
-        .chain(EQUATIONS_OF_STATE.iter().map(|entry| page::of_equation(entry)));
+        .chain(entries.map(|entry| page::of_entry(entry, models)))
+        .chain(models.iter().flat_map(|kind| kind.models.iter().map(|model| page::of_model(kind, model))));
     let found = pages.filter_map(|page| {
         let text = text(&page);
         let lower = text.to_lowercase();
@@ -95,6 +98,10 @@ pub fn search(words: &str) -> Option<String> {
 }
 
 /// As [`explain`], for the commands of another language, such as that of mesh recipes.
+///
+/// # Errors
+///
+/// Nothing is known by these words.
 pub fn explain_in(grammar: &'static Grammar, words: &str) -> Result<String, UnknownTopic> {
     let source = asked(words);
     let commands = || grammar.entries.iter().enumerate().flat_map(|(i, e)| e.spellings().map(move |name| (name, i)));
@@ -102,7 +109,7 @@ pub fn explain_in(grammar: &'static Grammar, words: &str) -> Result<String, Unkn
         return Ok(grammar.entries.iter().map(line).collect());
     };
     match spelling::recognise(&record.fields, commands()) {
-        Spelled::As { what, .. } => Ok(text(&page::of_entry(&grammar.entries[what]))),
+        Spelled::As { what, .. } => Ok(text(&page::of_entry(&grammar.entries[what], &[]))),
         _ => several(grammar, source.text())
             .ok_or_else(|| UnknownTopic::new(source.text(), commands().map(|(name, _)| name).collect())),
     }
@@ -125,24 +132,28 @@ impl UnknownTopic {
     }
 }
 
-fn page_of(topic: Topic) -> Page {
+fn page_of(topic: Topic, models: &[Models]) -> Page {
     match topic {
-        Topic::Entry(index) => page::of_entry(&language().entries[index]),
-        Topic::Material(index) => page::of_material(MATERIALS[index]),
-        Topic::Equation(index) => page::of_equation(EQUATIONS_OF_STATE[index]),
+        Topic::Entry(index) => page::of_entry(&language().entries[index], models),
+        Topic::Model(kind, index) => page::of_model(&models[kind], &models[kind].models[index]),
     }
 }
 
-/// What stands on a page under a name of its own: properties and state variables of materials, and the variables that
+/// All models, each with its topic.
+fn all(models: &[Models]) -> impl Iterator<Item = (Topic, &Description)> {
+    models.iter().enumerate().flat_map(|(kind, of_kind)| {
+        let models = of_kind.models.iter().enumerate();
+        models.map(move |(index, model)| (Topic::Model(kind, index), model))
+    })
+}
+
+/// What stands on a page under a name of its own: properties and state variables of models, and the variables that
 /// a plot command chooses from, with the names of their components.
-fn parts() -> Vec<(&'static str, Topic)> {
+fn parts(models: &[Models]) -> Vec<(&'static str, Topic)> {
     let mut parts = Vec::new();
-    for (i, material) in MATERIALS.iter().enumerate() {
-        parts.extend(material.properties.iter().map(|p| (p.keyword, Topic::Material(i))));
-        parts.extend(material.state.iter().map(|v| (v.name, Topic::Material(i))));
-    }
-    for (i, equation) in EQUATIONS_OF_STATE.iter().enumerate() {
-        parts.extend(equation.properties.iter().map(|p| (p.keyword, Topic::Equation(i))));
+    for (topic, model) in all(models) {
+        parts.extend(model.properties.iter().map(|p| (p.keyword, topic)));
+        parts.extend(model.state.iter().map(|v| (v.name, topic)));
     }
     for (i, entry) in language().entries.iter().enumerate().filter(|(_, e)| e.name.starts_with("PLOT ")) {
         for rule in &entry.fields {
@@ -159,8 +170,8 @@ fn parts() -> Vec<(&'static str, Topic)> {
 }
 
 /// The page on which these words stand, or the list of such pages.
-fn parts_named(fields: &[Field]) -> Option<String> {
-    let parts = parts();
+fn parts_named(fields: &[Field], models: &[Models]) -> Option<String> {
+    let parts = parts(models);
     let mut found: Vec<Topic> = Vec::new();
     for (name, topic) in &parts {
         if spelling::word_count(name) == fields.len() && spelling::agreement(fields, name).is_some() {
@@ -169,23 +180,21 @@ fn parts_named(fields: &[Field]) -> Option<String> {
     }
     match found[..] {
         [] => None,
-        [one] => Some(text(&page_of(one))),
-        _ => Some(found.into_iter().map(page_of).map(|p| format!("   {:<28}{}\n", p.title, p.summary)).collect()),
+        [one] => Some(text(&page_of(one, models))),
+        _ => Some(
+            found
+                .into_iter()
+                .map(|topic| page_of(topic, models))
+                .map(|p| format!("   {:<28}{}\n", p.title, p.summary))
+                .collect(),
+        ),
     }
 }
 
-fn topics() -> impl Iterator<Item = (&'static str, Topic)> {
+fn topics(models: &[Models]) -> impl Iterator<Item = (&'static str, Topic)> {
     let entries = language().entries.iter().enumerate();
     let entries = entries.flat_map(|(i, e)| e.spellings().map(move |name| (name, Topic::Entry(i))));
-    let materials = MATERIALS.iter().enumerate();
-    let materials = materials.flat_map(|(i, m)| {
-        std::iter::once(m.name).chain(m.aliases.iter().copied()).map(move |name| (name, Topic::Material(i)))
-    });
-    let equations = EQUATIONS_OF_STATE.iter().enumerate();
-    let equations = equations.flat_map(|(i, e)| {
-        std::iter::once(e.name).chain(e.aliases.iter().copied()).map(move |name| (name, Topic::Equation(i)))
-    });
-    entries.chain(materials).chain(equations)
+    entries.chain(all(models).flat_map(|(topic, model)| model.names().map(move |name| (name, topic))))
 }
 
 /// The entries whose names begin with these words.
@@ -194,8 +203,8 @@ fn several(grammar: &Grammar, words: &str) -> Option<String> {
     (!lines.is_empty()).then(|| lines.concat())
 }
 
-/// All commands by family, and the material models.
-fn overview() -> String {
+/// All commands by family, and the models.
+fn overview(models: &[Models]) -> String {
     let mut text = String::new();
     let mut family = "";
     for entry in language().entries.iter().filter(|e| e.form != Form::Material) {
@@ -205,16 +214,14 @@ fn overview() -> String {
         }
         text += &line(entry);
     }
-    text += "\nmaterial models\n";
-    for material in MATERIALS {
-        let _ = writeln!(text, "   {:<28}{}", material.name, material.summary);
-    }
-    for entry in language().entries.iter().filter(|e| e.form == Form::Material) {
-        text += &line(entry);
-    }
-    text += "\nequations of state\n";
-    for equation in EQUATIONS_OF_STATE {
-        let _ = writeln!(text, "   {:<28}{}", equation.name, equation.summary);
+    for kind in models {
+        let _ = writeln!(text, "\n{}", kind.heading);
+        for model in &kind.models {
+            let _ = writeln!(text, "   {:<28}{}", model.name, model.summary);
+        }
+        // Laws that are known only by name.
+        let planned = language().entries.iter().filter(|e| e.form == Form::Material && kind.command == "MATERIAL");
+        planned.for_each(|entry| text += &line(entry));
     }
     text += "\n * known, but not built yet. `urto explain 'PLOT TIME'` tells more of a command.\n";
     text
@@ -272,6 +279,10 @@ fn wrap(text: &str, indent: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn explain(words: &str) -> Result<String, UnknownTopic> {
+        super::explain(words, &crate::material::models())
+    }
 
     #[test]
     fn a_command_is_explained_with_its_fields() {

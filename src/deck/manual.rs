@@ -8,7 +8,7 @@ use super::{
     language,
     page::{self, Body, Page},
 };
-use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
+use crate::vocabulary::Models;
 
 /// What stands before the commands: the rules of writing.
 const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"
@@ -117,15 +117,15 @@ const HEADINGS: &[(&str, &str)] = &[
     ("output", "OUTPUT"),
 ];
 
-/// The manual page in roff.
-pub fn manual() -> String {
+/// The manual page in roff, with the pages of these models behind those of the commands that choose from them.
+pub fn manual(models: &[Models]) -> String {
     let grammar = language();
     let mut text = rules();
     for (family, heading) in HEADINGS {
-        let mut pages = pages_of(grammar, family);
-        if *family == "material" {
-            pages.extend(MATERIALS.iter().map(|m| page::of_material(m)));
-            pages.extend(EQUATIONS_OF_STATE.iter().map(|e| page::of_equation(e)));
+        let mut pages = pages_of(grammar, family, models);
+        let of_family = |kind: &&Models| grammar.entry(kind.command).is_some_and(|entry| entry.family == *family);
+        for kind in models.iter().filter(of_family) {
+            pages.extend(kind.models.iter().map(|model| page::of_model(kind, model)));
         }
         text += &chapter(heading, &pages);
     }
@@ -142,7 +142,7 @@ fn rules() -> String {
 /// Chapters in roff for the families of a language that is all our own, given with their headings.
 pub fn chapters(grammar: &Grammar, headings: &[(&str, &str)]) -> String {
     let chapter_of = |&(family, heading): &(&str, &str)| {
-        let mut pages = pages_of(grammar, family);
+        let mut pages = pages_of(grammar, family, &[]);
         // Where nothing is PRONTO's, it need not be said of every command.
         pages.iter_mut().for_each(|page| page.sections.retain(|(title, _)| title != page::SPELLING));
         chapter(heading, &pages)
@@ -150,9 +150,9 @@ pub fn chapters(grammar: &Grammar, headings: &[(&str, &str)]) -> String {
     headings.iter().map(chapter_of).collect()
 }
 
-fn pages_of(grammar: &Grammar, family: &str) -> Vec<Page> {
+fn pages_of(grammar: &Grammar, family: &str, models: &[Models]) -> Vec<Page> {
     let built = grammar.commands().filter(|e| e.family == family && e.status == Status::Built);
-    built.map(page::of_entry).collect()
+    built.map(|entry| page::of_entry(entry, models)).collect()
 }
 
 fn chapter(heading: &str, pages: &[Page]) -> String {

@@ -1,11 +1,11 @@
-//! What there is to say about a command or a material model, ready to be printed as text or as a manual page.
+//! What there is to say about a command or a model with properties, ready to be printed as text or as a manual page.
 
 use super::{
     fields::range_in_words,
     glossary::{self, Term},
     grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
 };
-use crate::material::{self, EQUATIONS_OF_STATE, EquationOfState, MATERIALS, Origin, Property};
+use crate::vocabulary::{Description, Models, Origin, Property};
 
 /// A page about one entry.
 pub(super) struct Page {
@@ -47,8 +47,8 @@ impl Page {
     }
 }
 
-/// The page of a command, a group or a name that is planned.
-pub(super) fn of_entry(entry: &Entry) -> Page {
+/// The page of a command, a group or a name that is planned; a command that chooses from `models` lists them.
+pub(super) fn of_entry(entry: &Entry, models: &[Models]) -> Page {
     let built = entry.status == Status::Built;
     let mut form = vec![entry.syntax()];
     match (entry.form, entry.columns.is_empty()) {
@@ -59,11 +59,8 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
         }
         _ => (),
     }
-    let models: Vec<(String, String)> = match entry.name.as_str() {
-        "MATERIAL" => MATERIALS.iter().map(|m| (m.name.to_string(), m.summary.to_string())).collect(),
-        "EQUATION OF STATE" => EQUATIONS_OF_STATE.iter().map(|e| (e.name.to_string(), e.summary.to_string())).collect(),
-        _ => Vec::new(),
-    };
+    let chosen = models.iter().filter(|kind| kind.command == entry.name).flat_map(|kind| &kind.models);
+    let models = chosen.map(|model| (model.name.to_string(), model.summary.to_string())).collect();
     let summary = match &entry.status {
         Status::Built => entry.does.clone(),
         Status::Planned { physics: true } => {
@@ -92,19 +89,10 @@ pub(super) fn of_entry(entry: &Entry) -> Page {
     )
 }
 
-/// The page of a material model.
-pub(super) fn of_material(entry: &material::Entry) -> Page {
-    of_properties(entry, format!("MATERIAL, block, {}, density", entry.name), "MATERIAL, PLOT STATE")
-}
-
-/// The page of an equation of state.
-pub(super) fn of_equation(entry: &material::Entry<EquationOfState>) -> Page {
-    of_properties(entry, format!("EQUATION OF STATE, block, {}", entry.name), "EQUATION OF STATE")
-}
-
-/// The page of a thing with properties: the first line of its group, and what else to read.
-fn of_properties<T>(entry: &material::Entry<T>, first: String, see: &str) -> Page {
-    let mut form = vec![first];
+/// The page of a model of a kind.
+pub(super) fn of_model(kind: &Models, entry: &Description) -> Page {
+    let [before, after] = kind.form;
+    let mut form = vec![format!("{before}{}{after}", entry.name)];
     form.extend(entry.properties.iter().map(|p| match p.default {
         None => format!("{} = {}", p.keyword, p.symbol),
         Some(default) => format!("{} = <{} [{default:?}]>", p.keyword, p.symbol),
@@ -121,7 +109,7 @@ fn of_properties<T>(entry: &material::Entry<T>, first: String, see: &str) -> Pag
     sections.push(("Numbers", Body::Text(law.worked)));
     sections.extend([
         ("Other spellings", Body::Text(entry.aliases.iter().map(|alias| alias.to_string()).collect())),
-        ("See also", Body::Text(vec![see.into()])),
+        ("See also", Body::Text(vec![kind.see.into()])),
         (SPELLING, Body::Text(vec![origin(entry.origin).to_string()])),
     ]);
     Page::new(entry.name, entry.summary.to_string(), sections)
