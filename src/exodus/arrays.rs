@@ -30,6 +30,10 @@ pub type Reason = String;
 impl Arrays {
     /// Opens the file. `length` is its size in bytes: damaged headers that ask for more memory than the file
     /// can fill are refused by it.
+    ///
+    /// # Errors
+    ///
+    /// What the netCDF library cannot read as one of its files.
     pub fn open(path: &Path, length: u64) -> Result<Self, netcdf::Error> {
         silence_hdf5();
         // Deflate compresses at most about a thousandfold, and only netCDF-4 files are compressed.
@@ -67,6 +71,10 @@ impl Arrays {
     }
 
     /// A whole variable of integers of any width; `None` if it does not exist.
+    ///
+    /// # Errors
+    ///
+    /// The variable holds something else than integers, or more than the file can.
     pub fn integers(&self, name: &str) -> Result<Option<Vec<i64>>, Reason> {
         let Some(variable) = self.file.variable(name) else { return Ok(None) };
         match variable.vartype() {
@@ -77,6 +85,10 @@ impl Arrays {
     }
 
     /// The rows of a variable of integers from one to another.
+    ///
+    /// # Errors
+    ///
+    /// The variable is missing, holds something else than integers, or lacks these rows.
     pub fn rows_of_integers(&self, name: &str, rows: Range<usize>) -> Result<Vec<i64>, Reason> {
         let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
         match variable.vartype() {
@@ -86,12 +98,20 @@ impl Arrays {
     }
 
     /// The rows of a variable of numbers from one to another.
+    ///
+    /// # Errors
+    ///
+    /// The variable is missing, holds no numbers, or lacks these rows.
     pub fn rows_of_reals(&self, name: &str, rows: Range<usize>) -> Result<Vec<f64>, Reason> {
         let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
         self.part_of_reals(name, &part(&variable, rows))
     }
 
     /// A whole variable of numbers of any precision; `None` if it does not exist.
+    ///
+    /// # Errors
+    ///
+    /// The variable holds no numbers, or more than the file can.
     pub fn reals(&self, name: &str) -> Result<Option<Vec<f64>>, Reason> {
         if !self.has(name) {
             return Ok(None);
@@ -100,6 +120,10 @@ impl Arrays {
     }
 
     /// A part of a variable of numbers.
+    ///
+    /// # Errors
+    ///
+    /// The variable is missing, holds no numbers, or lacks this part.
     pub fn part_of_reals(&self, name: &str, part: &Extents) -> Result<Vec<f64>, Reason> {
         let variable = self.file.variable(name).ok_or_else(|| format!("{name} is missing"))?;
         match variable.vartype() {

@@ -53,6 +53,10 @@ pub struct RecordVariable {
 }
 
 /// Looks at a file's first bytes, and at its header if it is a netCDF classic file.
+///
+/// # Errors
+///
+/// The file is not a regular one, or cannot be read.
 pub fn inspect(path: &Path) -> io::Result<Container> {
     files::regular(path)?;
     let file = File::open(path)?;

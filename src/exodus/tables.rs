@@ -20,7 +20,7 @@ pub struct Tables {
     pub dimensions: usize,
     /// A part of a mesh may be without nodes and elements.
     pub is_part: bool,
-    /// x, y and z of every node.
+    /// x, y and z of every node, lengths; one array each.
     pub coordinates: [Vec<f64>; 3],
     /// What the dimension `num_nodes` says, if it is there.
     pub node_count: Option<usize>,

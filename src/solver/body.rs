@@ -27,7 +27,7 @@ pub struct Body {
     first: Vec<u32>,
     /// Lumped nodal masses, in file order.
     pub node_mass: Vec<f64>,
-    /// Initial positions, in file order; those of the mesh unless contact surfaces overlapped there.
+    /// Initial positions, lengths, in file order; those of the mesh unless contact surfaces overlapped there.
     pub positions: Arc<Vec<[f64; 3]>>,
     /// Faces under pressure, in canonical order after the elements.
     pub faces: Vec<LoadedFace>,

@@ -35,11 +35,11 @@ pub struct Motion {
 /// Times of a step: state n at `time`, kick Δt̄ = ½(Δtₙ₋₁ + Δtₙ), drift Δtₙ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepTimes {
-    /// tₙ
+    /// tₙ, the time of the present state.
     pub time: f64,
-    /// ½(Δtₙ₋₁ + Δtₙ)
+    /// ½(Δtₙ₋₁ + Δtₙ), a time: forces times it change velocities.
     pub kick: f64,
-    /// Δtₙ
+    /// Δtₙ, a time: velocities times it change positions.
     pub drift: f64,
 }
 

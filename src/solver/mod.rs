@@ -49,9 +49,9 @@ pub struct Solver {
     pub time: f64,
     /// Time of the state before; that of the first one is its own.
     pub previous_time: f64,
-    /// Step that leads from the present state to the next.
+    /// Step that leads from the present state to the next, a time.
     pub time_step: f64,
-    /// Largest stable step of the present state.
+    /// Largest stable step of the present state, a time.
     pub stable_step: f64,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
@@ -138,6 +138,10 @@ impl Solver {
 
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
     /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
+    ///
+    /// # Errors
+    ///
+    /// The state makes no sense any more: see [`Stop`].
     pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         comm.enter(Traffic::Erosion);
         self.erode(comm);

@@ -11,7 +11,7 @@ pub struct Nodes {
     pub rows: Vec<Row>,
     /// Force sums; zero between steps.
     pub forces: Vec<Force>,
-    /// Positions in the mesh.
+    /// Positions in the mesh, lengths.
     pub initial: Vec<[f64; 3]>,
     /// Node of the mesh file.
     pub file: Vec<u32>,

@@ -64,9 +64,9 @@ pub struct ElementPlace {
     pub element: i64,
     /// Block number.
     pub block: i64,
-    /// Mean of its corners.
+    /// Mean of its corners, lengths.
     pub centre: [f64; 3],
-    /// Its volume.
+    /// Its volume, length³.
     pub volume: f64,
 }
 

@@ -18,6 +18,10 @@ const TITLE: usize = 80;
 
 impl<'b> Records<'b> {
     /// Finds byte order and size of marks from the two around the title.
+    ///
+    /// # Errors
+    ///
+    /// The marks around the title fit no byte order and no size.
     pub fn new(bytes: &'b [u8]) -> Result<Records<'b>, Broken> {
         for (big_endian, mark) in [(false, 4), (true, 4), (false, 8), (true, 8)] {
             let file = Records { bytes, at: 0, big_endian, mark };
@@ -56,16 +60,28 @@ impl<'b> Records<'b> {
     }
 
     /// A record that nobody needs; an empty array has one too.
+    ///
+    /// # Errors
+    ///
+    /// The file ends before the record or within it, or its marks disagree.
     pub fn skip(&mut self, what: &str) -> Result<(), Broken> {
         self.next(what).map(|_| ())
     }
 
     /// So many integers, of 4 or 8 bytes each.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or is not as long as so many integers.
     pub fn integers(&mut self, count: usize, what: &str) -> Result<Vec<i64>, Broken> {
         self.all_integers(&[count], what)
     }
 
     /// All integers of a record, which has one of these counts of them.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or is as long as none of these counts of integers.
     pub fn all_integers(&mut self, counts: &[usize], what: &str) -> Result<Vec<i64>, Broken> {
         let record = self.next(what)?;
         let width = width(record, counts, what)?;
@@ -76,6 +92,10 @@ impl<'b> Records<'b> {
     }
 
     /// So many reals, of 4 or 8 bytes each.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or is not as long as so many reals.
     pub fn reals(&mut self, count: usize, what: &str) -> Result<Vec<f64>, Broken> {
         let record = self.next(what)?;
         let width = width(record, &[count], what)?;
@@ -84,12 +104,20 @@ impl<'b> Records<'b> {
     }
 
     /// One integer that counts what follows.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or holds no count.
     pub fn count(&mut self, what: &str) -> Result<usize, Broken> {
         let values = self.integers(1, what)?;
         usize::try_from(values[0]).map_err(|_| Broken(format!("{what} is {}", values[0])))
     }
 
     /// A text of so many characters, without the blanks behind it.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or has another length.
     pub fn text(&mut self, length: usize, what: &str) -> Result<String, Broken> {
         let record = self.next(what)?;
         if record.len() != length {
@@ -99,6 +127,10 @@ impl<'b> Records<'b> {
     }
 
     /// So many texts of eight characters.
+    ///
+    /// # Errors
+    ///
+    /// The record is broken, or has another length.
     pub fn texts(&mut self, count: usize, what: &str) -> Result<Vec<String>, Broken> {
         let record = self.next(what)?;
         if record.len() != 8 * count {

@@ -18,7 +18,7 @@ pub fn inverse(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
 /// Points and faces as they are now.
 #[derive(Debug, Clone, Default)]
 pub struct Layout {
-    /// Middle of the points at the start: boxes in single precision are seen from there.
+    /// Middle of the points at the start, lengths: boxes in single precision are seen from there.
     pub origin: [f64; 3],
     /// Node of the mesh of each point, ascending.
     pub nodes: Vec<u32>,

@@ -58,7 +58,7 @@ pub struct NewElement {
     pub place: u32,
     /// Local nodes.
     pub nodes: Vec<u32>,
-    /// Corner positions.
+    /// Corner positions, lengths.
     pub corners: Vec<[f64; 3]>,
     /// Mass.
     pub mass: f64,

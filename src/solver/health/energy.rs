@@ -56,6 +56,10 @@ pub fn two_kinds(totals: &Totals) -> [f64; 2] {
 
 /// No energy may outgrow what was put in, and the accounts must close. What contact has made is not a matter of this
 /// check: it has a limit of its own, which the deck may raise.
+///
+/// # Errors
+///
+/// An energy is larger than what was put in allows, or the balance is off: the run must stop.
 pub fn check(totals: &Totals, initial: f64, supplied: f64, floor: f64) -> Result<(), Stop> {
     let [kinetic, internal] = two_kinds(totals);
     if kinetic.abs().max(internal.abs()) > FACTOR * (supplied + totals.contact_gain) + floor {

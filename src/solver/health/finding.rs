@@ -19,7 +19,7 @@ pub struct Spot {
     pub node: Option<i64>,
     /// The element, or the element whose face the node meets.
     pub element: Option<i64>,
-    /// Where it is now.
+    /// Where it is now, lengths.
     pub at: [f64; 3],
 }
 

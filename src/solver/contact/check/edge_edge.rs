@@ -43,7 +43,7 @@ pub struct EdgeContact {
     pub pair: [u32; 2],
     /// +1 or −1.
     pub sense: f64,
-    /// Overlap that is tolerated because it was not made by motion; at most 0.
+    /// Overlap that is tolerated because it was not made by motion: a gap, a length of at most 0.
     pub tolerated: f64,
     /// What the contact carries: forces on the first edge.
     pub carried: Carried,

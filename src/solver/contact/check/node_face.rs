@@ -68,7 +68,7 @@ pub struct DetectedContact {
     pub opposition: f64,
     /// Where the point would be at the end of the step; the weights are those of the forces, see `projection::shares_along`.
     pub projection: Projection,
-    /// Overlap that stays, see [`FaceContact`].
+    /// Overlap that stays, a length of at most 0, see [`FaceContact`].
     pub tolerated: f64,
 }
 

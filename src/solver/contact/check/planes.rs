@@ -15,7 +15,7 @@ pub struct PlaneNode {
     pub point: u32,
     /// Index into the model's rigid surfaces.
     pub plane: u32,
-    /// Gap that the mesh had at the start where it was negative: a point that begins behind the plane is held where
+    /// Gap, a length, that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
     pub(in crate::solver::contact) tolerated: f64,
     pub(in crate::solver::contact) carried: Carried,

@@ -92,11 +92,11 @@ pub struct Terms {
     pub landing: f64,
     /// Normal forces times the change of velocity that all forces make, P·A P.
     pub normal_change: f64,
-    /// The same of friction.
+    /// Friction forces times the change of velocity that all forces make.
     pub friction_change: f64,
     /// Normal forces times u⁻ + u*.
     pub normal_free: f64,
-    /// The same of friction.
+    /// Friction forces times sliding velocities, before the step and without contact.
     pub friction_free: f64,
 }
 
@@ -180,7 +180,7 @@ impl Terms {
     }
 }
 
-/// What velocity along its normal a constraint is to have after the step.
+/// What velocity along its normal, length per time, a constraint is to have after the step, in parts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
     /// What costs nothing.
@@ -211,14 +211,9 @@ impl Target {
         Target { least, rest: at_rest - least, lift: wanted - at_rest, lands: now >= 0.0 && !c.persists }
     }
 
-    /// The target with these parts granted.
+    /// The target with these parts granted, length per time.
     pub fn with(&self, [rest, lift]: Granted) -> f64 {
-        // With all granted nothing is rounded twice.
-        if [rest, lift] == [1.0; 2] && self.lift == 0.0 {
-            if self.rest == 0.0 { self.least } else { self.least + self.rest }
-        } else {
-            self.least + rest * self.rest + lift * self.lift
-        }
+        self.least + rest * self.rest + lift * self.lift
     }
 }
 

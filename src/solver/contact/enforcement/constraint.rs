@@ -14,13 +14,13 @@ pub const MEMBERS: usize = 5;
 pub struct Constraint {
     /// Points that take part; the first `count` count.
     pub members: [u32; MEMBERS],
-    /// Their weights.
+    /// Their weights, without dimension; they add up to 0 unless it is with a plane.
     pub weights: [f64; MEMBERS],
     /// Number of members.
     pub count: usize,
     /// Unit normal along which the first member is pushed.
     pub normal: [f64; 3],
-    /// Gap at the end of the step without contact.
+    /// Gap at the end of the step without contact, a length; negative in an overlap.
     pub gap: f64,
     /// Whether it was there in the step before; else its members meet anew.
     pub persists: bool,
@@ -94,7 +94,7 @@ pub struct ConstraintState {
     pub strength: f64,
     /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
     pub softness: [[f64; 2]; MEMBERS],
-    /// Velocity of sliding without contact forces.
+    /// Velocity of sliding without contact forces, length per time.
     pub slip: [f64; 3],
     /// The same over the step before.
     pub slip_before: [f64; 3],

@@ -36,11 +36,14 @@ pub struct Outcome {
     pub travel: f64,
 }
 
-/// Times that turn velocities into displacements and forces into velocities: of the drift, of the kick, and their product.
+/// Times that turn velocities into displacements and forces into velocities.
 #[derive(Clone, Copy)]
 pub(super) struct Times {
+    /// The step, by which velocities change positions; a time.
     pub(super) drift: f64,
+    /// The mean of this step and the last, by which forces change velocities; a time.
     pub(super) kick: f64,
+    /// Their product, time².
     pub(super) both: f64,
 }
 

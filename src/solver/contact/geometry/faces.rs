@@ -15,9 +15,9 @@ pub struct Faces {
     pub corners: Vec<[u32; 4]>,
     /// Index of the mesh block.
     pub block: Vec<u32>,
-    /// Square root of the area at the start.
+    /// Square root of the area at the start, a length.
     pub size: Vec<f64>,
-    /// A point deeper than this behind a face did not come through it: half the element at the start.
+    /// A point deeper than this behind a face did not come through it: half the element at the start, a length.
     pub depth: Vec<f64>,
     /// Faces around each point: `around[first[p]..first[p + 1]]`.
     first: Vec<u32>,

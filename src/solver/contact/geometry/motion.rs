@@ -42,7 +42,7 @@ pub struct NodeMotion {
     pub swept_boxes: Vec<SweptBox>,
     /// Velocity over the step before, length per time.
     before: Vec<[f64; 3]>,
-    /// 1/m along each axis; 0 where a constraint says how the node moves.
+    /// 1/m along each axis, m the mass of the node; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
     /// Near which the points are: boxes are as fine as single precision is there.
     origin: [f64; 3],

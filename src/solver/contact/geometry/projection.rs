@@ -19,14 +19,14 @@ pub const TIE: f64 = 1e-3;
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection {
-    /// Distance along the normal, negative behind the face.
+    /// Distance along the normal, a length; negative behind the face.
     pub gap: f64,
     /// Unit normal, outwards.
     pub normal: [f64; 3],
     /// Shares of the four corners in the foot of the perpendicular, which add up to one. Where the foot lies beyond
     /// the border, the nearest point of the border.
     pub weights: [f64; 4],
-    /// How far the foot lies beyond the border; 0 on the face.
+    /// How far the foot lies beyond the border, a length; 0 on the face.
     pub outside: f64,
     /// Number of the triangle in which the foot is.
     triangle: usize,

@@ -48,9 +48,9 @@ pub trait Control: Copy + Send + Sync {
 /// Flanagan and Belytschko (1981): the same stiffness and viscosity for all modes.
 #[derive(Debug, Clone, Copy)]
 pub struct FlanaganBelytschko {
-    /// Stiffness coefficient κ.
+    /// Stiffness coefficient κ, without dimension.
     pub stiffness: f64,
-    /// Viscosity coefficient ε.
+    /// Viscosity coefficient ε, without dimension.
     pub viscosity: f64,
 }
 

@@ -19,15 +19,15 @@ pub struct Settings {
     pub density: f64,
     /// Least part of an eighth of its mass that any node has of an element; 1 where no corners coincide.
     pub least_share: f64,
-    /// Elastic dilatational modulus λ + 2μ.
+    /// Elastic dilatational modulus λ + 2μ, force/length².
     pub dilatational: f64,
-    /// Shear modulus μ.
+    /// Shear modulus μ, force/length².
     pub mu: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Linear bulk viscosity b₁.
+    /// Linear bulk viscosity b₁, without dimension.
     pub linear_viscosity: f64,
-    /// Quadratic bulk viscosity b₂.
+    /// Quadratic bulk viscosity b₂, without dimension.
     pub quadratic_viscosity: f64,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
