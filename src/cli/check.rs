@@ -15,6 +15,10 @@ use std::time::Instant;
 const TRIAL_STEPS: u32 = 5;
 
 /// Reads, checks and reports.
+///
+/// # Errors
+///
+/// Deck or mesh cannot be read or have mistakes; all of them are reported.
 pub fn check(options: &options::Check) -> Result<u8, Failure> {
     let given = Given::read(&options.input)?;
     if let Some(warnings) = given.warnings() {

@@ -35,11 +35,19 @@ pub type MeshOf = (Mesh, Vec<PathBuf>);
 
 impl Given {
     /// Reads both, or returns every mistake of both.
+    ///
+    /// # Errors
+    ///
+    /// All mistakes of deck and mesh, or what cannot be read.
     pub fn read(input: &options::Input) -> Result<Given, Failure> {
         Given::read_for(input, None)
     }
 
     /// The same; in the expressions of deck and recipe the name `ranks` has this value, if there is one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Given::read`].
     pub fn read_for(input: &options::Input, ranks: Option<u32>) -> Result<Given, Failure> {
         let given = definitions(&input.define)?;
         let making = Making { refine: input.refine, given: &given, ranks };
@@ -47,6 +55,10 @@ impl Given {
     }
 
     /// The same on every process of a job; they read the mesh together.
+    ///
+    /// # Errors
+    ///
+    /// As [`Given::read`], on every process alike.
     #[cfg(feature = "mpi")]
     pub fn read_together(input: &options::Input, together: &mut dyn Together) -> Result<Given, Failure> {
         // Where one process does not come as far as the mesh, none may wait for it there.
@@ -64,6 +76,10 @@ impl Given {
     }
 
     /// The body before it is cut, or why it cannot begin: bodies that overlap and cannot be moved apart.
+    ///
+    /// # Errors
+    ///
+    /// Bodies overlap in the mesh and cannot be moved apart, or an element cannot be computed.
     pub fn body(&self) -> Result<Body, Failure> {
         let model = &self.problem.model;
         let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
@@ -137,11 +153,19 @@ impl Given {
 }
 
 /// The values that options -D give to names.
+///
+/// # Errors
+///
+/// An option is not of the form NAME=VALUE, or gives a name a second value.
 pub fn definitions(texts: &[String]) -> Result<Arc<Definitions>, Failure> {
     Definitions::parse(texts).map(Arc::new).map_err(Failure::input_error)
 }
 
 /// Refuses names that neither deck nor recipe has: most likely misspelt ones.
+///
+/// # Errors
+///
+/// A name that neither deck nor recipe has.
 pub fn all_used(given: &Definitions) -> Result<(), Failure> {
     let unused = given.unused();
     if unused.is_empty() {
@@ -161,6 +185,10 @@ pub fn render(diagnostics: &Diagnostics) -> String {
 }
 
 /// The deck as named, or with its suffix added.
+///
+/// # Errors
+///
+/// There is no such file.
 pub fn deck_path(named: &Path) -> Result<PathBuf, Failure> {
     let with_suffix = PathBuf::from(format!("{}.i", named.display()));
     let missing = || match named.extension() {
@@ -229,6 +257,10 @@ pub fn is_recipe(path: &Path) -> bool {
 }
 
 /// The mesh that a recipe describes; warnings go to the standard error.
+///
+/// # Errors
+///
+/// All mistakes of the recipe, or what cannot be read.
 pub fn make_mesh(recipe: &Path, refine: u32, given: &Arc<Definitions>, ranks: Option<u32>) -> Result<MeshOf, Failure> {
     let source = open(recipe, given, ranks)
         .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;

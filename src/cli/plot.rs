@@ -9,6 +9,10 @@ use crate::plot::{self, Class, Curve, Drawn, Log, PlotOptions, Range};
 use std::path::{Path, PathBuf};
 
 /// Draws, or writes numbers, and says what the curves reach.
+///
+/// # Errors
+///
+/// Results cannot be read or do not hold what is asked for, or the picture cannot be written.
 pub fn plot(options: &options::Plot) -> Result<u8, Failure> {
     if options.list {
         say(plot::contents(&options.files).map_err(Failure::input_error)?.trim_end());

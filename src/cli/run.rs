@@ -15,6 +15,10 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 /// Runs a deck, on threads of this process or as one process of an MPI job.
+///
+/// # Errors
+///
+/// Input that cannot be read or has mistakes, output that cannot be written, or a run that had to stop.
 pub fn run(options: &options::Run) -> Result<u8, Failure> {
     match launched_by_mpi() {
         Some(processes) => under_mpi(options, processes),

@@ -10,6 +10,10 @@ use crate::scale::{self, Case, Machine};
 use crate::solver::Body;
 
 /// Counts, prices and prints.
+///
+/// # Errors
+///
+/// Input that cannot be read or has mistakes, or a model that stops within the steps that are counted.
 pub fn scale(options: &options::Scale) -> Result<u8, Failure> {
     let cases = if options.scaled { scaled(options)? } else { fixed(options)? };
     let machine = machine(options);

@@ -28,6 +28,10 @@ pub struct Wishes {
 impl Wishes {
     /// Starts listening. A shutdown file left from before is removed. A second signal of the same kind ends the
     /// program at once, as it would without us.
+    ///
+    /// # Errors
+    ///
+    /// The system does not let the program listen, or an old shutdown file cannot be removed.
     pub fn listen(shutdown: PathBuf) -> std::io::Result<Wishes> {
         match std::fs::remove_file(&shutdown) {
             // Under MPI every process tidies up, and one comes first.

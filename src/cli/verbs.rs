@@ -11,6 +11,10 @@ use crate::{deck, exodus, material, mesher};
 use std::path::PathBuf;
 
 /// `urto explain`
+///
+/// # Errors
+///
+/// Nothing is known by these words.
 pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
     if let [deck, block] = &options.curve[..] {
         return super::curve::curve(options, deck, block);
@@ -53,6 +57,10 @@ fn overview() -> String {
 }
 
 /// `urto mesh`
+///
+/// # Errors
+///
+/// The recipe cannot be read or has mistakes, or the mesh cannot be written.
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
     let given = super::input::definitions(&options.define)?;
@@ -90,6 +98,10 @@ pub fn refine(options: &options::Refine) -> Result<u8, Failure> {
 }
 
 /// `urto diff`
+///
+/// # Errors
+///
+/// A file cannot be read. That files differ is no error but an exit code.
 pub fn diff(options: &options::Diff) -> Result<u8, Failure> {
     let tolerance = exodus::Tolerance { relative: options.tolerance, floor: options.floor };
     let comparison = exodus::compare(&options.first, &options.second, &tolerance).map_err(Failure::input_error)?;
@@ -98,6 +110,10 @@ pub fn diff(options: &options::Diff) -> Result<u8, Failure> {
 }
 
 /// `urto join`
+///
+/// # Errors
+///
+/// Pieces are missing or do not belong together, or the file cannot be written.
 pub fn join(options: &options::Join) -> Result<u8, Failure> {
     use exodus::pieces;
     let (whole, found) = pieces::pieces_of(&options.pieces).map_err(Failure::input_error)?;
@@ -118,6 +134,10 @@ pub fn join(options: &options::Join) -> Result<u8, Failure> {
 }
 
 /// `urto generate`
+///
+/// # Errors
+///
+/// None; the result has the type of those of all verbs.
 pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     let mut out = Vec::new();
     let mut complete = |shell| clap_complete::generate(shell, &mut super::command(), "urto", &mut out);

@@ -8,6 +8,10 @@ use crate::view::{self, Direction, MapChoice, StateChoice, ViewError, ViewOption
 use std::path::PathBuf;
 
 /// `urto view`
+///
+/// # Errors
+///
+/// Results cannot be read or do not hold what is asked for, or the picture cannot be written.
 pub fn view(options: &options::View) -> Result<u8, Failure> {
     let suffix = if options.animate { "gif" } else { "png" };
     let output = options

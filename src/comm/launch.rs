@@ -46,6 +46,10 @@ pub enum RankFailure<E> {
 /// One rank runs on the calling thread. When a rank fails, those that wait for it end too, at their next call of
 /// the communicator; the errors that ranks return come before panics, and both before the ranks merely lost by
 /// that, each by rank number. `size` is at least 1.
+///
+/// # Errors
+///
+/// The first failure in the order above.
 pub fn run_threads<T, E>(
     size: usize,
     body: impl Fn(&mut dyn Communicator) -> Result<T, E> + Sync,

@@ -51,6 +51,10 @@ pub struct World {
 impl World {
     /// Initialises MPI; from here on a panic anywhere in the process aborts the whole job. To be called only in a
     /// process that a launcher started (see [`super::launched_by_mpi`]): alone, MPI takes up to a second to start.
+    ///
+    /// # Errors
+    ///
+    /// MPI was started before, or cannot be called from one thread at a time.
     pub fn start() -> Result<Self, StartError> {
         let (universe, threading) =
             mpi::initialize_with_threading(Threading::Serialized).ok_or(StartError::AlreadyStarted)?;

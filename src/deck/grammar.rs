@@ -184,6 +184,10 @@ pub enum Absent {
 
 impl Grammar {
     /// Reads card files given as `(family, text)`. An error names the file, the line and what is wrong.
+    ///
+    /// # Errors
+    ///
+    /// A card that is not written as cards are.
     pub fn from_cards(files: &[(&str, &str)]) -> Result<Grammar, String> {
         let mut grammar = Grammar::default();
         for (family, text) in files {

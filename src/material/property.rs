@@ -40,6 +40,10 @@ impl Given<'_> {
     }
 
     /// The equation of state, for a law that cannot do without.
+    ///
+    /// # Errors
+    ///
+    /// The deck gives the block none.
     pub fn equation_of_state(&self) -> Result<EquationOfState, Refusal> {
         self.equation_wanted.set(true);
         let reason = "is missing; it is a group of its own with the number of the block".to_string();
@@ -47,6 +51,10 @@ impl Given<'_> {
     }
 
     /// The function that the property at a position names.
+    ///
+    /// # Errors
+    ///
+    /// The value is not the number of a function, or there is no such function.
     pub fn curve(&self, property: usize, keyword: &'static str) -> Result<Curve, Refusal> {
         let id = self.values[property];
         let refusal = |reason: String| Refusal { keyword, reason };

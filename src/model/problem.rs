@@ -50,12 +50,20 @@ pub(super) struct Draft<'d> {
 
 /// Makes the model of a deck that has been read. `found` are the messages from reading it; if these or the meaning of
 /// the deck hold an error, all messages together are returned instead.
+///
+/// # Errors
+///
+/// All messages, where one of them is an error.
 pub fn from_deck(deck: Deck, found: Diagnostics) -> Result<Problem, Diagnostics> {
     accept(assemble(deck, found))
 }
 
 /// Reads a deck, makes its model and, with a mesh, holds the two against each other: every mistake of all of these at
 /// once, or the problem.
+///
+/// # Errors
+///
+/// All messages, where one of them is an error.
 pub fn examine(source: Source, mesh: Option<&Mesh>) -> Result<Problem, Diagnostics> {
     let (deck, found) = Deck::read(source, language());
     let mut problem = assemble(deck, found);

@@ -67,6 +67,10 @@ impl Names {
     }
 
     /// A number as it is printed, or what is wrong with the format.
+    ///
+    /// # Errors
+    ///
+    /// The format is none for numbers.
     pub fn printed(&self, number: f64, place: Span) -> Result<String, Fault> {
         let format = match self.get("_FORMAT") {
             Some(Value::Text(text)) => text.clone(),
@@ -77,6 +81,10 @@ impl Names {
     }
 
     /// The value of a tree.
+    ///
+    /// # Errors
+    ///
+    /// A name without a value, a function that does not exist, or an operation that its operands do not allow.
     pub fn value(&mut self, node: &Node) -> Result<Value, Fault> {
         match &node.kind {
             Kind::Number(value) => Ok(Value::Number(*value)),
@@ -108,11 +116,19 @@ impl Names {
     }
 
     /// Whether a condition holds: a number that is not zero, or a text that is not empty.
+    ///
+    /// # Errors
+    ///
+    /// As for its value.
     pub fn holds(&mut self, node: &Node) -> Result<bool, Fault> {
         is_true(&self.value(node)?)
     }
 
     /// The value of a tree that must be a number.
+    ///
+    /// # Errors
+    ///
+    /// As for its value; or it is a text.
     pub fn number(&mut self, node: &Node) -> Result<f64, Fault> {
         match self.value(node)? {
             Value::Number(value) => Ok(value),
