@@ -1,7 +1,8 @@
 //! Contact creates no energy: random confined scenes in which, at no step, the work of contact adds up to more than
 //! round-off.
 //!
-//! `URTO_SCENES=0..5000 cargo test --release --test contact_energy -- --include-ignored --nocapture` runs others.
+//! `URTO_SCENES=0..5000 cargo test --release --test contact_energy -- --include-ignored --nocapture` runs others; with
+//! `URTO_SCENES_TO=folder` each is written there as a recipe and a deck.
 
 mod support;
 
@@ -83,6 +84,10 @@ fn steps(solver: &mut Solver, model: &Model, comm: &mut dyn Communicator) -> Fou
 /// Runs the scene of a seed; what is wrong with it, if anything.
 fn try_seed(seed: u64, print: bool) -> Result<Found, String> {
     let Scene { kind, recipe: text, deck, friction } = scene(seed);
+    if let Some(folder) = std::env::var_os("URTO_SCENES_TO").map(std::path::PathBuf::from) {
+        std::fs::write(folder.join(format!("{seed}.mesh")), &text).map_err(|error| error.to_string())?;
+        std::fs::write(folder.join(format!("{seed}.i")), &deck).map_err(|error| error.to_string())?;
+    }
     let mesh = recipe(&text);
     let found = run(&mesh, &model(&deck, &mesh));
     let what = format!(

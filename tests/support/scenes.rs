@@ -145,15 +145,23 @@ pub fn scene(seed: u64) -> Scene {
         speed: 0.0,
         thinnest: f64::INFINITY,
     };
-    match seed % 6 {
+    match seed % 8 {
         0 => stack(builder, false),
         1 => stack(builder, true),
         2 => lined_box(builder),
         3 => sheet(builder),
         4 => notch(builder),
+        5 => fold(builder),
+        6 => grains(builder),
         _ => perforated(builder),
     }
 }
+
+/// Steps in which a box falls and rebounds.
+const BOX_STEPS: f64 = 700.0;
+
+/// Steps in which bodies are pressed together.
+const PRESS_STEPS: f64 = 600.0;
 
 /// Layers of very different stiffness and density between two plates that are driven together; held at one end, by one
 /// plane of nodes, in some or all directions, or not at all.
@@ -161,7 +169,8 @@ fn stack(mut b: Builder, held: bool) -> Scene {
     let layers = b.dice.count(2, 5);
     let (mut z, wide) = (0.0, b.dice.between(0.6, 1.5));
     let tilt = if b.dice.chance(0.3) { b.dice.between(-8.0, 8.0) } else { 0.0 };
-    let gap = b.dice.one_of(&[0.0, 0.0, 1e-4, 0.01]);
+    // What a held stack's load would have to close it would hardly touch.
+    let gap = if held { 0.0 } else { b.dice.one_of(&[0.0, 0.0, 1e-5, 1e-3]) };
     for block in 1..=layers {
         let thick = b.dice.magnitude(0.02, 0.3);
         let cells = [b.dice.count(1, 4), b.dice.count(1, 4), b.dice.count(1, 2)];
@@ -190,7 +199,7 @@ fn stack(mut b: Builder, held: bool) -> Scene {
             b.line(&format!("NO DISPLACEMENT, {direction}, 1"));
         }
         b.line("FUNCTION, 1\n0., 1.\n1., 1.\nEND");
-        let pressure = YOUNG * b.dice.magnitude(1e-8, 1e-5);
+        let pressure = YOUNG * b.dice.magnitude(1e-8, 1e-4);
         b.line(&format!("PRESSURE, 10, 1, {pressure:?}"));
     } else {
         let speed = b.speed * b.dice.magnitude(1e-5, 1e-2);
@@ -228,23 +237,25 @@ fn lined_box(mut b: Builder) -> Scene {
     for block in [1, 2] {
         b.mesh_line(&format!("MERGE, {block}"));
     }
-    let (angle, gap) = (b.dice.between(0.0, 45.0), b.dice.between(0.0, 0.01));
+    b.material(1, 1.0, 1.0);
+    let (stiffness, density) = (b.dice.magnitude(1e-4, 1.0), b.dice.magnitude(1e-2, 1.0));
+    b.material(2, stiffness, density);
+    b.material(3, 1.0, 1.0);
+    let speed = b.speed * b.dice.magnitude(1e-4, 2e-2);
+    // It meets the plane within the first tenth of the time.
+    let travel = speed * BOX_STEPS * 0.5 * b.thinnest / b.speed;
+    let (angle, gap) = (b.dice.between(0.0, 45.0), b.dice.between(0.0, 0.1) * travel);
     for block in 1..=3 {
         b.mesh_line(&format!("ROTATE, {block}, Y, {angle:?}"));
         b.mesh_line(&format!("TRANSLATE, {block}, 0., 0., {:?}", angle.to_radians().sin() + gap));
     }
     b.mesh_line("SIDE SET BLOCK, 1, 1");
-    b.material(1, 1.0, 1.0);
-    let (stiffness, density) = (b.dice.magnitude(1e-4, 1.0), b.dice.magnitude(1e-2, 1.0));
-    b.material(2, stiffness, density);
-    b.material(3, 1.0, 1.0);
     let friction = b.contact(3);
     b.line(&format!("RIGID SURFACE, 1, 0., 0., 0., 0., 0., 1., {}", if friction { 0.3 } else { 0.0 }));
-    let speed = b.speed * b.dice.magnitude(1e-4, 5e-3);
     for block in 1..=3 {
         b.line(&format!("INITIAL VELOCITY MATERIAL, {block}, 0., 0., {:?}", -speed));
     }
-    b.finish("lined box", friction, 700.0)
+    b.finish("lined box", friction, BOX_STEPS)
 }
 
 /// A sheet of one or two layers of elements whose rim is pulled, pushed and twisted.
@@ -298,6 +309,91 @@ fn notch(mut b: Builder) -> Scene {
     b.line(&format!("FUNCTION, 1\n0., 1.\n{0:?}, 1.\n{1:?}, 0.\n{2:?}, 0.\nEND", 0.3 * time, 0.31 * time, 2.0 * time));
     b.line(&format!("PRESCRIBED VELOCITY, Z, 2, 1, {:?}", -speed));
     b.finish("notch", friction, NOTCH_STEPS)
+}
+
+/// A sheet of one or two layers whose ends come together while its middle rises, until its leaves meet and are pressed.
+fn fold(mut b: Builder) -> Scene {
+    let (half, layers) = (b.dice.count(3, 7), b.dice.count(1, 2));
+    let thick = b.dice.between(0.03, 0.1);
+    b.boxed(1, [-0.5, 0.0, 0.0], [1.0, 0.3, thick], [2 * half, 2, layers]);
+    b.mesh_line("NODE SET PLANE, 1, X, -0.5");
+    b.mesh_line("NODE SET PLANE, 2, X, 0.5");
+    b.mesh_line("NODE SET PLANE, 3, X, 0.");
+    let soft = b.dice.magnitude(1e-2, 1.0);
+    b.material(1, soft, 1.0);
+    // A stiff core around which the sheet is laid.
+    let (core, wide) = (b.dice.chance(0.4), b.dice.between(0.5, 2.0) * thick);
+    if core {
+        let cells = [b.dice.count(1, 2), 2, b.dice.count(1, 3)];
+        b.boxed(2, [-0.5 * wide, 0.0, -0.3], [wide, 0.3, 0.3 - 1e-3], cells);
+        let (stiffness, density) = (b.dice.magnitude(1e-1, 1e1), b.dice.magnitude(1e-1, 1e1));
+        b.material(2, stiffness, density);
+    }
+    let friction = b.contact(1 + usize::from(core));
+    let time = PRESS_STEPS * 0.5 * b.thinnest / b.speed;
+    b.line(&format!("FUNCTION, 1\n0., 1.\n{:?}, 1.\nEND", 2.0 * time));
+    // The leaves meet when each end is half a thickness from the middle; what is between them is met before.
+    let apart = if core { 0.5 * (wide + thick) } else { 0.5 * thick };
+    let way = 0.5 - b.dice.between(0.6, 1.0) * apart;
+    let rise = if core { 0.0 } else { b.dice.between(0.3, 0.5) };
+    for (set, axis, distance) in [(1, "X", way), (2, "X", -way), (3, "Z", rise)] {
+        b.line(&format!("PRESCRIBED VELOCITY, {axis}, {set}, 1, {:?}", distance / time));
+    }
+    let low = if core { -b.dice.between(0.1, 0.3) } else { 0.0 };
+    for set in 1..=2 {
+        b.line(&format!("PRESCRIBED VELOCITY, Z, {set}, 1, {:?}", low / time));
+    }
+    b.finish("fold", friction, PRESS_STEPS)
+}
+
+/// Boxes of all sorts, turned at random, one upon the other between two plates that squeeze them: corners, edges and faces
+/// meet.
+fn grains(mut b: Builder) -> Scene {
+    let count = b.dice.count(2, 5);
+    let mut height = 0.0;
+    for block in 1..=count {
+        let size = [0, 1, 2].map(|_| b.dice.between(0.15, 0.28));
+        let cells = [0, 1, 2].map(|_| b.dice.count(1, 3));
+        b.boxed(block, size.map(|length| -0.5 * length), size, cells);
+        let turns = [0, 1, 2].map(|_| if b.dice.chance(0.5) { b.dice.one_of(&[0.0, 45.0]) } else { b.dice.between(0.0, 90.0) });
+        for (axis, turn) in ["X", "Y", "Z"].iter().zip(turns) {
+            b.mesh_line(&format!("ROTATE, {block}, {axis}, {turn:?}"));
+        }
+        let half = half_height(size, turns);
+        let aside = [0.1 * b.dice.next(), 0.1 * b.dice.next()];
+        b.mesh_line(&format!("TRANSLATE, {block}, {:?}, {:?}, {:?}", aside[0], aside[1], height + half));
+        height += 2.0 * half + 1e-3;
+        let (stiffness, density) = (b.dice.magnitude(1e-2, 1e2), b.dice.magnitude(1e-1, 1e1));
+        b.material(block, stiffness, density);
+    }
+    let plates = [count + 1, count + 2];
+    for (plate, z) in plates.into_iter().zip([-0.101, height]) {
+        let cells = [b.dice.count(1, 4), b.dice.count(1, 4), 1];
+        b.boxed(plate, [-0.5, -0.5, z], [1.0, 1.0, 0.1], cells);
+        let stiffness = b.dice.magnitude(1e-1, 1e2);
+        b.material(plate, stiffness, 1.0);
+    }
+    b.mesh_line("NODE SET PLANE, 1, Z, -0.101");
+    b.mesh_line(&format!("NODE SET PLANE, 2, Z, {:?}", height + 0.1));
+    let friction = b.contact(count + 2);
+    let time = PRESS_STEPS * 0.5 * b.thinnest / b.speed;
+    b.line("NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1");
+    b.line(&format!("FUNCTION, 1\n0., 1.\n{:?}, 1.\nEND", 2.0 * time));
+    let speed = b.dice.magnitude(0.002, 0.05) * height / time;
+    b.line(&format!("PRESCRIBED VELOCITY, Z, 2, 1, {:?}", -speed));
+    let falls = if b.dice.chance(0.5) { speed } else { 0.0 };
+    for block in 1..=count {
+        b.line(&format!("INITIAL VELOCITY MATERIAL, {block}, 0., 0., {:?}", -falls));
+    }
+    b.finish("grains", friction, PRESS_STEPS)
+}
+
+/// Half of the height of a box that is turned by so many degrees about x, then y, then z.
+fn half_height(size: [f64; 3], turns: [f64; 3]) -> f64 {
+    let [(sx, cx), (sy, cy), _] = turns.map(|turn| turn.to_radians().sin_cos());
+    // The last row of the product of the turns.
+    let row = [-sy, sx * cy, cx * cy];
+    0.5 * size.iter().zip(row).map(|(length, part)| length * part.abs()).sum::<f64>()
 }
 
 /// A block that is driven through a plate whose elements fail.
