@@ -9,7 +9,7 @@ use crate::exodus::{MeshError, read_mesh};
 use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes};
 use crate::mesher;
-use crate::model::{ContactOverlap, Problem, examine};
+use crate::model::{Problem, examine};
 use crate::solver::elements::Unfit;
 use crate::solver::{Body, unfit_blocks};
 use std::io::IsTerminal;
@@ -84,7 +84,7 @@ impl Given {
         let model = &self.problem.model;
         let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
         match body.overlap.refusal(&self.mesh) {
-            Some(refusal) if model.contact.control.overlap == ContactOverlap::Refuse => Err(Failure::input(refusal)),
+            Some(refusal) if model.contact.control.overlap.refuses() => Err(Failure::input(refusal)),
             _ => Ok(body),
         }
     }

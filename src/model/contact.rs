@@ -218,6 +218,7 @@ fn contact_edges(card: &Card, draft: &mut Draft) {
 fn contact_overlap(card: &Card, draft: &mut Draft) {
     draft.model.contact.control.overlap = match card.text("treatment") {
         "KEEP" => ContactOverlap::Keep,
+        "STRESS" => ContactOverlap::Stress(card.maybe_number("time")),
         _ => ContactOverlap::Remove,
     };
 }

@@ -114,7 +114,7 @@ impl Default for ContactControl {
 }
 
 /// CONTACT OVERLAP: what becomes of overlaps that the mesh begins with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactOverlap {
     /// Nodes are moved out; what cannot be moved out is refused.
     Refuse,
@@ -122,6 +122,15 @@ pub enum ContactOverlap {
     Remove,
     /// All stay: contact holds them where they are.
     Keep,
+    /// All are pushed apart through the strain of the bodies by this time, or slowly against their waves.
+    Stress(Option<f64>),
+}
+
+impl ContactOverlap {
+    /// Whether a mesh is refused of which something is left inside that cannot be dealt with.
+    pub fn refuses(self) -> bool {
+        matches!(self, ContactOverlap::Refuse | ContactOverlap::Stress(_))
+    }
 }
 
 /// Ways to share out the points of contact among ranks; all give the same results.

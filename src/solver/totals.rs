@@ -32,6 +32,8 @@ pub struct Totals {
     pub contact: f64,
     /// Energy that contact has made: given beyond what it had taken before. It is a part of `contact` and `friction`.
     pub contact_gain: f64,
+    /// Work of press fits: energy supplied. It is a part of `contact`.
+    pub press_fit: f64,
     /// Linear momentum.
     pub momentum: [f64; 3],
 }
@@ -50,6 +52,7 @@ impl Totals {
             external: s[5],
             contact: s[6],
             contact_gain: 0.0,
+            press_fit: 0.0,
             momentum: [s[7], s[8], s[9]],
             eroded: s[10],
         }
@@ -111,6 +114,7 @@ pub fn totals(domain: &mut Domain, kick: f64, comm: &mut dyn Communicator) -> To
     if let Some(contact) = &mut domain.contact {
         contact.note_work(totals.contact - totals.friction);
         totals.contact_gain = contact.gain();
+        totals.press_fit = contact.growth_work();
     }
     totals
 }

@@ -355,7 +355,8 @@ fn grains(mut b: Builder) -> Scene {
         let size = [0, 1, 2].map(|_| b.dice.between(0.15, 0.28));
         let cells = [0, 1, 2].map(|_| b.dice.count(1, 3));
         b.boxed(block, size.map(|length| -0.5 * length), size, cells);
-        let turns = [0, 1, 2].map(|_| if b.dice.chance(0.5) { b.dice.one_of(&[0.0, 45.0]) } else { b.dice.between(0.0, 90.0) });
+        let turns =
+            [0, 1, 2].map(|_| if b.dice.chance(0.5) { b.dice.one_of(&[0.0, 45.0]) } else { b.dice.between(0.0, 90.0) });
         for (axis, turn) in ["X", "Y", "Z"].iter().zip(turns) {
             b.mesh_line(&format!("ROTATE, {block}, {axis}, {turn:?}"));
         }

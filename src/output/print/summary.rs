@@ -88,6 +88,9 @@ fn balance(ending: &Ending) -> String {
     out += &leader("INITIAL KINETIC ENERGY", &number(ending.initial_energy));
     out += &leader("WORK OF LOADS AND PRESCRIBED MOTIONS", &number(t.external));
     out += &leader("WORK OF NORMAL CONTACT FORCES", &number(t.contact));
+    if t.press_fit != 0.0 {
+        out += &leader("OF THESE THE WORK OF PRESS FITS", &number(t.press_fit));
+    }
     out += &leader("ENERGY MADE BY CONTACT", &number(t.contact_gain));
     out += &leader("KINETIC ENERGY", &number(t.kinetic));
     out += &leader("INTERNAL ENERGY", &number(t.internal));

@@ -94,6 +94,8 @@ pub struct StepInput<'a> {
     pub mean_size: f64,
     /// How far the iterations go.
     pub limits: Limits,
+    /// Part of the tolerated overlaps that is left after the step.
+    pub remaining: f64,
 }
 
 impl LocalProblem {
@@ -221,7 +223,7 @@ impl LocalProblem {
         self.constraints.clear();
         if !self.rules.is_empty() {
             self.locator.step(&self.motion, &self.faces);
-            self.check(setting.pairings);
+            self.check(setting.pairings, setting.remaining, step.drift);
             self.check_edges(setting.pairings);
         }
         let always = !self.rules.is_empty();
@@ -248,7 +250,7 @@ impl LocalProblem {
     }
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
-    fn check(&mut self, pairings: &Pairings) {
+    fn check(&mut self, pairings: &Pairings, remaining: f64, drift: f64) {
         let LocalProblem { motion, faces, point_block, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
         let check = NodeFaceCheck { motion, faces };
@@ -282,6 +284,9 @@ impl LocalProblem {
                 let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[contact.face as usize]);
+                let tolerated = remaining * contact.tolerated;
+                let contact =
+                    &DetectedContact { tolerated, growth: (tolerated - contact.tolerated) / drift, ..*contact };
                 if let Some(mut constraint) = node_face::constraint(faces, pairing, point, contact) {
                     constraint.carried = carried_before(faces, &before, contacts, contact);
                     constraint.origin = Origin::Face(point, place as u32);

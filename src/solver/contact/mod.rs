@@ -12,6 +12,7 @@ mod layout;
 mod local_problem;
 mod node_result;
 mod pairings;
+mod press_fit;
 mod ranks;
 mod report;
 mod reshape;
@@ -38,6 +39,7 @@ use enforcement::other_ranks::NoOtherRanks;
 use layout::{ABSENT, Layout};
 use local_problem::{History, LocalProblem, Numbering, StepInput};
 use pairings::Pairings;
+use press_fit::PressFit;
 use ranks::remote::Remote;
 use ranks::routing::share_planes;
 use search::locate::Reach;
@@ -73,6 +75,8 @@ pub struct Contact {
     /// All nodes that may meet planes.
     plane_nodes: Vec<PlaneNode>,
     limits: Limits,
+    /// How overlaps of the mesh are pushed apart, if they are.
+    press_fit: Option<PressFit>,
     /// Work of normal and friction forces at points that are gone, those of this rank.
     lost_work: Vec<[f64; 2]>,
     /// What contact may give back of what it has taken.
@@ -120,6 +124,7 @@ impl Contact {
             mean_size: mean_size(&layout),
             plane_nodes: plane_points(&plane_node_sets, model, body, &layout),
             limits: limits(model, &plane_node_sets),
+            press_fit: PressFit::of(mesh, model, body),
             lost_work: Vec::new(),
             bank: Bank::default(),
             gain: Gain::default(),
@@ -279,8 +284,9 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
-        let Contact { problem, remote, pairings, planes, mean_size, limits, bank, .. } = self;
-        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits };
+        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, .. } = self;
+        let remaining = PressFit::remaining(*press_fit, step);
+        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining };
         match remote {
             Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),
             None => problem.step(&setting, step, bank, &mut NoOtherRanks),

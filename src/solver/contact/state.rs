@@ -40,7 +40,7 @@ impl Contact {
             plane_nodes: _,
             lost_work: _,
             tally: Tally { steps, iterations, capped, left, deepest, motions, farthest },
-            bank: Bank { balance, asked, work, gain: excess },
+            bank: Bank { balance, asked, work, gain: excess, growth },
             gain,
             searches,
             age,
@@ -59,6 +59,7 @@ impl Contact {
             planes: _,
             mean_size: _,
             limits: _,
+            press_fit: _,
             decomposition: _,
         } = self;
         gain.visit_state(archive);
@@ -76,6 +77,7 @@ impl Contact {
             archive.number("CONTASKED2", &mut asked[1]);
             archive.number("CONTSUM", work);
             archive.number("CONTEXCESS", excess);
+            archive.number("CONTGROWTH", growth);
             archive.count("CONTSEARCHES", searches);
             archive.count("CONTAGE", age);
         }

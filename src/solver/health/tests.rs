@@ -53,6 +53,7 @@ const SOUND: Totals = Totals {
     external: 0.0,
     contact: 0.0,
     contact_gain: 0.0,
+    press_fit: 0.0,
     momentum: [0.0; 3],
 };
 

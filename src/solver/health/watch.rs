@@ -191,7 +191,7 @@ impl Solver {
     fn look_for(&mut self, due: When, comm: &mut dyn Communicator) -> Totals {
         let totals = self.totals(comm);
         let mut watch = std::mem::take(&mut self.watch);
-        let supplied = self.initial_energy + watch.facts.stored_energy + totals.external.max(0.0);
+        let supplied = self.initial_energy + watch.facts.stored_energy + totals.external.max(0.0) + totals.press_fit;
         watch.supplied = watch.supplied.max(supplied);
         watch.look(self, totals, due, comm);
         self.watch = watch;

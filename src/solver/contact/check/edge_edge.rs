@@ -336,6 +336,7 @@ impl EdgeCheck<'_> {
             count: MEMBERS - 1,
             normal: scaled(end.normal, now.sense),
             gap,
+            growth: 0.0,
             persists: now.carried != Carried::NOTHING,
             size: end.shorter(),
             share: pairing.share,

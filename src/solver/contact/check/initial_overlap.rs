@@ -116,7 +116,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         return Overlap::default();
     }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
-    if model.contact.control.overlap == ContactOverlap::Keep {
+    if matches!(model.contact.control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_)) {
         return Overlap { deep: deep_overlap(body, &layout), ..Default::default() };
     }
     let pairings = Pairings::new(mesh, model, body);

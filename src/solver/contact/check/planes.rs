@@ -59,6 +59,7 @@ impl PlaneNode {
             count: 1,
             normal: plane.normal,
             gap,
+            growth: 0.0,
             persists: self.carried != Carried::NOTHING,
             size,
             share: 1.0,

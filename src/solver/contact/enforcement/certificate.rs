@@ -34,6 +34,8 @@ pub struct Bank {
     pub work: f64,
     /// Energy that contact has given beyond what the bank had; stays at round-off.
     pub gain: f64,
+    /// Work of surfaces that grow: energy supplied, and no part of `work`.
+    pub growth: f64,
 }
 
 /// Parts, 0 to 1, that are granted of bringing to rest what rises, and of lifting.
@@ -54,7 +56,7 @@ impl Bank {
 }
 
 /// Number of [`Sums`].
-pub const COUNT: usize = 8;
+pub const COUNT: usize = 9;
 
 /// What a step's forces amount to, over all constraints of all ranks. Forces times velocities: with the step's kick Δt̄ they
 /// are energies.
@@ -98,6 +100,8 @@ pub struct Terms {
     pub normal_free: f64,
     /// Friction forces times sliding velocities, before the step and without contact.
     pub friction_free: f64,
+    /// Normal forces times the velocity with which surfaces grow.
+    pub growth: f64,
 }
 
 impl Terms {
@@ -110,6 +114,7 @@ impl Terms {
             lift: normal_force * state.target.lift,
             normal_change: normal_force * dot(change, c.normal),
             normal_free: normal_force * (state.before + state.free),
+            growth: normal_force * c.growth,
             ..Default::default()
         };
         if state.target.lands {
@@ -126,14 +131,15 @@ impl Terms {
 
     /// As numbers, for sums over ranks.
     fn to_array(self) -> [f64; COUNT] {
-        let Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free } = self;
-        [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free]
+        let Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free, growth } =
+            self;
+        [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free, growth]
     }
 
     /// From these numbers.
     fn from_array(numbers: [f64; COUNT]) -> Terms {
-        let [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free] = numbers;
-        Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free }
+        let [least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free, growth] = numbers;
+        Terms { least, rest, lift, landing, normal_change, friction_change, normal_free, friction_free, growth }
     }
 
     /// Adds the terms of another constraint of the same node.
@@ -173,6 +179,7 @@ impl Terms {
             (work(self.normal_free, self.normal_change), work(self.friction_free, self.friction_change));
         let landing = kick * ray * self.landing;
         bank.work += normal + friction;
+        bank.growth += kick * ray * self.growth;
         bank.gain += (normal + friction - bank.balance).max(0.0);
         bank.balance = (bank.balance - (normal + friction.max(0.0) - landing)).max(0.0);
         bank.asked = asked.map(|asked| ray * asked);

@@ -22,6 +22,8 @@ pub struct Constraint {
     pub normal: [f64; 3],
     /// Gap at the end of the step without contact, a length; negative in an overlap.
     pub gap: f64,
+    /// Velocity with which the surfaces grow towards each other; from it relative velocities are counted.
+    pub growth: f64,
     /// Whether it was there in the step before; else its members meet anew.
     pub persists: bool,
     /// Length that the gap is small against.

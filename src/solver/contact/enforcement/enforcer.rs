@@ -200,7 +200,7 @@ impl Enforcer {
                 state.softness[i] = [w.abs() * one, w.abs() * most];
             }
             let [free, before] = c.velocities(motion);
-            (state.free, state.before) = (dot(free, c.normal), dot(before, c.normal));
+            (state.free, state.before) = (dot(free, c.normal) - c.growth, dot(before, c.normal) - c.growth);
             state.target = match ledger {
                 Ledger::Unlimited => Target { least: state.free - c.gap / drift, ..Default::default() },
                 _ => Target::of(c, [state.before, state.free], drift),

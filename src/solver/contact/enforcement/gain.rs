@@ -28,6 +28,11 @@ impl Contact {
         if self.layout.interfaces.is_empty() { self.gain.most } else { self.bank.gain }
     }
 
+    /// Work that growing surfaces have done so far, an energy: that of press fits; the same on all ranks.
+    pub fn growth_work(&self) -> f64 {
+        self.bank.growth
+    }
+
     /// Takes note of the work of all contact forces so far, summed over all ranks.
     pub fn note_work(&mut self, work: f64) {
         // NaN is no gain: other checks find it.

@@ -185,6 +185,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
         friction: Friction { at_rest, high_speed, decay },
         // Only its own rank asks for these.
         gap: 0.0,
+        growth: 0.0,
         persists: true,
         carried: Carried { penetration: 0.0, normal_force, tangential_force },
         origin: match kind {
