@@ -66,6 +66,8 @@ pub struct Contact {
     held: Vec<[u32; 3]>,
     /// Canonical numbers of the elements that are here, ascending.
     elements: Vec<u32>,
+    /// Local nodes of each face whose element is here, and of the side across the element from it.
+    thicknesses: Vec<(u32, [[u32; 4]; 2])>,
     search: Box<dyn Search>,
     decomposition: ContactDecomposition,
     reach: Reach,
@@ -134,6 +136,7 @@ impl Contact {
             counts: [0; 2],
             pairings: Pairings::new(mesh, model, body),
             elements: elements.to_vec(),
+            thicknesses: Vec::new(),
             held,
             skin,
             layout,
@@ -144,7 +147,12 @@ impl Contact {
 
     /// Finds the points that are nodes here, and gets to know the other ranks.
     fn meet(&mut self, local: impl Fn(u32) -> u32, nodes: &Nodes, comm: &mut dyn Communicator) {
-        let Contact { layout, held, elements, .. } = self;
+        let Contact { layout, held, elements, skin, .. } = self;
+        let is_here = |number: u32| comm.size() == 1 || elements.binary_search(&(number / 6)).is_ok();
+        let numbers = if layout.interfaces.is_empty() { &[][..] } else { &layout.faces.number[..] };
+        let faces = (0..).zip(numbers).filter(|(_, number)| is_here(**number));
+        self.thicknesses =
+            faces.map(|(face, &number)| (face, skin.sides(number).map(|side| side.map(&local)))).collect();
         let here = |point: u32| local(layout.nodes[point as usize]);
         self.contact_nodes = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {
@@ -175,6 +183,8 @@ impl Contact {
             .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
         self.carried = Some(renumbered(history, &old, new));
         self.meet(|node| erosion.local()[node as usize], nodes, comm);
+        // What is laid bare may be thinner than it was.
+        self.thin(nodes, comm);
         for (contact_node, work) in old_contact_nodes.list.iter().zip(&old_contact_nodes.works) {
             match self.contact_nodes.of(self.layout.point(old.nodes[contact_node.point as usize])) {
                 Some(now) => self.contact_nodes.works[now] = *work,
@@ -206,7 +216,7 @@ impl Contact {
     fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
         self.contact_nodes.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
-        let reshaped = self.reshape(comm);
+        let reshaped = self.reshape(nodes, comm);
         if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
             self.search(comm);
         }

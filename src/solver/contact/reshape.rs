@@ -1,15 +1,19 @@
-//! Edges that come to stand out as the surface folds, and those that fold back.
+//! Edges that come to stand out as the surface folds, those that fold back, and elements that become thinner.
 //!
 //! Looked at every so many steps of the run, whenever searches are made: results do not depend on the search. All ranks keep
-//! the same table of shapes; each looks at the edges whose first face it has, and tells the others what has changed.
+//! the same tables; each looks at the edges whose first face it has and at the faces of its elements, and tells the others what
+//! has changed.
 
 use super::Contact;
 use super::check::edge_edge;
 use super::geometry::edges::{self, Shape, Side};
-use super::layout::Layout;
+use super::geometry::faces::{THINNEST, half_thickness};
+use super::layout::{ABSENT, Layout};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::partition::dynamic::Parcels;
+use crate::solver::nodes::Nodes;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Steps after which edges are looked at again. A fold takes hundreds.
 const EVERY: u64 = 100;
@@ -17,19 +21,56 @@ const EVERY: u64 = 100;
 /// Number of shapes.
 const SHAPES: u32 = 3;
 
+/// Number of thinnings.
+const THINNINGS: u32 = THINNEST as u32 + 1;
+
 impl Contact {
     /// Counts the step, and when it is time looks which edges stand out now. Whether any has changed: history is then on its
     /// way, and all ranks must search. All ranks call it, with the present positions in the contact nodes.
-    pub(super) fn reshape(&mut self, comm: &mut dyn Communicator) -> bool {
+    pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
-        if self.layout.edges.is_empty() || !self.age.is_multiple_of(EVERY) {
+        if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
             return false;
         }
-        let mut changed = self.changes(comm);
+        let folded = !self.layout.edges.is_empty() && self.fold(comm);
+        let thinner = self.thin(nodes, comm);
+        if thinner && self.carried.is_none() {
+            self.carried = Some(self.problem.history());
+        }
+        folded || thinner
+    }
+
+    /// Gives the faces of all elements the depths that they have now. Whether any has changed. All ranks call it.
+    pub(super) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
+        let faces = &self.layout.faces;
+        let mut changed = Vec::new();
+        for (face, sides) in &self.thicknesses {
+            let [front, back] = sides.map(|side| side.map(|node| nodes.position(node)));
+            let thinning = faces.thinning_at(*face, half_thickness(front, back));
+            if thinning != faces.thinning(*face) {
+                changed.push(THINNINGS * face + u32::from(thinning));
+            }
+        }
+        self.with_others(&mut changed, comm);
+        if !changed.is_empty() {
+            let faces = Arc::make_mut(&mut self.layout.faces);
+            changed.iter().for_each(|change| faces.set_thinning(change / THINNINGS, (change % THINNINGS) as u8));
+        }
+        !changed.is_empty()
+    }
+
+    /// Appends what other ranks tell.
+    fn with_others(&self, changed: &mut Vec<u32>, comm: &mut dyn Communicator) {
         if self.remote.is_some() {
-            let others = numbers_of_others(&changed, comm);
+            let others = numbers_of_others(changed, comm);
             changed.extend(others.into_iter().flat_map(|(_, numbers)| numbers));
         }
+    }
+
+    /// Gives edges the shapes that they have now. Whether any has changed.
+    fn fold(&mut self, comm: &mut dyn Communicator) -> bool {
+        let mut changed = self.changes(comm);
+        self.with_others(&mut changed, comm);
         if changed.is_empty() {
             return false;
         }
@@ -93,8 +134,15 @@ impl Contact {
     }
 }
 
-/// Gives edges that have been there before, between the same faces, the shape that they had.
+/// Gives faces that have been there before the depth that they had, and edges between the same faces the shape.
 pub fn take_over(new: &mut Layout, old: &Layout) {
+    let faces = Arc::make_mut(&mut new.faces);
+    for face in 0..faces.len() as u32 {
+        let before = old.face(faces.number[face as usize]);
+        if before != ABSENT && old.faces.thinning(before) > 0 {
+            faces.set_thinning(face, old.faces.thinning(before));
+        }
+    }
     let shapes: Vec<Option<Shape>> = new
         .edges
         .iter()

@@ -2,7 +2,7 @@
 
 use super::geometry::edges;
 use super::geometry::faces::Faces;
-use super::geometry::surface::{Surface, face_nodes};
+use super::geometry::surface::{Surface, back_nodes, face_nodes};
 use super::layout::Layout;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
@@ -65,6 +65,11 @@ impl Skin {
     /// Initial positions of some nodes of the mesh.
     pub fn positions(&self, nodes: &[u32]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&node| self.positions[node as usize]).collect()
+    }
+
+    /// Nodes of a face by its number, and of the side across the element from it.
+    pub fn sides(&self, face: u32) -> [[u32; 4]; 2] {
+        [face_nodes(&self.element_nodes, face), back_nodes(&self.element_nodes, face)]
     }
 
     /// Place in the mesh file, from 1, of the element of a face.

@@ -15,12 +15,15 @@ use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
 use crate::solver::erosion::Erosion;
 use crate::solver::nodes::Nodes;
+use std::sync::Arc;
 
 /// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, and what
 /// it carries.
 const TOUCH: usize = 5 + WIDTH;
 /// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, and what it carries.
 const PAIR: usize = 6 + WIDTH;
+/// Columns of a thinner face: element and side of the face, factors of √2.
+const THINNING: usize = 3;
 /// Columns of an edge: its nodes, its shape.
 const SHAPE: usize = 3;
 /// Columns of a point that a plane pushes: node, number of the plane, and what it carries.
@@ -55,6 +58,7 @@ impl Contact {
             pairings: _,
             held: _,
             elements: _,
+            thicknesses: _,
             reach: _,
             planes: _,
             mean_size: _,
@@ -93,6 +97,7 @@ impl Contact {
             self.take_up(dead, erosion, nodes, archive);
         }
         self.visit_shapes(archive);
+        self.visit_thinnings(archive);
         self.visit_history(archive);
         self.visit_works(archive);
     }
@@ -130,6 +135,38 @@ impl Contact {
                 self.layout.edges[edge as usize].shape = Shape::from_code(row[2] as u32);
             }
         }
+    }
+
+    /// Faces whose elements are thinner than in the mesh.
+    fn visit_thinnings(&mut self, archive: &mut dyn Archive) {
+        let mut rows: Vec<f64> = Vec::new();
+        // Every rank knows all of them.
+        if archive.comm().rank() == 0 {
+            let faces = &self.layout.faces;
+            for face in (0..faces.len() as u32).filter(|&face| faces.thinning(face) > 0) {
+                rows.extend(self.face_key(face));
+                rows.push(f64::from(faces.thinning(face)));
+            }
+        }
+        archive.list("CONTTHIN", THINNING, &mut rows);
+        if !archive.loading() || rows.is_empty() {
+            return;
+        }
+        let places = self.faces_by_key();
+        let faces = Arc::make_mut(&mut self.layout.faces);
+        for row in rows.chunks_exact(THINNING) {
+            if let Ok(place) = places.binary_search_by(|(key, _)| compare_rows(key, &row[..2])) {
+                faces.set_thinning(places[place].1, row[2] as u8);
+            }
+        }
+    }
+
+    /// Faces of the layout by element and side in the mesh file, ascending.
+    fn faces_by_key(&self) -> Vec<([f64; 2], u32)> {
+        let all = 0..self.layout.faces.len() as u32;
+        let mut faces: Vec<([f64; 2], u32)> = all.map(|face| (self.face_key(face), face)).collect();
+        faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
+        faces
     }
 
     /// What touches, in the local problem or on its way to the next.
@@ -172,9 +209,7 @@ impl Contact {
         if !archive.loading() {
             return Vec::new();
         }
-        let mut faces: Vec<([f64; 2], u32)> =
-            (0..self.layout.faces.len() as u32).map(|face| (self.face_key(face), face)).collect();
-        faces.sort_by(|a, b| compare_rows(&a.0, &b.0));
+        let faces = self.faces_by_key();
         let mut points: Vec<(u32, [FaceContact; 3])> = Vec::new();
         // Rows are sorted by their nodes.
         for &[node, slot, element, side, tolerated, ref carried @ ..] in rows.as_chunks::<TOUCH>().0 {

@@ -6,6 +6,18 @@ use super::surface::{back_nodes, face_nodes};
 use crate::mesh::Connectivity;
 use crate::vector::{dot, subtract};
 
+/// Most factors of √2 by which a depth becomes less: to 0.6 % of that at the start.
+pub const THINNEST: u8 = 15;
+
+/// Half of the thickness of an element between a face and the side across from it, along the normal of the face; 0 for a face
+/// without area.
+pub fn half_thickness(front: [[f64; 3]; 4], back: [[f64; 3]; 4]) -> f64 {
+    let normal = area_normal(&front);
+    let area = dot(normal, normal).sqrt();
+    let through = subtract(super::projection::centre(&front), super::projection::centre(&back));
+    if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 }
+}
+
 /// Faces that points may touch, in ascending order of their numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Faces {
@@ -17,8 +29,13 @@ pub struct Faces {
     pub block: Vec<u32>,
     /// Square root of the area at the start, a length.
     pub size: Vec<f64>,
-    /// A point deeper than this behind a face did not come through it: half the element at the start, a length.
+    /// A point deeper than this behind a face did not come through it: half the element, as it is now where it has become
+    /// thinner, rounded down. A length.
     pub depth: Vec<f64>,
+    /// The same at the start.
+    start_depth: Vec<f64>,
+    /// How often the depth has become less by a factor of √2 since then.
+    thinning: Vec<u8>,
     /// Faces around each point: `around[first[p]..first[p + 1]]`.
     first: Vec<u32>,
     around: Vec<u32>,
@@ -43,15 +60,16 @@ impl Faces {
             let (front, back) = (at(nodes), at(back_nodes(elements, number)));
             let normal = area_normal(&front);
             let area = dot(normal, normal).sqrt();
-            let through = subtract(super::projection::centre(&front), super::projection::centre(&back));
             faces.corners.push(nodes.map(&point));
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());
-            faces.depth.push(if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 });
+            faces.start_depth.push(half_thickness(front, back));
             let mut of_element = [u32::MAX; 8];
             of_element.iter_mut().zip(&elements[element]).for_each(|(place, &node)| *place = point(node));
             faces.element.push(of_element);
         }
+        faces.depth.clone_from(&faces.start_depth);
+        faces.thinning = vec![0; faces.len()];
         faces.connect(points);
         faces
     }
@@ -66,10 +84,36 @@ impl Faces {
             some.block.push(self.block[face]);
             some.size.push(self.size[face]);
             some.depth.push(self.depth[face]);
+            some.start_depth.push(self.start_depth[face]);
+            some.thinning.push(self.thinning[face]);
             some.element.push(self.element[face].map(|of| if of == u32::MAX { of } else { point(of) }));
         }
         some.connect(points);
         some
+    }
+
+    /// How often the depth of a face has become less by a factor of √2, at most [`THINNEST`].
+    pub fn thinning(&self, face: u32) -> u8 {
+        self.thinning[face as usize]
+    }
+
+    /// Sets the depth of a face to that of the start less so many factors of √2.
+    pub fn set_thinning(&mut self, face: u32, thinning: u8) {
+        let face = face as usize;
+        self.thinning[face] = thinning;
+        self.depth[face] = self.start_depth[face] * libm::exp2(-0.5 * f64::from(thinning));
+    }
+
+    /// The thinning of a face whose element is so thick now that half of it is `depth`. It follows an element that becomes thicker
+    /// again late, lest it change to and fro.
+    pub fn thinning_at(&self, face: u32, depth: f64) -> u8 {
+        let (start, now) = (self.start_depth[face as usize], self.thinning[face as usize]);
+        if start <= 0.0 || depth.is_nan() {
+            return now;
+        }
+        let exact = -2.0 * libm::log2(depth / start);
+        let next = exact.ceil().clamp(0.0, f64::from(THINNEST)) as u8;
+        if next > now || exact + 1.5 < f64::from(now) { next } else { now }
     }
 
     /// The outer faces of a face's element, itself included.
@@ -143,5 +187,29 @@ impl Faces {
             let normal = area_normal(&self.start(face, motion));
             [sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]]
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_depth_follows_a_thinner_element_at_once_and_a_thicker_one_late() {
+        let mut faces = Faces { start_depth: vec![1.0], depth: vec![1.0], thinning: vec![0], ..Default::default() };
+        let mut at = |depth: f64| {
+            let thinning = faces.thinning_at(0, depth);
+            faces.set_thinning(0, thinning);
+            faces.depth[0]
+        };
+        assert_eq!(at(1.3), 1.0);
+        assert_eq!(at(0.9), libm::exp2(-0.5));
+        assert_eq!(at(0.99), libm::exp2(-0.5));
+        assert_eq!(at(0.5), 0.5);
+        assert_eq!(at(0.49), libm::exp2(-1.5));
+        assert_eq!(at(0.6), libm::exp2(-1.5));
+        assert_eq!(at(0.9), libm::exp2(-0.5));
+        assert_eq!(at(1e-9), libm::exp2(-7.5));
+        assert_eq!(at(f64::NAN), libm::exp2(-7.5));
     }
 }
