@@ -210,6 +210,7 @@ mod tests {
                 count: 5,
                 normal: [0.6, -0.0, 0.8],
                 gap: 0.0,
+                growth: 0.0,
                 persists: true,
                 size: 0.01,
                 share: 0.5,
