@@ -207,7 +207,8 @@ mod tests {
         assert_eq!(at(0.99), libm::exp2(-0.5));
         assert_eq!(at(0.5), 0.5);
         assert_eq!(at(0.49), libm::exp2(-1.5));
-        assert_eq!(at(0.6), libm::exp2(-1.5));
+        assert_eq!(at(0.55), libm::exp2(-1.5));
+        assert_eq!(at(0.6), 0.5);
         assert_eq!(at(0.9), libm::exp2(-0.5));
         assert_eq!(at(1e-9), libm::exp2(-7.5));
         assert_eq!(at(f64::NAN), libm::exp2(-7.5));
