@@ -1,9 +1,10 @@
-//! Vectors as arrows: at nodes of faces that look towards the eye, one in each field of a grid, as long as they are.
+//! Vectors as arrows: at nodes of faces that the eye sees, one in each field of a grid, as long as they are.
 
 use std::collections::HashMap;
 
 use tiny_skia::{FillRule, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
+use super::cover::Cover;
 use crate::vector::dot;
 use crate::view::camera::Camera;
 use crate::view::scene::Scene;
@@ -27,6 +28,7 @@ pub fn draw(picture: &mut Pixmap, scene: &Scene, camera: &Camera, most: f64, uni
         return;
     }
     let axes = camera.axes();
+    let cover = Cover::new(scene, camera, [f64::from(picture.width()), f64::from(picture.height())]);
     // Of the nodes in a field the one with the longest vector; ties go to the first.
     let mut chosen: HashMap<(i64, i64), (f64, usize)> = HashMap::new();
     for quad in scene.quads.iter().filter(|quad| dot(scene.normal(quad), axes.toward) > 0.0) {
@@ -35,7 +37,11 @@ pub fn draw(picture: &mut Pixmap, scene: &Scene, camera: &Camera, most: f64, uni
             if !length.is_finite() || length == 0.0 {
                 continue;
             }
-            let [x, y, _] = camera.project(scene.positions[node]);
+            let spot = camera.project(scene.positions[node]);
+            if cover.hides(spot) {
+                continue;
+            }
+            let [x, y, _] = spot;
             let field = ((x / (APART * unit)).floor() as i64, (y / (APART * unit)).floor() as i64);
             let best = chosen.entry(field).or_insert((length, node));
             if length > best.0 {

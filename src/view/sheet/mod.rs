@@ -2,5 +2,6 @@
 
 pub mod annotate;
 pub mod arrows;
+mod cover;
 pub mod film;
 pub mod row;
