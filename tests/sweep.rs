@@ -48,6 +48,7 @@ fn a_summary_has_what_a_script_wants_to_know() {
     desk.urto(&["mesh", "box.mesh", "-o", "box.g"]).with(0);
     desk.urto(&["run", "box.i", "--refine", "2"]).with(2).says(&["is a mesh file", "urto refine box.g"]);
     desk.urto(&["run", "box.i", "--summary", "box.i"]).with(2).says(&["box.i is the deck"]);
+    desk.urto(&["run", "box.i", "--summary", "box.o"]).with(2).says(&["box.o is a file of the results"]);
 }
 
 #[test]

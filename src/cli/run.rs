@@ -61,6 +61,13 @@ impl Prepared {
         let restart = continuation.iter().map(|continuation| &continuation.path);
         given.inputs().spare(written.iter().chain(&files.restarts_written()), ANOTHER_BASE)?;
         given.inputs().spare(&options.summary, "name another file with --summary")?;
+        if let Some(summary) = options.summary.as_ref().filter(|summary| written.contains(summary)) {
+            return Err(Failure::input(format_args!(
+                "error: {} is a file of the results, and the summary would be written over it\n\
+                 help: name another file with --summary",
+                summary.display()
+            )));
+        }
         // A run that goes on renews its own restart states.
         Inputs::default().with("the restart file", restart).spare(&written, ANOTHER_BASE)?;
         let (day, date, time) = date::now();
