@@ -5,7 +5,9 @@ use super::elastic_plastic::{HARDENING_MODULUS, YIELD_STRESS};
 use super::equation_of_state::EquationOfState;
 use super::hydrodynamic::PRESSURE_CUTOFF;
 use super::plastic::{Flow, compose, radial_return};
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness};
+use super::{
+    END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness,
+};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 parameters! {
@@ -55,7 +57,7 @@ impl ElasticPlasticHydrodynamic {
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
-        stored.to_vec()
+        stored[..stored.len().min(1)].to_vec()
     }
 
     pub(super) fn accept<K: KernelVisitor>(&self, visitor: K) -> K::Output {
@@ -83,7 +85,8 @@ struct Solid<'a> {
 }
 
 impl Kernel for Solid<'_> {
-    const STATE: &'static [&'static str] = &["EQPS"];
+    const STATE: &'static [&'static str] = &["EQPS", END_POWER];
+    const EQUATION: bool = true;
     const VOLUME: bool = true;
     const STIFFNESS: bool = true;
 
@@ -99,15 +102,15 @@ impl Kernel for Solid<'_> {
         let slope = V::splat(law.hardening);
         let flow = Linear { start: V::splat(law.yield_stress) + slope * eqps, slope };
         let back = radial_return(&trial, 1.5 * self.two_mu, &flow);
-        // (ii) pressure, with the deviator's work in the energy
+        // (ii) pressure, with the deviator's work at the end of the step in the energy
         let new = compose(&trial, back.factor, V::splat(0.0));
-        let work = old.zip(new, |a, b| a + b).contract(strain) * V::splat(0.5) * step.middle_volume;
-        let state_after = law.equation.advance(step, mean, work, V::splat(1.0));
+        let work = new.contract(strain) * V::splat(0.5) * step.middle_volume;
+        let state_after = law.equation.advance(step, work, V::splat(1.0));
         let pressure = V::splat(-law.tension).max(state_after.pressure);
         *stress = new.add_diagonal(-pressure);
         (eqps + back.increment).store(&mut state[0], part);
         let dilatational = state_after.bulk + two_mu * V::splat(2.0 / 3.0);
-        let stiffness = Stiffness { dilatational, shear: V::splat(0.5 * self.two_mu), kept: V::splat(1.0) };
+        let stiffness = Stiffness { dilatational, shear: V::splat(0.5 * self.two_mu) };
         Response { returned: back.factor, stiffness }
     }
 }

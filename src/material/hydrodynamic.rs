@@ -3,7 +3,8 @@
 use super::equation_of_state::{DetonationPoint, EquationOfState};
 use super::property::STRESS;
 use super::{
-    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start, StateVariable, Step, Stiffness,
+    CORNERS, END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start,
+    StateVariable, Step, Stiffness,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 use std::sync::Arc;
@@ -48,12 +49,6 @@ pub(super) static ENTRY: Entry = Entry {
     },
 };
 
-/// Shear modulus by which hourglass modes of a fluid are resisted, over its bulk modulus.
-const HOURGLASS_SHARE: f64 = 0.05;
-
-/// Part of their resistance that a fluid keeps from step to step: it relaxes within a few, which makes it viscous.
-const HOURGLASS_KEPT: f64 = 0.5;
-
 impl Hydrodynamic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli { lambda: self.equation.initial().bulk, two_mu: 0.0 }
@@ -61,7 +56,7 @@ impl Hydrodynamic {
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
         match stored {
-            [lighting, _, burnt] => vec![*burnt, *lighting],
+            [lighting, _, burnt, ..] if stored.len() == EXPLOSIVE.len() => vec![*burnt, *lighting],
             _ => vec![0.0; 2],
         }
     }
@@ -77,6 +72,18 @@ impl Hydrodynamic {
     }
 }
 
+/// What all fluids store.
+const FLUID: &[&str] = {
+    let [a, b, c, d, e, f, g, h, least] = CORNERS;
+    &[a, b, c, d, e, f, g, h, least, END_POWER]
+};
+
+/// What explosives store.
+const EXPLOSIVE: &[&str] = {
+    let [a, b, c, d, e, f, g, h, least] = CORNERS;
+    &["LIGHTING", "BURNRATE", "BURN", a, b, c, d, e, f, g, h, least, END_POWER]
+};
+
 /// What fluids share.
 #[derive(Clone, Copy)]
 struct Fluid<'a> {
@@ -89,23 +96,18 @@ impl Fluid<'_> {
     #[inline(always)]
     fn advance<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, burnt: V) -> Response<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let mean = stress.trace() * V::splat(1.0 / 3.0);
-        let state = self.equation.advance(step, mean, zero, burnt);
+        let state = self.equation.advance(step, zero, burnt);
         // In this order a NaN passes.
         let pressure = V::splat(self.lowest).max(state.pressure);
         let mean = -pressure;
         *stress = Sym3 { xx: mean, yy: mean, zz: mean, xy: zero, yz: zero, zx: zero };
-        let stiffness = Stiffness {
-            dilatational: state.bulk,
-            shear: state.bulk * V::splat(HOURGLASS_SHARE),
-            kept: V::splat(HOURGLASS_KEPT),
-        };
-        Response { returned: one, stiffness }
+        Response { returned: one, stiffness: Stiffness { dilatational: state.bulk, shear: zero } }
     }
 }
 
 impl Kernel for Fluid<'_> {
-    const STATE: &'static [&'static str] = &[];
+    const STATE: &'static [&'static str] = FLUID;
+    const EQUATION: bool = true;
     const VOLUME: bool = true;
     const STIFFNESS: bool = true;
     const FLUID: bool = true;
@@ -127,7 +129,8 @@ struct Explosive<'a> {
 }
 
 impl Kernel for Explosive<'_> {
-    const STATE: &'static [&'static str] = &["LIGHTING", "BURNRATE", "BURN"];
+    const STATE: &'static [&'static str] = EXPLOSIVE;
+    const EQUATION: bool = true;
     const VOLUME: bool = true;
     const STIFFNESS: bool = true;
     const FLUID: bool = true;
@@ -141,7 +144,7 @@ impl Kernel for Explosive<'_> {
         let rate = self.velocity / (self.width * libm::cbrt(element.volume));
         // Without a point all of it has burnt when the run begins.
         let values = if first.is_finite() { [first, rate, 0.0] } else { [0.0, rate, 1.0] };
-        state.copy_from_slice(&values);
+        state[..3].copy_from_slice(&values);
     }
 
     #[inline(always)]

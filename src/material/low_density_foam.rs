@@ -177,7 +177,7 @@ impl Kernel for FoamKernel<'_> {
         *stress = clipped.add_diagonal(air);
         // v dσᵃⁱʳ/dv
         let gas = V::splat(law.trapped() * (1.0 - law.solid)) * step.volume / (left * left);
-        let stiffness = Stiffness { dilatational: young + gas, shear: young * V::splat(0.5), kept: one };
+        let stiffness = Stiffness { dilatational: young + gas, shear: young * V::splat(0.5) };
         Response { returned: factor, stiffness }
     }
 }

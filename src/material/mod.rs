@@ -132,6 +132,11 @@ laws! {
 mod adding;
 
 impl Law {
+    /// Whether hourglass resistance heats the material: see [`Kernel::FLUID`].
+    pub fn is_fluid(&self) -> bool {
+        matches!(self, Law::Hydrodynamic(_))
+    }
+
     /// The equation of state of a law that has one.
     pub fn equation_of_state(&self) -> Option<&EquationOfState> {
         match self {
@@ -191,16 +196,26 @@ pub struct Step<V> {
     pub volume: V,
     /// V/V₀ in the middle of the step.
     pub middle_volume: V,
-    /// Internal energy and that taken up by bulk viscosity before the step, per initial volume, from zero at the start;
-    /// with [`Kernel::FLUID`] also that taken up by hourglass resistance.
+    /// For laws with [`Kernel::EQUATION`]: what has been done on the material since the start, per initial volume, but for the
+    /// work of the stress at the end of the step. With [`Kernel::FLUID`] hourglass resistance counts, too.
     pub energy: V,
-    /// Bulk viscosity of the step before, as a mean stress.
-    pub viscous: V,
+    /// Volume over the initial one that the element sweeps at its speed at the end of the step, Δt v·B/V₀: against pressure p'
+    /// there it does the work ½ p' `swept`.
+    pub swept: V,
     /// Time at the end of the step.
     pub time: f64,
     /// Δt; zero in the evaluation of the initial state.
     pub time_step: f64,
 }
+
+/// Stored by laws with [`Kernel::EQUATION`], as the last of their rows: power of the corner forces at the end of the step, with
+/// the velocities of its middle.
+pub const END_POWER: &str = "ENDPOWER";
+
+/// Stored by laws with [`Kernel::FLUID`] before that: forces that keep the element's corners from turning inside out, one each,
+/// and the least Jacobian of them over the volume.
+pub const CORNERS: [&str; 9] =
+    ["CORNER1", "CORNER2", "CORNER3", "CORNER4", "CORNER5", "CORNER6", "CORNER7", "CORNER8", "LEASTCOR"];
 
 /// A law as the element kernel sees it: one material point per lane, in a frame that turns with the material.
 ///
@@ -215,6 +230,10 @@ pub trait Kernel: Copy + Send + Sync {
 
     /// Whether [`Response::stiffness`] counts; without, the law's [`Law::moduli`] bound the time step.
     const STIFFNESS: bool = false;
+
+    /// Whether the pressure follows from an equation of state: the work of the corner forces is booked exactly, and is the
+    /// energy in [`Step::energy`]. The last name of [`Kernel::STATE`] is then [`END_POWER`], which the element keeps there.
+    const EQUATION: bool = false;
 
     /// Whether the law is a fluid's: its hourglass modes are resisted by viscosity, whose work is heat in [`Step::energy`].
     const FLUID: bool = false;
@@ -244,10 +263,8 @@ pub struct Response<V> {
 pub struct Stiffness<V> {
     /// Dilatational modulus λ + 2μ = ρ c², which bounds the time step; positive.
     pub dilatational: V,
-    /// Shear modulus by which hourglass modes are resisted.
+    /// Shear modulus by which hourglass modes are resisted; a fluid's are resisted by viscosity instead.
     pub shear: V,
-    /// Part of the hourglass resistance that is kept from step to step: 1 in solids; less makes it viscous.
-    pub kept: V,
 }
 
 impl<V: Lanes> Response<V> {
@@ -255,7 +272,7 @@ impl<V: Lanes> Response<V> {
     #[inline(always)]
     pub fn returned(returned: V) -> Response<V> {
         let none = V::splat(0.0);
-        Response { returned, stiffness: Stiffness { dilatational: none, shear: none, kept: V::splat(1.0) } }
+        Response { returned, stiffness: Stiffness { dilatational: none, shear: none } }
     }
 }
 

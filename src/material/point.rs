@@ -28,8 +28,8 @@ impl Step<f64> {
     /// A small increment from a point at rest, for laws that look at nothing else.
     pub(super) fn of(strain: Tensor) -> Step<f64> {
         let unit = sym([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
-        let [volume, middle_volume, energy, viscous, time, time_step] = [1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        Step { strain: sym(strain), stretch: unit, volume, middle_volume, energy, viscous, time, time_step }
+        let [volume, middle_volume, energy, swept, time, time_step] = [1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        Step { strain: sym(strain), stretch: unit, volume, middle_volume, energy, swept, time, time_step }
     }
 }
 
@@ -103,13 +103,14 @@ impl KernelVisitor for Increment<'_> {
         let middle = (half * point.stretch).determinant();
         let stretch = half * half * point.stretch;
         point.stretch = 0.5 * (stretch + stretch.transpose());
+        let mean_of_start = sym(point.stress).zip(sym([0.0; 6]), |a, b| 0.5 * (a + b)).add_diagonal(point.viscous);
         let step = Step {
             strain: sym(strain),
             stretch: sym(flat(point.stretch)),
             volume: if K::VOLUME { point.stretch.determinant() } else { f64::NAN },
             middle_volume: middle,
-            energy: point.energy,
-            viscous: point.viscous,
+            energy: point.energy + mean_of_start.contract(sym(strain)) * middle,
+            swept: sym(strain).trace() * middle,
             time: point.time,
             time_step: point.time_step,
         };
@@ -148,7 +149,7 @@ fn pairs(step: &Step<f64>) -> Step<Pair> {
         volume: Pair::splat(step.volume),
         middle_volume: Pair::splat(step.middle_volume),
         energy: Pair::splat(step.energy),
-        viscous: Pair::splat(step.viscous),
+        swept: Pair::splat(step.swept),
         time: step.time,
         time_step: step.time_step,
     }

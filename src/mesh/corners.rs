@@ -3,7 +3,7 @@
 use super::check::hexahedron_volume;
 
 /// For each corner its neighbours along the three edges, in the order in which they turn to the right.
-const NEIGHBOURS: [[usize; 3]; 8] =
+pub const NEIGHBOURS: [[usize; 3]; 8] =
     [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
 /// The least Jacobian of a hexahedron's corners over its mean one: 1 in a parallelepiped, 0 or less where a corner is

@@ -475,7 +475,11 @@ fields! {
         /// von Mises
         VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress";
         /// energy per volume
-        Energy = "ENERGY", ["ENERGY"], "internal energy per unit initial volume";
+        Energy = "ENERGY", ["ENERGY"], "work of the stress since the start per unit initial volume: internal energy without the heat of viscosities";
+        /// energy per mass
+        SpecificEnergy = "EINT", ["EINT"], "specific internal energy, energy/mass, as an equation of state sees it: INITIAL ENERGY, work of the stress and of bulk viscosity, in fluids of hourglass resistance too";
+        /// T
+        Temperature = "TEMPERATURE", ["TEMPERATURE"], "temperature, of materials that have one (JOHNSON COOK), else 0";
         /// rho
         Density = "DENSITY", ["DENSITY"], "current mass density";
         /// hourglass energy

@@ -9,7 +9,7 @@ use crate::solver::{Solver, Totals};
 /// Global variables of the plot file with their meaning.
 pub const GLOBAL_VARIABLES: [(&str, &str); 15] = [
     ("KE", "kinetic energy"),
-    ("IE", "internal energy"),
+    ("IE", "internal energy since the start: work of stresses, without INITIAL ENERGY of materials"),
     ("HGE", "hourglass energy"),
     ("BVE", "energy dissipated by bulk viscosity"),
     ("FRICE", "energy dissipated by friction"),

@@ -464,6 +464,7 @@ impl<'a> Writer<'a> {
             states,
             totals: &totals,
             initial_energy,
+            stored_energy: solver.stored_energy(),
             contact: solver.domain.contact.as_ref().and_then(Contact::report),
             gone: solver.domain.erosion.as_ref().map(|erosion| erosion.gone),
         };

@@ -123,6 +123,7 @@ impl Solver {
             pass: PassSettings {
                 time: 0.0,
                 time_step: 0.0,
+                kick: 0.0,
                 bulk_viscosity: model.bulk_viscosity,
                 moduli: model.time_step.moduli,
                 instructions: InstructionSet::detect(),
@@ -163,7 +164,7 @@ impl Solver {
         comm.enter(Traffic::Output);
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
-            self.last_totals = Some((0, totals::totals(&mut self.domain, 0.0, comm)));
+            self.last_totals = Some((0, totals::totals(&mut self.domain, [0.0; 2], comm)));
         }
         self.book_work();
         self.glance(comm)?;
@@ -186,7 +187,7 @@ impl Solver {
         match self.last_totals {
             Some((step, totals)) if step == self.step => totals,
             _ => {
-                let totals = totals::totals(&mut self.domain, self.kick, comm);
+                let totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
                 self.last_totals = Some((self.step, totals));
                 totals
             }
@@ -231,7 +232,7 @@ impl Solver {
     /// Stress, viscosity and hourglass forces of all elements and the pressures on their faces, summed at the nodes
     /// in canonical order. What other ranks wait for is computed and sent first.
     fn internal_forces(&mut self, comm: &mut dyn Communicator) {
-        (self.pass.time, self.pass.time_step) = (self.time, self.time_step);
+        (self.pass.time, self.pass.time_step, self.pass.kick) = (self.time, self.time_step, self.kick);
         let mut found = PassOutcome::NOTHING;
         self.clock.start();
         found = found.and(self.border_elements());

@@ -22,6 +22,7 @@ impl Solver {
             time,
             previous_time,
             time_step,
+            kick,
             initial_energy,
             first_stable_step,
             watch,
@@ -29,7 +30,6 @@ impl Solver {
             remembered,
             // Of the step: found anew by `prepare`.
             stable_step: _,
-            kick: _,
             local: _,
             pass: _,
             // Of the problem.
@@ -41,6 +41,7 @@ impl Solver {
         archive.number(TIME, time);
         archive.number("LASTTIME", previous_time);
         archive.number("TMSTEP", time_step);
+        archive.number("KICK", kick);
         archive.number("INITIALE", initial_energy);
         let mut first = first_stable_step.unwrap_or(f64::INFINITY);
         archive.number("FIRSTSTEP", &mut first);

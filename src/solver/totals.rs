@@ -102,11 +102,11 @@ impl Totals {
     }
 }
 
-/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied. Contact learns its work.
-pub fn totals(domain: &mut Domain, kick: f64, comm: &mut dyn Communicator) -> Totals {
+/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied, after the step `last` = Δtₙ₋₁. Contact learns its work.
+pub fn totals(domain: &mut Domain, [kick, last]: [f64; 2], comm: &mut dyn Communicator) -> Totals {
     let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
     add_nodes(domain, kick, &mut sums);
-    add_elements(domain, &mut sums);
+    add_elements(domain, kick - last, &mut sums);
     add_work(domain, &mut sums);
     add_eroded(domain, &mut sums);
     ExactSum::merge_ranks(&mut sums, comm);
@@ -151,12 +151,16 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
     }
 }
 
-fn add_elements(domain: &Domain, sums: &mut [ExactSum; Totals::COUNT]) {
+/// Elements with an equation of state have booked the work of their present forces with half of the last step; they will act
+/// with half of the kick, which is longer by `longer`.
+fn add_elements(domain: &Domain, longer: f64, sums: &mut [ExactSum; Totals::COUNT]) {
     for block in &domain.blocks {
         let Energies { internal, hourglass, viscous } = &block.element.entry().energies;
+        let end_power = block.end_power();
         for group in block.groups() {
             for i in 0..group.len() {
                 sums[1].add(group.value(i, *internal));
+                end_power.iter().for_each(|&row| sums[1].add(0.5 * longer * group.value(i, row)));
                 hourglass.iter().for_each(|&row| sums[2].add(group.value(i, row)));
                 viscous.iter().for_each(|&row| sums[3].add(group.value(i, row)));
             }

@@ -4,6 +4,8 @@
 pub mod bodies;
 pub mod collapsed;
 pub mod continued;
+pub mod flow;
+pub mod gas;
 pub mod meshes;
 pub mod momentum;
 pub mod penetration;

@@ -84,22 +84,20 @@ impl EquationOfState {
         self.state(1.0, self.initial_energy())
     }
 
-    /// State at the end of a step that began with the mean stress `mean`. `deviatoric` is the work of the deviatoric
-    /// stress in the step, per initial volume; `burnt` the part of the pressure that acts.
+    /// State at the end of a step. `deviatoric` is the work of the deviatoric stress at the end of the step, per initial volume;
+    /// `burnt` the part of the pressure that acts.
     ///
-    /// The energy is the one that the element books: E' = E + deviatoric + (½ (mean − p') + q) Δv with Δv = tr(Δε) times
-    /// the volume at mid-step, into which p' = burnt (a + b E') is put. The work of the bulk viscosity q counts as it was
-    /// in the step before; what is missing comes with the next step.
+    /// The energy is the one that the element books: E' = E + deviatoric − ½ p' Δv with the E and Δv of the step, into which
+    /// p' = burnt (a + b E') is put. The work of viscosities at the end of the step counts in E as it was at its start; what is
+    /// missing comes with the next step.
     #[inline(always)]
-    pub(super) fn advance<V: Lanes>(&self, step: &Step<V>, mean: V, deviatoric: V, burnt: V) -> State<V> {
+    pub(super) fn advance<V: Lanes>(&self, step: &Step<V>, deviatoric: V, burnt: V) -> State<V> {
         let (half, one) = (V::splat(0.5), V::splat(1.0));
-        let change = step.strain.trace() * step.middle_volume;
         let energy = V::splat(self.initial_energy()) + step.energy + deviatoric;
-        let energy = energy + (mean * half + step.viscous) * change;
         let Terms { a, b, a_slope, b_slope } = self.terms(step.volume);
-        let divisor = (one + half * burnt * b * change).max(V::splat(0.1));
+        let divisor = (one + half * burnt * b * step.swept).max(V::splat(0.1));
         let pressure = burnt * (a + b * energy) / divisor;
-        let energy = energy - half * pressure * change;
+        let energy = energy - half * pressure * step.swept;
         let full = a + b * energy;
         let bulk = step.volume * (full * b - a_slope - b_slope * energy);
         // Where the equation has no stiffness left there still has to be a time step.

@@ -97,14 +97,14 @@ fn energy_of_bulk_viscosity_heats() {
         volume,
         middle_volume: 1.0,
         energy: 0.0,
-        viscous: 0.0,
+        swept: -eta,
         time: 0.0,
         time_step: 1.0,
     };
     // The trapezoidal rule from p = 0 already gives ½ p η.
-    close("Hugoniot", copper().advance(&step, 0.0, 0.0, 1.0).pressure, pressure, 1e-12);
+    close("Hugoniot", copper().advance(&step, 0.0, 1.0).pressure, pressure, 1e-12);
     // Work done by viscosity counts in full: Γ times it is added.
-    let hotter = copper().advance(&Step { viscous: -1e9, ..step }, 0.0, 0.0, 1.0).pressure;
+    let hotter = copper().advance(&Step { energy: 1e9 * eta, ..step }, 0.0, 1.0).pressure;
     close("viscous", hotter - pressure, 2.02 * 1e9 * eta / (1.0 - 0.5 * 2.02 * eta), 1e-9);
 }
 

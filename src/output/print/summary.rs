@@ -49,6 +49,8 @@ pub struct Ending<'a> {
     pub totals: &'a Totals,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
+    /// Internal energy that equations of state held at the start.
+    pub stored_energy: f64,
     /// What the run has found out about itself.
     pub findings: &'a [Finding],
     /// Contact, where there was any.
@@ -94,6 +96,9 @@ fn balance(ending: &Ending) -> String {
     out += &leader("ENERGY MADE BY CONTACT", &number(t.contact_gain));
     out += &leader("KINETIC ENERGY", &number(t.kinetic));
     out += &leader("INTERNAL ENERGY", &number(t.internal));
+    if ending.stored_energy != 0.0 {
+        out += &leader("INITIAL ENERGY OF MATERIALS, NOT IN IT", &number(ending.stored_energy));
+    }
     out += &leader("HOURGLASS ENERGY", &number(t.hourglass));
     out += &leader("DISSIPATED BY BULK VISCOSITY", &number(t.bulk_viscosity));
     out += &leader("DISSIPATED BY FRICTION", &number(t.friction));

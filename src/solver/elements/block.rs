@@ -3,7 +3,7 @@
 use super::Element;
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use crate::lanes::{CHUNK, Row};
-use crate::material::Law;
+use crate::material::{END_POWER, Law};
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;
 
@@ -207,6 +207,12 @@ impl ElementBlock {
     /// Place among the stored numbers of the first that is the law's.
     pub fn first_of_law(&self) -> usize {
         self.element.entry().rows.len()
+    }
+
+    /// Place among the stored numbers of the power of the last corner forces, in blocks that keep it.
+    pub fn end_power(&self) -> Option<usize> {
+        let last = self.state_names.len().checked_sub(1)?;
+        (self.state_names[last] == END_POWER).then_some(self.first_of_law() + last)
     }
 
     /// Advances one group: the border elements when the sink keeps forces apart, else the interior.

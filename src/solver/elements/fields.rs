@@ -1,6 +1,6 @@
 //! What an element is seen to have: the values that the plot file shows and DEATH watches.
 
-use super::{ElementBlock, Group};
+use super::{ElementBlock, Energies, Group};
 use crate::lanes::Sym3;
 use crate::model::ElementField;
 use crate::solver::nodes::Nodes;
@@ -35,6 +35,8 @@ pub fn field_values(
             filled(&[(1.5 * s.contract(s)).sqrt()])
         }
         ElementField::Energy => filled(&[per_volume(Some(entry.energies.internal))]),
+        ElementField::SpecificEnergy => filled(&[specific_energy(block, group, i)]),
+        ElementField::Temperature => filled(&[temperature(block, group, i, nodes)]),
         ElementField::HourglassEnergy => filled(&[per_volume(entry.energies.hourglass)]),
         ElementField::Density => filled(&[group.element_mass(i) / element.volume(group, i, nodes)]),
         ElementField::Stretch => filled(&in_space(element.stretch(group, i, nodes))),
@@ -44,6 +46,22 @@ pub fn field_values(
         ElementField::Status => filled(&[1.0]),
         ElementField::Rank => filled(&[rank as f64]),
     }
+}
+
+/// Internal energy per mass: the initial one of the equation of state, and what stress and viscosities have done since. Hourglass
+/// resistance counts where the law's pressure knows of it.
+fn specific_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
+    let Energies { internal, hourglass, viscous } = block.element.entry().energies;
+    let heats = hourglass.filter(|_| block.law.is_fluid());
+    let done: f64 = [Some(internal), viscous, heats].into_iter().flatten().map(|row| group.value(i, row)).sum();
+    let initial = block.law.equation_of_state().map_or(0.0, |equation| equation.initial_energy());
+    initial / block.density + done / group.element_mass(i)
+}
+
+/// Temperature, 0 for a law that has none.
+fn temperature(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+    let place = block.law.entry().state.iter().position(|variable| variable.name == "TEMP");
+    place.map_or(0.0, |place| state_values(block, group, i, nodes).get(place).copied().unwrap_or(0.0))
 }
 
 /// The state variables of an element's law, in the order in which the law lists them.

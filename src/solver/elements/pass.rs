@@ -54,6 +54,8 @@ pub struct PassSettings {
     pub time: f64,
     /// Time step that led to them.
     pub time_step: f64,
+    /// Mean of that step and the one before it: what velocities were changed with before it.
+    pub kick: f64,
     /// Bulk viscosity.
     pub bulk_viscosity: BulkViscosity,
     /// Moduli of the stable step.

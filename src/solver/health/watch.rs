@@ -176,6 +176,11 @@ impl Solver {
         Ok(())
     }
 
+    /// Internal energy that gases and explosives held at the start, beside the one that is summed.
+    pub fn stored_energy(&self) -> f64 {
+        self.watch.facts.stored_energy
+    }
+
     /// Whether contact has made so much that all energies must be looked at.
     fn contact_is_suspect(&mut self, comm: &mut dyn Communicator) -> bool {
         // Without contact nobody says anything.

@@ -23,14 +23,10 @@ pub struct State<V> {
     pub mass: V,
     /// Shear modulus μ.
     pub mu: V,
-    /// Viscosity that acts beside μ Δt, pressure × time; 0 except in fluids.
-    pub viscosity: V,
     /// Poisson's ratio.
     pub poisson: V,
     /// Factor by which the material's return scaled the trial deviator, 1 where elastic.
     pub returned: V,
-    /// Part of the resistance that is kept from step to step, 1 except in fluids.
-    pub kept: V,
     /// Time step.
     pub time_step: V,
 }
@@ -41,6 +37,8 @@ pub trait Control: Copy + Send + Sync {
     const LENGTHS: bool;
     /// Advances the stored resistance `q` by the hourglass rates and returns the total resistance.
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V>;
+    /// Part of the viscosity by which a fluid's modes are resisted, at most 1.
+    fn of_fluids(&self) -> f64;
     /// Largest stable time step with hourglass control, given the one without, `stiffness_measure`, mass and μ.
     fn stable_step<V: Lanes>(&self, without: V, stiffness_measure: V, mass: V, mu: V) -> V;
 }
@@ -57,20 +55,22 @@ pub struct FlanaganBelytschko {
 impl Control for FlanaganBelytschko {
     const LENGTHS: bool = false;
 
-    /// ΔQ = (κ μΔt + min(κ, 1) η) B:B/(4V) q̇ with the viscosity η of a fluid, and ε √(2μ M/a) q̇ beside it with a = V/(2 B:B).
-    /// The step pays for κ and not for η, see docs/theory.md.
+    /// ΔQ = κ μΔt B:B/(4V) q̇, and ε √(2μ M/a) q̇ beside it with a = V/(2 B:B).
     #[inline(always)]
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V> {
         let factor = V::splat(0.25 * self.stiffness);
         let stiffness = factor * state.mu * state.stiffness_measure * state.time_step;
-        let kept_stable = V::splat(0.25 * self.stiffness.min(1.0));
-        let stiffness = stiffness + kept_stable * state.viscosity * state.stiffness_measure;
-        *q = array![i in 3 => array![a in 4 => (q[i][a] + stiffness * rate[i][a]) * state.kept]];
+        *q = array![i in 3 => array![a in 4 => q[i][a] + stiffness * rate[i][a]]];
         if self.viscosity == 0.0 {
             return *q;
         }
         let viscosity = V::splat(2.0 * self.viscosity) * (state.mu * state.mass * state.stiffness_measure).sqrt();
         array![i in 3 => array![a in 4 => q[i][a] + viscosity * rate[i][a]]]
+    }
+
+    /// The whole of it at the default κ = 0.05; κ and ε count alike.
+    fn of_fluids(&self) -> f64 {
+        ((self.stiffness + self.viscosity) / USUAL_STIFFNESS).min(1.0)
     }
 
     /// A mode has stiffness k = κμB:B/(4V), damping c and mass M/64 per unit of its rate; with the damping force
@@ -95,6 +95,9 @@ impl Control for FlanaganBelytschko {
         V::select_less(limit, without, limit, without)
     }
 }
+
+/// The stiffness coefficient of a deck that gives none.
+const USUAL_STIFFNESS: f64 = 0.05;
 
 /// Stiffness coefficients up to here have next to no influence on the stable step.
 const LARGEST_USUAL_STIFFNESS: f64 = 0.15;
@@ -121,12 +124,10 @@ impl Control for AssumedStrain {
         let diagonal = [areas[0] * areas[0] * scale, areas[1] * areas[1] * scale, areas[2] * areas[2] * scale];
         let mixed = [l1 * third, l2 * third, l3 * third];
         // Both base vectors of ±1 stand for 1/8 of themselves in the theory.
-        // The step pays for the factor on the stiffness, not for one on the viscosity of a fluid.
-        let viscosity = state.viscosity * V::splat(self.factor.min(1.0) / 64.0);
-        let mu = state.mu * state.time_step * V::splat(self.factor / 64.0) + viscosity;
+        let mu = state.mu * state.time_step * V::splat(self.factor / 64.0);
         let bending = (mu + mu) / (one - nu);
         let torsion = mu * (one + nu) * V::splat(2.0 / 3.0);
-        let kept = state.returned * state.kept;
+        let kept = state.returned;
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let warping = (diagonal[j] + diagonal[k]) * rate[i][i] + mixed[k] * rate[j][j] + mixed[j] * rate[k][k];
@@ -136,6 +137,10 @@ impl Control for AssumedStrain {
             q[i][3] = (q[i][3] + torsion * diagonal[i] * rate[i][3]) * kept;
         }
         *q
+    }
+
+    fn of_fluids(&self) -> f64 {
+        self.factor.min(1.0)
     }
 
     /// On a parallelepiped, whatever ν and however the frame lies, the floor under [`State::lengths`] keeps the
@@ -166,6 +171,13 @@ impl Control for Either {
         match self {
             Either::FlanaganBelytschko(control) => control.resist(rate, q, state),
             Either::AssumedStrain(control) => control.resist(rate, q, state),
+        }
+    }
+
+    fn of_fluids(&self) -> f64 {
+        match self {
+            Either::FlanaganBelytschko(control) => control.of_fluids(),
+            Either::AssumedStrain(control) => control.of_fluids(),
         }
     }
 

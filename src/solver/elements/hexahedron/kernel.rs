@@ -1,5 +1,7 @@
 //! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
 
+use super::exact::{self, Start};
+use super::fluid;
 use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
@@ -13,6 +15,8 @@ use crate::solver::elements::pass::{Outcome, StepKernel};
 pub struct Settings {
     /// Time step Δt that led to the present positions.
     pub time_step: f64,
+    /// Mean of that step and the one before it.
+    pub kick: f64,
     /// Time of the present positions.
     pub time: f64,
     /// Initial mass density.
@@ -54,7 +58,7 @@ fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usi
 }
 
 #[inline(always)]
-fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
+pub(super) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
     (V::load(row, part) + value).store(row, part);
 }
 
@@ -84,9 +88,13 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     Physics { settings, law, control }: &Physics<K, H>,
 ) -> Outcome<V, 8> {
     let time_step = V::splat(settings.time_step);
-    let half = V::splat(0.5);
+    let (zero, half) = (V::splat(0.0), V::splat(0.5));
     let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
     let v: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
+
+    // (o) what the forces of the step's start have done, where that is heat
+    let start =
+        if K::EQUATION { Some(Start::of::<K>([&x, &v], [positions, velocities], state, part, settings)) } else { None };
 
     // (i) velocity gradient and hourglass rates at mid-step
     let half_step = V::splat(0.5 * settings.time_step);
@@ -110,20 +118,26 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let (own, law_state) = state.split_at_mut(rows::LAW);
     let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
     let inverse_volume = V::splat(settings.density) / mass;
+    let (energy, swept) = match &start {
+        Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
+        None => (zero, zero),
+    };
     let motion = Step {
         strain,
         stretch,
         volume: if K::VOLUME { volume(&x) * inverse_volume } else { V::splat(1.0) },
         middle_volume: middle_volume * inverse_volume,
-        energy: energy::<V, K>(own, part) * inverse_volume,
-        viscous: V::load(&own[rows::VISCOUS_STRESS], part),
+        energy,
+        swept,
         time: settings.time,
         time_step: settings.time_step,
     };
     let response = law.update(&motion, &mut stress, law_state, part);
     store(stress.to_array(), own, rows::STRESS, part);
-    let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
-    accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+    if !K::EQUATION {
+        let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
+        accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+    }
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
@@ -141,38 +155,59 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let viscous = damping * modulus * bound * rate;
     let last = V::load(&own[rows::VISCOUS_STRESS], part);
     viscous.store(&mut own[rows::VISCOUS_STRESS], part);
-    accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+    if !K::EQUATION {
+        accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+    }
     let stable_step = bound * ((V::splat(1.0) + damping * damping).sqrt() - damping);
 
-    // (v) hourglass resistance in the frame; in a shock a fluid's modes are damped as its volume is
-    let zero = V::splat(0.0);
+    // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
     let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
     let hourglass_state = hourglass::State {
         lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
         stiffness_measure,
         mass: light,
         mu,
-        viscosity: if K::FLUID { quadratic * modulus * bound } else { zero },
         poisson: V::splat(settings.poisson),
         returned: response.returned,
-        kept: if K::STIFFNESS { stiffness.kept } else { V::splat(1.0) },
         time_step,
     };
-    let resistance = resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state);
-    let stable_step = control.stable_step(stable_step, stiffness_measure, light, mu);
+    let mut held = fluid::Held { force: [[zero; 8]; 3], power: zero, stable_step };
+    let resistance = if let (true, Some(start)) = (K::FLUID, &start) {
+        let sizes =
+            [gradient.volume192 * V::splat(1.0 / 192.0), light, stable_step, b_squared * V::splat(1.0 / 4608.0)];
+        let rates = exact::rates(&v, &x, &start.flow, gradient.volume192);
+        let resistance = fluid::resistance(&rates, control.of_fluids(), light, stable_step);
+        for i in 0..3 {
+            store(resistance[i], own, rows::HOURGLASS + 4 * i, part);
+        }
+        held = fluid::hold([positions, velocities], &mut state[exact::corner_rows::<K>()], part, sizes);
+        let of_modes = exact::power(&resistance, &rates) + held.power;
+        start.finish::<K>([stress.xx * start.growth, viscous * start.growth, of_modes], state, part, settings);
+        resistance
+    } else {
+        resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state)
+    };
+    let stable_step =
+        if K::FLUID { held.stable_step } else { control.stable_step(stable_step, stiffness_measure, light, mu) };
+    let stable_step = match &start {
+        Some(start) => fluid::gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
+        None => stable_step,
+    };
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
     let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
 
     // (vi) corner forces from the rotated stress
-    let total = stress.rotate(&r).add_diagonal(viscous);
-    Outcome { force: corner_forces(&total, &resistance, &x, &gradient.g24, inverse), stable_step }
-}
-
-/// Energy of the element as its law sees it: internal, and what viscosities have made of motion.
-#[inline(always)]
-fn energy<V: Lanes, K: Kernel>(own: &[Row], part: usize) -> V {
-    let energy = V::load(&own[rows::INTERNAL_ENERGY], part) + V::load(&own[rows::VISCOUS_ENERGY], part);
-    if K::FLUID { energy + V::load(&own[rows::HOURGLASS_ENERGY], part) } else { energy }
+    let turned = stress.rotate(&r);
+    if let (false, Some(start)) = (K::FLUID, &start) {
+        let powers = [turned.contract(Sym3::of(&start.flow)), viscous * start.growth, zero];
+        start.finish::<K>(powers, state, part, settings);
+    }
+    let total = turned.add_diagonal(viscous);
+    let mut force = corner_forces(&total, &resistance, &x, &gradient.g24, inverse);
+    if K::FLUID {
+        force = array![i in 3 => array![n in 8 => force[i][n] + held.force[i][n]]];
+    }
+    Outcome { force, stable_step }
 }
 
 /// Volume of the element.
@@ -181,9 +216,9 @@ fn volume<V: Lanes>(x: &[geometry::Modes<V>; 3]) -> V {
     gradient(x).volume192 * V::splat(1.0 / 192.0)
 }
 
-/// Hourglass rates q̇_iα = v_iI γ_αI at mid-step, in space: γ is the mode made orthogonal to linear fields.
+/// Hourglass rates q̇_iα = v_iI γ_αI, in space: γ is the mode made orthogonal to linear fields.
 #[inline(always)]
-fn hourglass_rates<V: Lanes>(
+pub(super) fn hourglass_rates<V: Lanes>(
     v: &[geometry::Modes<V>; 3],
     x: &[geometry::Modes<V>; 3],
     l: &Matrix3<V>,

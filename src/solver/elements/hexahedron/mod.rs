@@ -1,5 +1,7 @@
 //! The eight-node hexahedron with one point of integration (Flanagan and Belytschko 1981), also as wedge or pyramid.
 
+mod exact;
+mod fluid;
 pub mod geometry;
 pub mod hourglass;
 mod kernel;
@@ -126,6 +128,7 @@ impl Formulation for Hexahedron {
         let moduli = law.moduli();
         let settings = Settings {
             time_step: settings.time_step,
+            kick: settings.kick,
             time: settings.time,
             density,
             least_share: self.least_share,

@@ -47,6 +47,7 @@ impl Rig {
         let settings = PassSettings {
             time: 0.0,
             time_step: 0.0,
+            kick: 0.0,
             bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
             moduli: StepModuli::Elastic,
             instructions,

@@ -58,7 +58,7 @@ pub fn update<V: Lanes, K: Kernel>(
             volume: stretch_along * wide * wide,
             middle_volume: stretch_along * wide * wide,
             energy: zero,
-            viscous: zero,
+            swept: zero,
             time,
             time_step,
         };

@@ -36,8 +36,11 @@ pub const SYMPTOM: Symptom = Symptom {
              material",
 };
 
-/// Hourglass energy of an element, none of one that has no such modes.
+/// Hourglass energy of an element, none of one that has no such modes, or of a fluid, in which it is heat like any other.
 fn hourglass_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
+    if block.law.is_fluid() {
+        return 0.0;
+    }
     block.element.entry().energies.hourglass.map_or(0.0, |row| group.value(i, row))
 }
 

@@ -146,6 +146,7 @@ impl Rig {
             pass: PassSettings {
                 time: 0.0,
                 time_step: 0.0,
+                kick: 0.0,
                 bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
                 moduli: StepModuli::Elastic,
                 instructions: InstructionSet::detect(),
@@ -166,6 +167,8 @@ impl Rig {
             }
         }
         self.forces.fill(Force::default());
+        // Half of the kick after a step belongs to it.
+        self.pass.kick = 0.5 * (self.pass.time_step + time_step);
         self.pass.time_step = time_step;
         self.block.run(&self.nodes, Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
     }

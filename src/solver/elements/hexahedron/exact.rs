@@ -1,0 +1,131 @@
+//! Energy of elements with an equation of state: the work of their corner forces, exactly as the nodes feel it.
+//!
+//! Central differences change the kinetic energy ½ m v⁻·v⁺ between two states by v·½ (Δt̄ₙ fₙ + Δt̄ₙ₊₁ fₙ₊₁), where v is the
+//! velocity between them and Δt̄ the mean of the steps before and after a state. That much, with its sign turned, is booked,
+//! whatever the steps do: forces of both states with the velocities of the one step, at the geometry where they acted. Δt̄ₙ₊₁
+//! is not known when fₙ₊₁ is; Δtₙ stands in for it, and the power that was booked so is kept to make good in the next step.
+
+use super::fluid;
+use super::geometry::{Corners, Gradient, Modes, dot, gradient};
+use super::hourglass::Resistance;
+use super::kernel::{Settings, accumulate, hourglass_rates};
+use super::kinematics::rotation_matrix;
+use super::rows;
+use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::material::Kernel;
+
+/// Accounts in the order of [`Works`]: internal energy, bulk viscosity, hourglass resistance.
+const ACCOUNTS: [usize; 3] = [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY];
+
+/// Work or power of stress, bulk viscosity and, in fluids, hourglass resistance.
+pub type Works<V> = [V; 3];
+
+/// Rows of the forces on corners, of fluids.
+pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
+    let end = rows::LAW + K::STATE.len() - 1;
+    end - 9..end
+}
+
+/// What is known of a step's work before the law has found its stress.
+pub struct Start<V> {
+    /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is
+    /// taken to be as at its start.
+    pub energy: V,
+    /// Volume that the element sweeps in the step at its speed at the end.
+    pub swept: V,
+    /// Σ v_iI B_jI at the end of the step.
+    pub flow: Matrix3<V>,
+    /// The trace of that.
+    pub growth: V,
+    works: Works<V>,
+}
+
+/// Σ v_iI B_jI
+#[inline(always)]
+fn flow<V: Lanes>(v: &[Modes<V>; 3], gradient: &Gradient<V>) -> Matrix3<V> {
+    array![i in 3 => array![j in 3 => dot(&v[i], &gradient.g24[j]) * V::splat(1.0 / 192.0)]]
+}
+
+#[inline(always)]
+fn trace<V: Lanes>(m: &Matrix3<V>) -> V {
+    m[0][0] + m[1][1] + m[2][2]
+}
+
+/// Hourglass rates at a geometry, given Σ v_iI B_jI there.
+#[inline(always)]
+pub fn rates<V: Lanes>(v: &[Modes<V>; 3], x: &[Modes<V>; 3], flow: &Matrix3<V>, volume192: V) -> Resistance<V> {
+    let inverse = V::splat(192.0) / volume192;
+    hourglass_rates(v, x, &array![i in 3 => array![j in 3 => flow[i][j] * inverse]])
+}
+
+/// Σ Q_iα q̇_iα
+#[inline(always)]
+pub fn power<V: Lanes>(resistance: &Resistance<V>, rates: &Resistance<V>) -> V {
+    let mut sum = V::splat(0.0);
+    for i in 0..3 {
+        for a in 0..4 {
+            sum = sum + resistance[i][a] * rates[i][a];
+        }
+    }
+    sum
+}
+
+impl<V: Lanes> Start<V> {
+    /// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
+    #[inline(always)]
+    pub fn of<K: Kernel>(
+        [x, v]: [&[Modes<V>; 3]; 2],
+        [positions, velocities]: [&[Corners<V>; 3]; 2],
+        state: &[Row],
+        part: usize,
+        settings: &Settings,
+    ) -> Start<V> {
+        let time_step = V::splat(settings.time_step);
+        let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
+        let gradient_before = gradient(&before);
+        let flow_before = flow(v, &gradient_before);
+        let flow = flow(v, &gradient(x));
+        let growth = trace(&flow);
+
+        let stress = Sym3::load(&state[rows::STRESS..], part);
+        let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
+        let of_stress = if K::FLUID {
+            stress.xx * trace(&flow_before)
+        } else {
+            let frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
+            stress.rotate(&rotation_matrix(&frame)).contract(Sym3::of(&flow_before))
+        };
+        let mut of_modes = V::splat(0.0);
+        if K::FLUID {
+            let resistance: Resistance<V> =
+                array![i in 3 => array![a in 4 => V::load(&state[rows::HOURGLASS + 4 * i + a], part)]];
+            of_modes = power(&resistance, &rates(v, &before, &flow_before, gradient_before.volume192));
+            let before: [Corners<V>; 3] =
+                array![i in 3 => array![n in 8 => positions[i][n] - time_step * velocities[i][n]]];
+            of_modes = of_modes + fluid::power(&before, velocities, &state[corner_rows::<K>()], part);
+        }
+        let half_kick = V::splat(0.5 * settings.kick);
+        let end_power = V::load(&state[rows::LAW + K::STATE.len() - 1], part);
+        let overdue = V::splat(0.5 * (settings.time_step - settings.kick)) * end_power;
+        let works = [half_kick * of_stress + overdue, half_kick * viscous * trace(&flow_before), half_kick * of_modes];
+
+        let mut energy = V::load(&state[rows::INTERNAL_ENERGY], part) + V::load(&state[rows::VISCOUS_ENERGY], part);
+        energy = energy + (works[0] + works[1]) + V::splat(0.5 * settings.time_step) * viscous * growth;
+        if K::FLUID {
+            energy = energy + V::load(&state[rows::HOURGLASS_ENERGY], part) + (works[2] + works[2]);
+        }
+        Start { energy, swept: time_step * growth, flow, growth, works }
+    }
+
+    /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
+    #[inline(always)]
+    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [Row], part: usize, settings: &Settings) {
+        let half_step = V::splat(0.5 * settings.time_step);
+        for account in 0..if K::FLUID { 3 } else { 2 } {
+            accumulate(self.works[account] + half_step * powers[account], &mut state[ACCOUNTS[account]], part);
+        }
+        let sum = powers[0] + powers[1];
+        let sum = if K::FLUID { sum + powers[2] } else { sum };
+        sum.store(&mut state[rows::LAW + K::STATE.len() - 1], part);
+    }
+}

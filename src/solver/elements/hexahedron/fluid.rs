@@ -1,0 +1,182 @@
+//! What keeps meshes of fluids untangled: hourglass modes are slowed, and corners that are about to turn inside out are held.
+//!
+//! Both take their size from mass and stable step alone, not from a modulus: a cold gas has none, and no shape is special.
+
+use super::geometry::Corners;
+use super::hourglass::Resistance;
+use crate::lanes::{Lanes, Row, array};
+use crate::mesh::corners::NEIGHBOURS;
+
+/// Part α by which an hourglass mode is slowed in a stable step of its element.
+const SLOWED: f64 = 0.9;
+
+/// A volume may grow, and shrink, by this part of itself in a step.
+const LARGEST_GROWTH: f64 = 0.1;
+const LARGEST_SHRINKAGE: f64 = 0.2;
+
+/// A corner is held when its Jacobian is below this part of the volume.
+const CLOSE: f64 = 0.3;
+
+/// Strength of the brake on a closing corner, and of what brings one back, at a Jacobian of zero. They are those of an
+/// element alone; its neighbours make nodes eight times as heavy.
+const BRAKE: f64 = 20.0;
+const BACK: f64 = 100.0;
+
+/// By how much the stable step is shortened by them.
+const SHORTER: f64 = 12.0;
+
+/// A corner may close by this part of its Jacobian in a step, or of a tenth of the volume where it is less.
+const LARGEST_CLOSING: f64 = 0.5;
+const LEAST_ROOM: f64 = 0.1;
+
+/// The areas of a corner do not count as less than this part of B:B, that a flat corner is not given a boundless force.
+const LEAST_REACH: f64 = 0.05;
+
+/// The largest step in which a volume that grows at `rate` times itself does so by no more than it may; `otherwise` where that
+/// is smaller, or no number.
+#[inline(always)]
+pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
+    let tiny = V::splat(f64::MIN_POSITIVE);
+    let growing = V::splat(LARGEST_GROWTH) / rate.max(tiny);
+    let shrinking = V::splat(LARGEST_SHRINKAGE) / (-rate).max(tiny);
+    // In this order a NaN stays.
+    growing.min(shrinking).min(otherwise)
+}
+
+/// Q = α (M/64) q̇/Δt, in space: a mode weighs M/64 per unit of its rate, and is slowed by the part α in a stable step Δt of its
+/// element, whatever its shape.
+#[inline(always)]
+pub fn resistance<V: Lanes>(rates: &Resistance<V>, factor: f64, mass: V, stable_step: V) -> Resistance<V> {
+    let viscosity = V::splat(SLOWED * factor / 64.0) * mass / stable_step;
+    array![i in 3 => array![a in 4 => viscosity * rates[i][a]]]
+}
+
+/// The Jacobian of a corner, e₁·(e₂ × e₃) of its three edges: its derivatives by the edges, and its rate.
+struct Corner<V> {
+    jacobian: V,
+    areas: [[V; 3]; 3],
+    rate: V,
+}
+
+#[inline(always)]
+fn cross<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> V {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn edges<V: Lanes>(x: &[Corners<V>; 3], corner: usize) -> [[V; 3]; 3] {
+    let to = &NEIGHBOURS[corner];
+    array![k in 3 => array![i in 3 => x[i][to[k]] - x[i][corner]]]
+}
+
+impl<V: Lanes> Corner<V> {
+    #[inline(always)]
+    fn of(x: &[Corners<V>; 3], v: &[Corners<V>; 3], corner: usize) -> Corner<V> {
+        let [e1, e2, e3] = edges(x, corner);
+        let areas = [cross(&e2, &e3), cross(&e3, &e1), cross(&e1, &e2)];
+        let [w1, w2, w3] = edges(v, corner);
+        let rate = dot(&areas[0], &w1) + dot(&areas[1], &w2) + dot(&areas[2], &w3);
+        Corner { jacobian: dot(&e1, &areas[0]), areas, rate }
+    }
+
+    #[inline(always)]
+    fn jacobian_of(x: &[Corners<V>; 3], corner: usize) -> V {
+        let [e1, e2, e3] = edges(x, corner);
+        dot(&e1, &cross(&e2, &e3))
+    }
+
+    /// Derivative by the position of the corner itself, with its sign turned.
+    #[inline(always)]
+    fn own(&self) -> [V; 3] {
+        array![i in 3 => self.areas[0][i] + self.areas[1][i] + self.areas[2][i]]
+    }
+}
+
+/// Whether a row has a number below the start of the resistance in this part.
+#[inline(always)]
+fn any_close<V: Lanes>(row: &Row, part: usize) -> bool {
+    row.0[part * V::COUNT..(part + 1) * V::COUNT].iter().any(|least| *least < CLOSE)
+}
+
+/// Power of the forces Λ on the corners' Jacobians that are kept in `rows`, at a geometry.
+#[inline(always)]
+pub fn power<V: Lanes>(x: &[Corners<V>; 3], v: &[Corners<V>; 3], rows: &[Row], part: usize) -> V {
+    let mut sum = V::splat(0.0);
+    // Of corners that were not close there is none.
+    if any_close::<V>(&rows[8], part) {
+        for corner in 0..8 {
+            sum = sum + V::load(&rows[corner], part) * Corner::of(x, v, corner).rate;
+        }
+    }
+    sum
+}
+
+/// What holding the corners of an element means.
+pub struct Held<V> {
+    /// What is to be added to the corner forces, `[direction][corner]`.
+    pub force: [Corners<V>; 3],
+    /// Power of these forces, taken from the motion.
+    pub power: V,
+    /// Largest time step with them.
+    pub stable_step: V,
+}
+
+/// Finds the forces Λ on the Jacobians of the corners and keeps them in `rows`, with the least Jacobian over the volume after
+/// them. `b_squared` is B_iI B_iI.
+#[inline(always)]
+pub fn hold<V: Lanes>(
+    [x, v]: [&[Corners<V>; 3]; 2],
+    rows: &mut [Row],
+    part: usize,
+    [volume, mass, stable_step, b_squared]: [V; 4],
+) -> Held<V> {
+    let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    let mut held = Held { force: [[zero; 8]; 3], power: zero, stable_step };
+    let mut least = Corner::jacobian_of(x, 0);
+    for corner in 1..8 {
+        least = Corner::jacobian_of(x, corner).min(least);
+    }
+    let least = least / volume;
+    let before = any_close::<V>(&rows[8], part);
+    least.store(&mut rows[8], part);
+    if !before && !any_close::<V>(&rows[8], part) {
+        return held;
+    }
+    let inverse_step = one / stable_step;
+    let share = mass * V::splat(0.125) * inverse_step;
+    let (start, inverse) = (V::splat(CLOSE) * volume, one / (volume * V::splat(CLOSE)));
+    let (mut most, mut closing) = (zero, zero);
+    for corner in 0..8 {
+        let c = Corner::of(x, v, corner);
+        let own = c.own();
+        let reach = (dot(&c.areas[0], &c.areas[0]) + dot(&c.areas[1], &c.areas[1]))
+            + (dot(&c.areas[2], &c.areas[2]) + dot(&own, &own));
+        let missing = (start - c.jacobian).max(zero);
+        let weight = (missing * inverse).min(one);
+        most = weight.max(most);
+        let brake = c.rate.min(zero) * V::splat(BRAKE);
+        let back = missing * inverse_step * V::splat(BACK);
+        let force = weight * (brake - back) * share / reach.max(b_squared * V::splat(LEAST_REACH));
+        force.store(&mut rows[corner], part);
+        held.power = held.power + force * c.rate;
+        let room = c.jacobian.max(volume * V::splat(LEAST_ROOM));
+        closing = (-(c.rate / room)).max(closing);
+        for i in 0..3 {
+            held.force[i][corner] = held.force[i][corner] - force * own[i];
+            for k in 0..3 {
+                let to = NEIGHBOURS[corner][k];
+                held.force[i][to] = held.force[i][to] + force * c.areas[k][i];
+            }
+        }
+    }
+    let limit = V::splat(LARGEST_CLOSING) / closing.max(V::splat(f64::MIN_POSITIVE));
+    let slower = stable_step / (one + V::splat(SHORTER) * most);
+    // In this order a NaN of the element's own step stays.
+    held.stable_step = V::select_less(zero, most, limit.min(slower), stable_step);
+    held
+}
