@@ -45,7 +45,7 @@ fn check_flyer(case: &str, run: &Run) {
     let at = [4, 12].map(|i| front(run.states[i].element("PRESSURE"), 0.1, 24e9));
     let between_states = run.states[12].time - run.states[4].time;
     close(case, "shock speed [m/s]", (at[1] - at[0]) / between_states, shock, 0.01);
-    between(case, "worst energy balance", run.worst_balance(), 0.0, 1e-2);
+    between(case, "worst energy balance", run.worst_balance(), 0.0, 1e-4);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn v30_detonation_of_tnt() {
     // Self-similar flow from a wall: the products rest in the inner half.
     let at_rest = state.nodal("VELX").iter().take(60).fold(0.0f64, |m, v| m.max(v.abs()));
     between("V-30 TNT", "particle speed near the wall [m/s]", at_rest, 0.0, 60.0);
-    between("V-30 TNT", "worst energy balance", run.worst_balance(), 0.0, 2e-2);
+    between("V-30 TNT", "worst energy balance", run.worst_balance(), 0.0, 1e-9);
 }
 
 const COLD_GAS: &str = "MATERIAL, 1, HYDRODYNAMIC, 1.\nPRESSURE CUTOFF = 0.\nEND\nEQUATION OF STATE, 1, IDEAL GAS\n";
@@ -115,9 +115,11 @@ fn v30_cold_gas_against_a_wall() {
     let state = run.end();
     close("gas", "compression", mean(state.element("DENSITY"), 10..60), 6.0, 0.02);
     close("gas", "pressure", mean(state.element("PRESSURE"), 10..60), 1.2, 0.01);
-    // Seen in the undeformed column, the shock runs at 1 + 0.2.
-    close("gas", "shock front", front(state.element("PRESSURE"), 1.0, 0.6), 1.2 * state.time, 0.01);
-    between("gas", "worst energy balance", run.worst_balance(), 0.0, 1e-2);
+    // Seen in the undeformed column, the shock runs at 1 + 0.2. Its layer lags by a part of an element, always the same.
+    let [early, late] = [0.3, 0.6].map(|time| run.at(time));
+    let way = front(late.element("PRESSURE"), 1.0, 0.6) - front(early.element("PRESSURE"), 1.0, 0.6);
+    close("gas", "shock speed", way / (late.time - early.time), 1.2, 0.01);
+    between("gas", "worst energy balance", run.worst_balance(), 0.0, 1e-9);
 }
 
 /// Centres of the elements of a mesh whose nodes are at `positions`.
@@ -132,8 +134,7 @@ fn radius(x: &[f64; 3]) -> f64 {
 }
 
 /// Blast of a point (Sedov 1946; Taylor 1950): energy 1 in a gas of density 1 and γ = 1.4 drives a shock to
-/// 1.0328 t^(2/5). An octant with its eighth of the energy in the corner element, which bursts within a few steps: at the
-/// full step these first ones cost 5 % of the energy balance.
+/// 1.0328 t^(2/5). An octant with its eighth of the energy in the corner element, which bursts within a few steps.
 #[test]
 fn v30_sedov_blast() {
     let (n, size) = (24, 0.75);
@@ -146,9 +147,8 @@ fn v30_sedov_blast() {
     mesh.blocks[0].nodes.drain(..8);
     mesh.blocks.insert(0, urto::mesh::Block::hexahedra_of(2, [corner]));
     let energy = 0.125 / (size / n as f64).powi(3);
-    let mut deck = String::from(
-        "TIME STEP SCALE, 0.25\nTERMINATION TIME, 0.3\nPLOT TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT ELEMENT, PRESSURE, DENSITY\n",
-    );
+    let mut deck =
+        String::from("TERMINATION TIME, 0.3\nPLOT TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT ELEMENT, PRESSURE, DENSITY\n");
     for (axis, id) in ["X", "Y", "Z"].into_iter().zip([11, 12, 13]) {
         deck += &format!("NO DISPLACEMENT, {axis}, {id}\n");
     }
@@ -167,30 +167,18 @@ fn v30_sedov_blast() {
     let shock = densest.iter().sum::<f64>() / densest.len() as f64;
     close("V-30 Sedov", "shock radius", shock, 0.6381, 0.04);
     at_least("V-30 Sedov", "largest density", density.iter().fold(0.0, |m: f64, d| m.max(*d)), 4.5);
-    between("V-30 Sedov", "worst energy balance", run.worst_balance(), 0.0, 2e-2);
+    between("V-30 Sedov", "worst energy balance", run.worst_balance(), 0.0, 1e-9);
 }
 
 /// Noh's implosion: a cold gas of γ = 5/3 flows to the origin at speed 1 from all sides. A shock comes out at ⅓; before it
 /// the density is (1 + t/r)², and behind it 64. Two errors are known: the viscosity acts on gas that only converges, and heats
 /// it before it meets the shock; and the first elements at the origin, which are stopped before there is a shock, stay hot and
 /// thin ("wall heating", Noh 1987), and push the rest outwards. Both are layers of some elements, so that answers away from
-/// them are wrong in proportion to the element size h, and a straight line through two sizes leads to the answer for h = 0.
+/// them are wrong in proportion to the element size at most.
 #[test]
 fn v30_noh_implosion() {
-    let runs = [20, 30, 40].map(|n| (n as f64, noh(n)));
-    for (n, run) in runs {
-        println!("V-30 Noh, {n}: {run:?}");
-        between(&format!("V-30 Noh, {n}"), "energy balance", run.balance.abs(), 0.0, 5e-3);
-    }
-    for (coarse, fine) in [(0, 1), (0, 2), (1, 2)] {
-        let ((n, a), (m, b)) = (runs[coarse], runs[fine]);
-        let case = format!("V-30 Noh, {n} and {m}");
-        let line = |a: f64, b: f64| (m * b - n * a) / (m - n);
-        assert!(64.0 - b.density < 0.8 * (64.0 - a.density) && b.density < 64.0, "{case}: {} {}", a.density, b.density);
-        assert!(b.shock - 0.2 < 0.8 * (a.shock - 0.2) && b.shock > 0.2, "{case}: {} {}", a.shock, b.shock);
-        close(&case, "density behind the shock, extrapolated", line(a.density, b.density), 64.0, 0.05);
-        close(&case, "shock radius, extrapolated", line(a.shock, b.shock), 0.2, 0.08);
-    }
+    let runs = [20, 30, 40].map(|n| (n, noh(n)));
+    check_noh(&runs);
     // No shock has been there yet: the smooth flow alone, of second order, (h/r)² = 0.5 %.
     close("V-30 Noh, 40", "density before the shock over (1 + t/r)²", runs[2].1.before, 1.0, 0.005);
 }
@@ -213,7 +201,7 @@ fn v30_noh_implosion_on_a_finer_mesh() {
 fn check_noh(runs: &[(usize, Noh)]) {
     for (n, run) in runs {
         println!("V-30 Noh, {n}: {run:?}");
-        between(&format!("V-30 Noh, {n}"), "energy balance", run.balance.abs(), 0.0, 5e-3);
+        between(&format!("V-30 Noh, {n}"), "energy balance", run.balance.abs(), 0.0, 1e-9);
     }
     for pair in runs.windows(2) {
         let ((n, a), (m, b)) = (pair[0], pair[1]);
@@ -325,7 +313,7 @@ fn v30_saltzman_piston() {
     close("V-30 Saltzman", "shock front", mean, state.time / 3.0, 0.05);
     let spread = fronts.iter().fold(0.0f64, |m, f| m.max((f - mean).abs()));
     between("V-30 Saltzman", "front over y, from the mean", spread, 0.0, 0.01);
-    between("V-30 Saltzman", "worst energy balance", run.worst_balance(), 0.0, 1e-2);
+    between("V-30 Saltzman", "worst energy balance", run.worst_balance(), 0.0, 1e-9);
 }
 
 /// One cube of every law and every equation of state is squeezed and drawn out again, by the deck that shows them.

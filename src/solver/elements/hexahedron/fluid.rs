@@ -162,6 +162,8 @@ pub fn hold<V: Lanes>(
         let brake = c.rate.min(zero) * V::splat(BRAKE);
         let back = missing * inverse_step * V::splat(BACK);
         let force = weight * (brake - back) * share / reach.max(b_squared * V::splat(LEAST_REACH));
+        // A zero has the sign that it has where no lane came here.
+        let force = force + zero;
         force.store(&mut rows[corner], part);
         held.power = held.power + force * c.rate;
         let room = c.jacobian.max(volume * V::splat(LEAST_ROOM));

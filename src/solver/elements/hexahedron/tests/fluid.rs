@@ -45,16 +45,13 @@ fn hourglass_work_heats_a_fluid() {
 /// A mode weighs M/64 per unit of its rate, which is eight times its speed, and is slowed by nine tenths in a stable step.
 #[test]
 fn hourglass_modes_are_slowed_in_a_stable_step() {
-    for (rate, factor) in [(-1.0, 1.0), (0.0, 1.0), (0.0, 0.25)] {
+    for factor in [1.0, 0.25] {
         let mut rig = gas(1e5);
         if let Element::Hexahedron(element) = &mut rig.block.element {
             element.hourglass = Hourglass::AssumedStrain { factor };
         }
         let speed = 1e-3;
-        let outcome = rig.step(1e-9, |n| {
-            let [x, y, z] = CUBE[n].map(|c| rate * c);
-            [x + speed * modes(n)[0], y, z]
-        });
+        let outcome = rig.step(1e-9, |n| [speed * modes(n)[0], 0.0, 0.0]);
         let expected = factor * 0.9 * DENSITY / 64.0 * 8.0 * speed / outcome.stable_step;
         close("resistance", rig.state(rows::HOURGLASS), expected, 1e-7 * expected);
     }
@@ -101,7 +98,7 @@ fn booked_energy_is_exactly_the_work_of_the_forces() {
             }
             last = std::array::from_fn(|n| rig.force(n));
             last_step = time_step;
-            held = held.max(rig.state(rows::LAW).abs());
+            held = (0..8).fold(held, |most, corner| most.max(rig.state(rows::LAW + corner).abs()));
         }
         let booked: f64 = accounts.iter().map(|&row| rig.state(row)).sum();
         close("work", booked, work, 1e-12 * size);
