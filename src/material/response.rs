@@ -136,7 +136,7 @@ impl KernelVisitor for Increment<'_> {
             volume: if K::VOLUME { u.determinant() } else { 1.0 },
             middle_volume: middle,
             energy: point.energy,
-            viscous: 0.0,
+            swept: 0.0,
             time: point.time,
             time_step: point.time_step,
         };
