@@ -4,6 +4,7 @@ use super::input::Given;
 use super::terminal::{complain, say};
 use super::{DONE, Failure, options};
 use crate::comm::Serial;
+use crate::mesh::{Dimension, plane};
 use crate::output::print::{self, scientific};
 use crate::partition::Decomposition;
 use crate::run::Endless;
@@ -110,8 +111,11 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let steps = (model.termination_time / first).ceil();
     let [x, y, z] = place.centre.map(|coordinate| scientific(coordinate, 3));
     let elements = mesh.element_count() as f64;
+    let of_pronto = pronto_step(given, body).map_or(String::new(), |step| {
+        format!("PRONTO2D's own estimate of it, by lengths in the plane: {}\n", scientific(step, 4))
+    });
     Ok(format!(
-        "first time step {}, set by element {} of block {} at ({x}, {y}, {z})\n\
+        "first time step {}, set by element {} of block {} at ({x}, {y}, {z})\n{of_pronto}\
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          about {} of memory, {:.0} bytes per element\n\
@@ -124,6 +128,24 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         bytes(memory(given)),
         memory(given) / elements,
     ))
+}
+
+/// What PRONTO2D took for the first step of a two-dimensional run: the shortest L/c (√(1 + b₁²) − b₁) with L = A/√(B:B). It
+/// looks at the plane alone; about an axis that is no bound, and ours is another.
+fn pronto_step(given: &Given, body: &Body) -> Option<f64> {
+    let (mesh, model) = (&given.mesh, &given.problem.model);
+    if mesh.dimension == Dimension::Three {
+        return None;
+    }
+    let linear = model.bulk_viscosity.linear;
+    let damped = (1.0 + linear * linear).sqrt() - linear;
+    let of_block = |(block, nodes): (usize, &[u32])| {
+        let material = &model.materials[body.block_material[block]];
+        let speed = (material.law.moduli().dilatational() / material.density).sqrt();
+        let corners: [u32; 4] = nodes.try_into().ok()?;
+        Some(plane::wave_length(&body.corners(&corners)) / speed * damped)
+    };
+    mesh.elements().filter_map(of_block).reduce(f64::min)
 }
 
 /// Bytes of element and node state, by the sizes of what is stored.

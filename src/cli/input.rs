@@ -7,9 +7,9 @@ use crate::deck::{Definitions, Diagnostic, Diagnostics, Source};
 use crate::exodus::{MeshError, read_mesh};
 #[cfg(feature = "mpi")]
 use crate::exodus::{Together, read_mesh_together};
-use crate::mesh::{Mesh, check::unreferenced_nodes};
+use crate::mesh::{Mesh, check::unreferenced_nodes, plane};
 use crate::mesher;
-use crate::model::{Problem, examine};
+use crate::model::{Analysis, Problem, examine};
 use crate::solver::elements::Unfit;
 use crate::solver::{Body, unfit_blocks};
 use std::io::IsTerminal;
@@ -101,8 +101,11 @@ impl Given {
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
-            (Ok(problem), Ok(((mesh, mesh_files), mesh_path))) => {
+            (Ok(problem), Ok(((mut mesh, mesh_files), mesh_path))) => {
                 all_used(given)?;
+                if problem.model.analysis == Analysis::Axisymmetric {
+                    mesh.coordinates = plane::on_axis(&mesh);
+                }
                 let unfit = unfit_blocks(&mesh, &problem.model);
                 if unfit.is_empty() {
                     return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
@@ -219,6 +222,14 @@ fn open(path: &Path, given: &Arc<Definitions>, ranks: Option<u32>) -> std::io::R
         Some(ranks) => source.with_value("ranks", ranks),
         None => source,
     })
+}
+
+/// The mesh of a recipe, or of a mesh file.
+pub fn read_or_make(path: &Path, refine: u32, given: &Arc<Definitions>, ranks: Option<u32>) -> Result<MeshOf, Failure> {
+    if path.extension().is_some_and(|suffix| suffix == "g") && refine == 1 {
+        return read_mesh(path).map(|mesh| (mesh, vec![path.to_path_buf()])).map_err(Failure::input);
+    }
+    make_mesh(path, refine, given, ranks)
 }
 
 /// How a recipe becomes a mesh.

@@ -197,11 +197,12 @@ pub struct Explain {
 
 /// Makes a mesh from a recipe
 ///
-/// A recipe lists parts (boxes, cylinders, tubes, spheres), transformations and sets in the manner of a deck. See
-/// meshes/*.mesh for examples.
+/// A recipe lists parts (boxes, cylinders, tubes, spheres; in two dimensions rectangles, discs, rings), transformations and
+/// sets in the manner of a deck. See meshes/*.mesh for examples. With --revolve or --extrude a two-dimensional mesh, of a
+/// recipe or of a file, becomes a solid; the faces at both ends are node sets and side sets of their own.
 #[derive(Debug, Args)]
 pub struct Mesh {
-    /// The recipe, x.mesh
+    /// The recipe, x.mesh; with --revolve or --extrude also a two-dimensional mesh, x.g
     pub recipe: PathBuf,
     /// The mesh to write; else the recipe's name with .g, here
     #[arg(short, long, value_name = "FILE")]
@@ -209,6 +210,15 @@ pub struct Mesh {
     /// Multiplies every number of elements along an edge
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
+    /// Turns a two-dimensional mesh about its y axis by so many degrees into hexahedra
+    #[arg(long, value_name = "DEGREES", conflicts_with = "extrude", requires = "cells")]
+    pub revolve: Option<f64>,
+    /// Draws a two-dimensional mesh out along z by a length into hexahedra
+    #[arg(long, value_name = "LENGTH", requires = "cells")]
+    pub extrude: Option<f64>,
+    /// Number of layers that --revolve and --extrude make
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub cells: Option<u32>,
     /// Gives a name in the recipe's expressions this value, in place of what {NAME = ...} gives it there
     #[arg(short = 'D', long, value_name = "NAME=VALUE")]
     pub define: Vec<String>,
@@ -274,6 +284,9 @@ pub struct View {
     /// Draws a nodal vector, such as VEL or CONT, as arrows too
     #[arg(long, value_name = "NAME")]
     pub arrows: Option<String>,
+    /// Turns a two-dimensional body about its y axis by so many degrees: 270 leaves a quarter open to the eye
+    #[arg(long, value_name = "DEGREES")]
+    pub revolve: Option<f64>,
     /// Colours: sequential from dark to light, diverging from white at zero; else as suits the signs of the values
     #[arg(long, value_name = "NAME")]
     pub map: Option<MapName>,

@@ -64,8 +64,16 @@ fn overview() -> String {
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
     let given = super::input::definitions(&options.define)?;
-    let (mesh, files) = super::input::make_mesh(recipe, options.refine, &given, options.ranks)?;
+    let (mut mesh, files) = super::input::read_or_make(recipe, options.refine, &given, options.ranks)?;
     super::input::all_used(&given)?;
+    let mut ends = String::new();
+    if let Some(how) = sweep_of(options)? {
+        let swept = mesher::sweep(&mesh, how, options.cells.unwrap_or(1) as usize);
+        let solid = "error: only a two-dimensional mesh becomes a solid: one of RECTANGLE, QUADRILATERAL, DISC or RING";
+        let swept = swept.ok_or_else(|| Failure::input(format_args!("{solid}")))?;
+        ends = swept.ends.map_or(ends, |[first, last]| format!("; sets {first} and {last} are its ends"));
+        mesh = swept.mesh;
+    }
     let output = options
         .output
         .clone()
@@ -73,7 +81,7 @@ pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     Inputs::default().with("the recipe", files).spare(exodus::names_in_writing(&output), ANOTHER_NAME)?;
     exodus::write_mesh(&output, &mesh).map_err(|e| Failure::run(format_args!("error: {e}")))?;
     let (nodes, elements, blocks) = (mesh.coordinates.len(), mesh.element_count(), mesh.blocks.len());
-    say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s)", output.display()));
+    say(format_args!("{}: {nodes} nodes, {elements} elements in {blocks} block(s){ends}", output.display()));
     Ok(DONE)
 }
 
@@ -95,6 +103,20 @@ pub fn refine(options: &options::Refine) -> Result<u8, Failure> {
     let counts = |mesh: &Mesh| format!("{} nodes, {} elements", mesh.coordinates.len(), mesh.element_count());
     say(format_args!("{}: {}; {} had {}", output.display(), counts(&fine), path.display(), counts(&coarse)));
     Ok(DONE)
+}
+
+/// What --revolve and --extrude ask for.
+fn sweep_of(options: &options::Mesh) -> Result<Option<mesher::Sweep>, Failure> {
+    let wrong = |name: &str, value: f64, expected: &str| {
+        Failure::input(format_args!("error: --{name} is {value}; expected {expected}"))
+    };
+    match (options.revolve, options.extrude) {
+        (Some(angle), _) if angle > 0.0 && angle <= 360.0 => Ok(Some(mesher::Sweep::Revolve(angle))),
+        (Some(angle), _) => Err(wrong("revolve", angle, "more than 0 degrees, 360 at most")),
+        (_, Some(length)) if length > 0.0 && length.is_finite() => Ok(Some(mesher::Sweep::Extrude(length))),
+        (_, Some(length)) => Err(wrong("extrude", length, "a length greater than 0")),
+        _ => Ok(None),
+    }
 }
 
 /// `urto diff`

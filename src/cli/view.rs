@@ -76,6 +76,7 @@ fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
         hide: options.hide.clone(),
         cuts: planes("cut", &options.cut)?,
         arrows: options.arrows.clone(),
+        revolve: options.revolve,
         map: match options.map {
             None => MapChoice::Suited,
             Some(MapName::Sequential) => MapChoice::Sequential,

@@ -15,6 +15,8 @@
 //! body      properties                      the lines of a group are `KEYWORD value`
 //! required                                  every deck needs one
 //! once                                      a second one must not differ
+//! plane                                     makes a deck two-dimensional
+//! space     z0, nz                          fields that two-dimensional decks do not have; alone, all of the entry
 //! always                                    takes effect with its defaults when it is not given
 //! note      A sentence for the manual.
 //! example   PRESSURE, 100, 1                one line of an example
@@ -66,6 +68,14 @@ pub struct Entry {
     pub once: bool,
     /// Whether its defaults hold when it is not given.
     pub always: bool,
+    /// Whether it makes a deck two-dimensional.
+    pub plane: bool,
+    /// Names of the fields that two-dimensional decks do not have.
+    pub space: Vec<String>,
+    /// Whether two-dimensional decks do not have the entry at all.
+    pub of_space: bool,
+    /// Fields that the deck cannot give: they have their defaults.
+    pub filled: Vec<FieldRule>,
     /// More for the manual.
     pub notes: Vec<String>,
     /// Lines of an example.
@@ -244,6 +254,10 @@ impl Entry {
             required: false,
             once: false,
             always: false,
+            plane: false,
+            space: Vec::new(),
+            of_space: false,
+            filled: Vec::new(),
             notes: Vec::new(),
             example: Vec::new(),
             see: Vec::new(),
@@ -294,6 +308,9 @@ impl Entry {
             "required" => self.required = true,
             "once" => self.once = true,
             "always" => self.always = true,
+            "plane" => self.plane = true,
+            "space" if text.is_empty() => self.of_space = true,
+            "space" => self.space = text.split(',').map(|name| name.trim().to_string()).collect(),
             "note" => self.notes.push(text.to_string()),
             "example" => self.example.push(text.to_string()),
             "see" => self.see = text.split(',').map(|name| name.trim().to_string()).collect(),

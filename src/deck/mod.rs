@@ -19,6 +19,7 @@ mod manual;
 mod number;
 mod origin;
 mod page;
+mod plane;
 mod reader;
 mod source;
 pub mod spelling;

@@ -51,6 +51,9 @@ impl Page {
 pub(super) fn of_entry(entry: &Entry, models: &[Models]) -> Page {
     let built = entry.status == Status::Built;
     let mut form = vec![entry.syntax()];
+    if !entry.space.is_empty() {
+        form.push(format!("{}   in two dimensions", entry.in_plane().syntax()));
+    }
     match (entry.form, entry.columns.is_empty()) {
         (Form::Group, true) => form.extend(["KEYWORD = value".to_string(), "END".to_string()]),
         (Form::Group, false) => {

@@ -10,6 +10,7 @@ use super::{
     grammar::{Entry, Form, Grammar, Kind, Status},
     identify::Found,
     lexer::{Field, FieldKind, Lexer, Record},
+    plane,
     source::{Source, Span},
     spelling::{self, Agreement, Spelled},
 };
@@ -29,6 +30,8 @@ impl Deck {
     pub fn read(source: Source, grammar: &Grammar) -> (Deck, Diagnostics) {
         let Evaluated { source, found, readable } = aprepro::evaluate(source);
         let source = Arc::new(source);
+        let flat = plane::is_plane(grammar, &source).then(|| grammar.in_plane());
+        let grammar = flat.as_ref().unwrap_or(grammar);
         let mut diagnostics = Diagnostics::new(source.clone());
         found.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic));
         if !readable {
@@ -142,6 +145,7 @@ impl<'a> Reader<'a> {
             let complete;
             (card.values, complete) = reader.read(&entry.fields, &record.fields[words..]);
             card.complete &= complete;
+            card.values.extend(reader.read(&entry.filled, &[]).0);
         }
         self.next_line(entry, record, words, &mut card);
         if entry.form == Form::Group {

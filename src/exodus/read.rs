@@ -186,8 +186,8 @@ impl Reader<'_, '_> {
             title: self.arrays.text(names::TITLE).unwrap_or_default(),
             dimensions,
             is_part: self.is_part,
-            // A flat mesh is refused for being flat, not for its missing z.
-            coordinates: if dimensions == 3 { self.coordinates() } else { Default::default() },
+            // What is neither flat nor of space is refused for that, not for its missing coordinates.
+            coordinates: if matches!(dimensions, 2 | 3) { self.coordinates(dimensions) } else { Default::default() },
             node_count: self.arrays.dimension(names::NUM_NODES),
             element_count: self.arrays.dimension(names::NUM_ELEM),
             blocks: self.family(&names::BLOCKS, "block", Self::block),
@@ -241,29 +241,33 @@ impl Reader<'_, '_> {
         Vec::new()
     }
 
-    fn coordinates(&mut self) -> [Vec<f64>; 3] {
+    /// The coordinates of so many axes; those of others are empty.
+    fn coordinates(&mut self, dimensions: usize) -> [Vec<f64>; 3] {
         if self.is_part && self.arrays.dimension(names::NUM_NODES).is_none() {
             return Default::default();
         }
         if let Some(shape) = self.arrays.shape(names::PACKED_COORDINATES) {
-            return self.packed_coordinates(&shape);
+            return self.packed_coordinates(dimensions, &shape);
         }
-        names::COORDINATES.map(|name| match self.whole_reals(name) {
-            Ok(Some(values)) => values,
-            Ok(None) => {
-                self.problem(format!("{name} is missing"));
-                Vec::new()
-            }
-            Err(reason) => {
-                self.problem(reason);
-                Vec::new()
+        [0, 1, 2].map(|axis| (names::COORDINATES[axis], axis < dimensions)).map(|(name, there)| {
+            match self.whole_reals(name) {
+                _ if !there => Vec::new(),
+                Ok(Some(values)) => values,
+                Ok(None) => {
+                    self.problem(format!("{name} is missing"));
+                    Vec::new()
+                }
+                Err(reason) => {
+                    self.problem(reason);
+                    Vec::new()
+                }
             }
         })
     }
 
-    fn packed_coordinates(&mut self, shape: &[usize]) -> [Vec<f64>; 3] {
+    fn packed_coordinates(&mut self, dimensions: usize, shape: &[usize]) -> [Vec<f64>; 3] {
         match (shape, self.whole_reals(names::PACKED_COORDINATES)) {
-            (&[3, nodes], Ok(Some(mut x))) if x.len() == 3 * nodes => {
+            (&[count, nodes], Ok(Some(mut x))) if count == dimensions && x.len() == count * nodes => {
                 let z = x.split_off(2 * nodes);
                 let y = x.split_off(nodes);
                 [x, y, z]
@@ -273,7 +277,7 @@ impl Reader<'_, '_> {
                 Default::default()
             }
             _ => {
-                self.problem(format!("coord has the shape {shape:?}, it must be 3 by the number of nodes"));
+                self.problem(format!("coord has the shape {shape:?}, it must be {dimensions} by the number of nodes"));
                 Default::default()
             }
         }

@@ -6,7 +6,7 @@ use super::names;
 use crate::mesh::check::{Problem, Problems, counted};
 use crate::mesh::exterior::SIDES;
 use crate::mesh::hexahedron::Form;
-use crate::mesh::{Block, Kind, Mesh, NodeSet, Shape, SideSet};
+use crate::mesh::{Block, Dimension, Kind, Mesh, NodeSet, Shape, SideSet};
 
 /// How many bad references of one array are named one by one before the rest is summed up.
 const NAMED_PER_ARRAY: usize = 3;
@@ -94,15 +94,15 @@ impl Tables {
     /// Everything found that makes the arrays unfit to be a mesh.
     pub fn assemble(self) -> Result<Mesh, Problems> {
         let mut problems = Problems::default();
-        if self.dimensions != 3 {
-            problems.add(|| {
-                Problem::new(
-                    format!("the mesh is {}-dimensional, a mesh of solids has 3 dimensions", self.dimensions),
-                    "sweep or revolve it into hexahedra first, as gen3d does",
-                )
-            });
-            return Err(problems);
-        }
+        let dimension = match self.dimensions {
+            2 => Dimension::Two,
+            3 => Dimension::Three,
+            other => {
+                let what = format!("the mesh is {other}-dimensional, a mesh has 2 or 3 dimensions");
+                problems.add(|| Problem::new(what, "write the mesh again"));
+                return Err(problems);
+            }
+        };
         let nodes = self.count_nodes(&mut problems);
         let elements = self.count_elements(&mut problems);
         if !problems.is_empty() {
@@ -112,9 +112,9 @@ impl Tables {
         let element_ids = numbers("element", self.element_ids, elements, &mut problems);
 
         unique("block", self.blocks.iter().map(|b| b.id), &mut problems);
-        let kinds: Vec<(usize, Option<Kind>)> = self.blocks.iter().map(|b| (b.len(), b.accepted())).collect();
+        let kinds: Vec<(usize, Option<Kind>)> = self.blocks.iter().map(|b| (b.len(), b.accepted(dimension))).collect();
         let mut ids = element_ids.iter();
-        let blocks = self.blocks.into_iter().map(|b| b.assemble(nodes, &mut ids, &mut problems)).collect();
+        let blocks = self.blocks.into_iter().map(|b| b.assemble((dimension, nodes), &mut ids, &mut problems)).collect();
         let weighted = [
             self.node_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
             self.side_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
@@ -127,17 +127,20 @@ impl Tables {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let [x, y, z] = self.coordinates;
+        let [x, y, mut z] = self.coordinates;
+        if dimension == Dimension::Two {
+            z = vec![0.0; nodes];
+        }
         let coordinates = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
         let (title, qa) = (self.title, self.qa);
-        Ok(Mesh { title, coordinates, blocks, node_sets, side_sets, node_ids, element_ids, qa, weighted })
+        Ok(Mesh { title, dimension, coordinates, blocks, node_sets, side_sets, node_ids, element_ids, qa, weighted })
     }
 
     /// Number of nodes, once all that speak of it agree.
     fn count_nodes(&self, problems: &mut Problems) -> usize {
         let lengths = self.coordinates.each_ref().map(Vec::len);
         let nodes = self.node_count.unwrap_or(lengths[0]);
-        for (name, length) in names::COORDINATES.iter().zip(lengths) {
+        for (name, length) in names::COORDINATES.iter().zip(lengths).take(self.dimensions) {
             if length != nodes {
                 problems.add(|| {
                     Problem::new(
@@ -183,15 +186,21 @@ impl BlockTable {
 
     /// What the elements are by type name, with or without the number of nodes in it; without a type by the number of
     /// nodes. `None` when they are of no kind that is known.
-    pub(super) fn kind(&self) -> Option<Kind> {
+    pub(super) fn kind(&self, dimensions: usize) -> Option<Kind> {
         let name = self.element_type.to_ascii_uppercase();
-        Kind::ALL.into_iter().find(|kind| kind.is_named(&name) && kind.nodes() == self.nodes_per_element)
+        let mut all = Kind::all(dimensions).iter().copied();
+        all.find(|kind| kind.is_named(&name) && kind.nodes() == self.nodes_per_element)
     }
 
     /// The same, but for what is not computed with: see [`BlockTable::unsupported`].
-    fn accepted(&self) -> Option<Kind> {
-        self.kind().filter(|kind| {
-            matches!(kind, Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid) | Kind::Other(Shape::Bar))
+    fn accepted(&self, dimension: Dimension) -> Option<Kind> {
+        self.kind(dimension.count()).filter(|kind| {
+            matches!(
+                kind,
+                Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid)
+                    | Kind::Other(Shape::Bar | Shape::Plane)
+                    | Kind::Triangle
+            )
         })
     }
 
@@ -201,7 +210,7 @@ impl BlockTable {
 
     fn assemble<'a>(
         self,
-        nodes: usize,
+        (dimension, nodes): (Dimension, usize),
         element_ids: &mut impl Iterator<Item = &'a i64>,
         problems: &mut Problems,
     ) -> Block {
@@ -209,8 +218,8 @@ impl BlockTable {
         if self.connectivity.is_empty() {
             return block;
         }
-        let Some(kind) = self.accepted() else {
-            problems.add(|| self.unsupported());
+        let Some(kind) = self.accepted(dimension) else {
+            problems.add(|| self.unsupported(dimension));
             element_ids.by_ref().take(self.len()).for_each(drop);
             return block;
         };
@@ -234,8 +243,19 @@ impl BlockTable {
     }
 
     /// Why this block's elements are refused, and what would be accepted.
-    fn unsupported(&self) -> Problem {
-        if self.kind() == Some(Kind::Solid(Form::Tetrahedron)) {
+    fn unsupported(&self, dimension: Dimension) -> Problem {
+        if dimension == Dimension::Two {
+            let spelled = if self.element_type.is_empty() { "(no type)" } else { self.element_type.as_str() };
+            let nodes = counted(self.nodes_per_element, "node");
+            return Problem::new(
+                format!(
+                    "block {}: elements of type {spelled} with {nodes} are not supported in two dimensions; QUAD4 and TRI3 are",
+                    self.id
+                ),
+                "write the mesh with linear quadrilaterals and triangles, or in three dimensions",
+            );
+        }
+        if self.kind(dimension.count()) == Some(Kind::Solid(Form::Tetrahedron)) {
             return Problem::new(
                 format!(
                     "block {}: linear tetrahedra are not taken: with one point of integration each they lock in plastic \

@@ -126,7 +126,7 @@ impl<'a> Writer<'a> {
             (names::LEN_LINE, LINE_WIDTH),
             (names::LEN_NAME, self.name_width),
             (names::FOUR, 4),
-            (names::NUM_DIM, 3),
+            (names::NUM_DIM, mesh.dimension.count()),
             (names::NUM_NODES, mesh.coordinates.len()),
             (names::NUM_ELEM, mesh.element_count()),
             (names::NUM_BLOCKS, mesh.blocks.len()),
@@ -176,7 +176,8 @@ impl<'a> Writer<'a> {
         if !mesh.element_ids.is_empty() {
             self.numbers(names::ELEMENT_IDS, names::NUM_ELEM)?;
         }
-        for name in names::COORDINATES.into_iter().filter(|_| !mesh.coordinates.is_empty()) {
+        for name in names::COORDINATES.into_iter().take(mesh.dimension.count()).filter(|_| !mesh.coordinates.is_empty())
+        {
             self.variable::<f64>(name, &[names::NUM_NODES])?;
         }
         self.define_family(&names::BLOCKS, mesh.blocks.len())?;
@@ -302,7 +303,7 @@ impl<'a> Writer<'a> {
 
     fn put_texts(&mut self) -> netcdf::Result<()> {
         let contents = self.contents;
-        self.put_names(names::COORDINATE_NAMES, ["x", "y", "z"].into_iter())?;
+        self.put_names(names::COORDINATE_NAMES, ["x", "y", "z"].into_iter().take(self.mesh.dimension.count()))?;
         self.put_text(names::QA, contents.qa.iter().flatten().map(String::as_str), STRING_WIDTH)?;
         self.put_text(names::INFO, contents.info.iter().map(String::as_str), LINE_WIDTH)?;
         self.put_names(names::GLOBAL_NAMES, contents.global.iter().map(String::as_str))?;
@@ -316,7 +317,8 @@ impl<'a> Writer<'a> {
     fn put_nodes(&mut self) -> netcdf::Result<()> {
         let mesh = self.mesh;
         self.put_numbers(names::NODE_IDS, &mesh.node_ids)?;
-        for (axis, name) in names::COORDINATES.into_iter().enumerate().filter(|_| !mesh.coordinates.is_empty()) {
+        let axes = names::COORDINATES.into_iter().enumerate().take(mesh.dimension.count());
+        for (axis, name) in axes.filter(|_| !mesh.coordinates.is_empty()) {
             let values: Vec<f64> = mesh.coordinates.iter().map(|position| position[axis]).collect();
             self.values(name, &values)?;
         }

@@ -27,6 +27,15 @@ pub fn key(mut nodes: [u32; 4]) -> Option<[u32; 4]> {
     (nodes[2] != u32::MAX).then_some(nodes)
 }
 
+/// The same for a face of an element of this shape: an edge of a plane element is known by its two ends.
+pub fn key_of(shape: Shape, nodes: [u32; 4]) -> Option<[u32; 4]> {
+    let [a, b, ..] = nodes;
+    match shape {
+        Shape::Plane => (a != b).then_some([a.min(b), a.max(b), u32::MAX, u32::MAX]),
+        _ => key(nodes),
+    }
+}
+
 /// The faces of an element, each with its side and its nodes, counter-clockwise seen from outside.
 pub fn faces(shape: Shape, nodes: &[u32]) -> impl Iterator<Item = (u8, [u32; 4])> {
     (0..).zip(shape.faces()).filter_map(move |(side, _)| Some((side, shape.face(nodes, side)?)))
@@ -81,8 +90,8 @@ fn sorted<'a>(
     let keys = || {
         keyed().filter(|(_, nodes, _)| nodes.iter().all(|&node| wanted(node))).filter_map(|(shape, nodes, number)| {
             // The two faces of a surface element have the same nodes, and are not across from each other.
-            let kind = if shape.dimension() == 3 { 0 } else { 1 + number as usize % SIDES };
-            Some(((key(nodes)?, kind as u8), number))
+            let kind = if shape.is_solid() { 0 } else { 1 + number as usize % SIDES };
+            Some(((key_of(shape, nodes)?, kind as u8), number))
         })
     };
     let mut starts = vec![0usize; node_count + 1];
@@ -140,6 +149,14 @@ mod tests {
         assert_eq!(key([5, 9, 9, 2]), key([2, 2, 5, 9]));
         assert_eq!(key([5, 9, 9, 2]), Some([2, 5, 9, u32::MAX]));
         assert!(key([3, 3, 8, 8]).is_none() && key([4, 4, 4, 4]).is_none() && key([1, 2, 3, 3]).is_some());
+    }
+
+    #[test]
+    fn edges_of_plane_elements_are_inside_between_two_and_a_triangle_has_three() {
+        // Two squares side by side, and a triangle on the top of the first.
+        let strip =
+            [(Shape::Plane, vec![0, 1, 4, 3]), (Shape::Plane, vec![1, 2, 5, 4]), (Shape::Plane, vec![3, 4, 6, 6])];
+        assert_eq!(outside(&strip), [0, 3, 6, 7, 8, 13, 15]);
     }
 
     #[test]

@@ -10,11 +10,18 @@ pub enum Kind {
     Solid(Form),
     /// An element of another shape.
     Other(Shape),
+    /// A triangle of a two-dimensional mesh, in the mesh a quadrilateral whose last two nodes are one.
+    Triangle,
 }
 
 impl Kind {
-    /// All kinds that are known.
-    pub const ALL: [Kind; 6] = [
+    /// All kinds that are known in so many dimensions.
+    pub fn all(dimensions: usize) -> &'static [Kind] {
+        if dimensions == 2 { &[Kind::Other(Shape::Plane), Kind::Triangle] } else { &Kind::ALL }
+    }
+
+    /// Those of space.
+    const ALL: [Kind; 6] = [
         Kind::Solid(Form::Hexahedron),
         Kind::Solid(Form::Wedge),
         Kind::Solid(Form::Pyramid),
@@ -28,6 +35,7 @@ impl Kind {
         match self {
             Kind::Solid(_) => Shape::Hexahedron,
             Kind::Other(shape) => shape,
+            Kind::Triangle => Shape::Plane,
         }
     }
 
@@ -36,6 +44,7 @@ impl Kind {
         match self {
             Kind::Solid(form) => form.nodes(),
             Kind::Other(shape) => shape.corners(),
+            Kind::Triangle => 3,
         }
     }
 
@@ -44,6 +53,7 @@ impl Kind {
         match self {
             Kind::Solid(form) => form.name(),
             Kind::Other(shape) => shape.names()[0],
+            Kind::Triangle => "triangle",
         }
     }
 
@@ -54,15 +64,21 @@ impl Kind {
             Kind::Solid(Form::Wedge) => &["WED"],
             Kind::Solid(Form::Pyramid) => &["PYR"],
             Kind::Solid(Form::Tetrahedron) => &["TET"],
+            Kind::Triangle => &["TRI"],
             Kind::Solid(Form::Hexahedron) | Kind::Other(_) => self.shape().exodus_stems(),
         };
-        let left_out = element_type.is_empty() && self == Kind::Solid(Form::Hexahedron);
+        let left_out = element_type.is_empty()
+            && matches!(self, Kind::Solid(Form::Hexahedron) | Kind::Other(Shape::Plane) | Kind::Triangle);
         left_out || stems.iter().any(|stem| element_type.starts_with(stem))
     }
 
     /// The nodes of the mesh's element, from those in the file.
     pub fn expand(self, given: &[u32]) -> impl Iterator<Item = u32> {
-        let solid: [usize; 8] = if let Kind::Solid(form) = self { form.corners() } else { [0, 1, 2, 3, 4, 5, 6, 7] };
+        let solid: [usize; 8] = match self {
+            Kind::Solid(form) => form.corners(),
+            Kind::Triangle => [0, 1, 2, 2, 2, 2, 2, 2],
+            Kind::Other(_) => [0, 1, 2, 3, 4, 5, 6, 7],
+        };
         (0..self.shape().corners()).map(move |corner| given.get(solid[corner]).copied().unwrap_or_default())
     }
 
@@ -71,6 +87,7 @@ impl Kind {
         match self {
             Kind::Solid(form) => form.sides(),
             Kind::Other(shape) => &[0, 1, 2, 3, 4, 5][..shape.sides().len()],
+            Kind::Triangle => &[0, 1, 3],
         }
     }
 }

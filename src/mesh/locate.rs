@@ -1,6 +1,6 @@
 //! Which element a point lies in.
 
-use super::{Mesh, Shape};
+use super::{Mesh, Shape, plane};
 use crate::vector::{add, cross, dot, subtract};
 
 /// An element that holds a point, or is nearest to it.
@@ -42,7 +42,9 @@ const ROUND_OFF: f64 = 1e-9;
 fn distance(shape: Shape, corners: &[[f64; 3]], point: [f64; 3]) -> f64 {
     let sum = corners.iter().fold([0.0; 3], |sum, corner| add(sum, *corner));
     let centre = sum.map(|sum| sum / corners.len() as f64);
-    if shape.dimension() == 3 {
+    if let (Shape::Plane, Ok(corners)) = (shape, corners.try_into()) {
+        plane::outside(corners, point)
+    } else if shape.dimension() == 3 {
         outside_of_faces(shape, corners, centre, point)
     } else {
         beyond(corners, centre, point)

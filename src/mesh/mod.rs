@@ -12,6 +12,7 @@ pub mod hexahedron;
 mod kind;
 pub mod locate;
 mod part;
+pub mod plane;
 pub mod refine;
 mod shape;
 
@@ -21,11 +22,33 @@ pub use kind::Kind;
 pub use part::{Part, Places};
 pub use shape::Shape;
 
+/// In how many dimensions the nodes of a mesh lie.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Dimension {
+    /// In the x-y plane; z is zero.
+    Two,
+    /// In space.
+    #[default]
+    Three,
+}
+
+impl Dimension {
+    /// Number of coordinates.
+    pub fn count(self) -> usize {
+        match self {
+            Dimension::Two => 2,
+            Dimension::Three => 3,
+        }
+    }
+}
+
 /// A mesh as the analyst's file describes it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     /// Title of the mesh file, at most 80 characters.
     pub title: String,
+    /// Whether the mesh lies in the x-y plane or in space.
+    pub dimension: Dimension,
     /// Node positions, one `[x, y, z]` per node, in the deck's unit of length.
     pub coordinates: Vec<[f64; 3]>,
     /// Element blocks in file order; elements are numbered through the blocks in this order.

@@ -36,6 +36,7 @@ impl Mesh {
         let mut part = Part { places: Places { nodes, elements, ..Places::default() }, ..Part::default() };
         part.mesh = Mesh {
             title: self.title.clone(),
+            dimension: self.dimension,
             coordinates: part.places.nodes.iter().map(|&n| self.coordinates[n as usize]).collect(),
             blocks: self.parts_of_blocks(&part.places.elements, &node_here),
             node_ids: part.places.nodes.iter().map(|&n| self.node_ids[n as usize]).collect(),

@@ -70,6 +70,7 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh, Undivided> {
     let last = mesh.node_ids.iter().copied().max().unwrap_or(0);
     let made = divider.coordinates.len() - mesh.coordinates.len();
     Ok(Mesh {
+        dimension: mesh.dimension,
         node_ids: mesh.node_ids.iter().copied().chain((1..=made as i64).map(|number| last + number)).collect(),
         element_ids: (1..=outside.len() as i64).collect(),
         coordinates: divider.coordinates,
@@ -157,6 +158,8 @@ impl Divider {
     fn children(&mut self, shape: Shape, nodes: &[u32]) -> Option<Vec<Child>> {
         match (shape, <&[u32; 8]>::try_from(nodes)) {
             (Shape::Hexahedron, Ok(corners)) if is_collapsed(corners) => self.at_corners(corners),
+            // Nor is a triangle a quadrilateral with four halves of edges.
+            _ if shape == Shape::Plane && (0..4).any(|i| nodes[i] == nodes[(i + 1) % 4]) => None,
             _ => Some(self.halved(shape, nodes)),
         }
     }

@@ -3,6 +3,7 @@
 use super::Mesh;
 use super::check::Problem;
 use super::hexahedron::{self, HEX_SIDES};
+use super::plane;
 use crate::vector::{cross, dot, subtract};
 
 /// What the elements of a block look like. A solid with fewer corners is a hexahedron with repeated nodes, see
@@ -14,6 +15,8 @@ pub enum Shape {
     Hexahedron,
     /// Four nodes of a surface, counter-clockwise seen from its top.
     Quadrilateral,
+    /// Four nodes of a two-dimensional mesh, counter-clockwise; the last two are one node in a triangle.
+    Plane,
     /// Two nodes.
     Bar,
 }
@@ -22,26 +25,28 @@ pub enum Shape {
 const HEXAHEDRON: [&[usize]; 6] =
     [&HEX_SIDES[0], &HEX_SIDES[1], &HEX_SIDES[2], &HEX_SIDES[3], &HEX_SIDES[4], &HEX_SIDES[5]];
 const QUADRILATERAL: [&[usize]; 6] = [&[0, 1, 2, 3], &[0, 3, 2, 1], &[0, 1], &[1, 2], &[2, 3], &[3, 0]];
+/// Edges of a plane element in EXODUS order.
+const PLANE: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
 const BAR: [&[usize]; 2] = [&[0], &[1]];
 
 impl Shape {
     /// All shapes.
-    pub const ALL: [Shape; 3] = [Shape::Hexahedron, Shape::Quadrilateral, Shape::Bar];
+    pub const ALL: [Shape; 4] = [Shape::Hexahedron, Shape::Quadrilateral, Shape::Plane, Shape::Bar];
 
     /// Number of nodes.
     pub fn corners(self) -> usize {
         match self {
             Shape::Hexahedron => 8,
-            Shape::Quadrilateral => 4,
+            Shape::Quadrilateral | Shape::Plane => 4,
             Shape::Bar => 2,
         }
     }
 
-    /// 3 for a solid, 2 for a surface, 1 for a line.
+    /// 3 for a solid, 2 for a surface or an element of a plane, 1 for a line.
     pub fn dimension(self) -> usize {
         match self {
             Shape::Hexahedron => 3,
-            Shape::Quadrilateral => 2,
+            Shape::Quadrilateral | Shape::Plane => 2,
             Shape::Bar => 1,
         }
     }
@@ -51,6 +56,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => "HEX8",
             Shape::Quadrilateral => "SHELL4",
+            Shape::Plane => "QUAD4",
             Shape::Bar => "BAR2",
         }
     }
@@ -60,6 +66,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => &["HEX"],
             Shape::Quadrilateral => &["SHE", "QUA"],
+            Shape::Plane => &["QUA"],
             Shape::Bar => &["BAR", "TRU"],
         }
     }
@@ -68,7 +75,7 @@ impl Shape {
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Shape::Hexahedron => ["hexahedron", "hexahedra"],
-            Shape::Quadrilateral => ["quadrilateral", "quadrilaterals"],
+            Shape::Quadrilateral | Shape::Plane => ["quadrilateral", "quadrilaterals"],
             Shape::Bar => ["bar", "bars"],
         }
     }
@@ -78,12 +85,21 @@ impl Shape {
         match self {
             Shape::Hexahedron => &HEXAHEDRON,
             Shape::Quadrilateral => &QUADRILATERAL,
+            Shape::Plane => &PLANE,
             Shape::Bar => &BAR,
         }
     }
 
-    /// The sides that are faces, first of all: those that can be seen, pressed or touched.
+    /// Whether elements of this shape fill the space of their mesh, so that a face between two of them is inside.
+    pub fn is_solid(self) -> bool {
+        matches!(self, Shape::Hexahedron | Shape::Plane)
+    }
+
+    /// The sides that are faces, first of all: those that can be seen, pressed or touched. In the plane they are edges.
     pub fn faces(self) -> &'static [&'static [usize]] {
+        if self == Shape::Plane {
+            return &PLANE;
+        }
         let faces = self.sides().iter().take_while(|side| side.len() > 2).count();
         &self.sides()[..faces]
     }
@@ -92,14 +108,18 @@ impl Shape {
     pub fn edges(self) -> &'static [[usize; 2]] {
         match self {
             Shape::Hexahedron => &hexahedron::EDGES,
-            Shape::Quadrilateral => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            Shape::Quadrilateral | Shape::Plane => &[[0, 1], [1, 2], [2, 3], [3, 0]],
             Shape::Bar => &[[0, 1]],
         }
     }
 
-    /// The four nodes of a face of an element given by its nodes, `None` for a side that is none.
+    /// The four nodes of a face of an element given by its nodes, `None` for a side that is none. An edge a-b of a plane
+    /// element is the face a-b-b-a: a strip that stands on the plane.
     pub fn face(self, nodes: &[u32], side: u8) -> Option<[u32; 4]> {
-        let corners: [usize; 4] = self.faces().get(usize::from(side))?[..].try_into().ok()?;
+        let corners: [usize; 4] = match *self.faces().get(usize::from(side))? {
+            &[a, b] => [a, b, b, a],
+            corners => corners.try_into().ok()?,
+        };
         Some(corners.map(|corner| nodes[corner]))
     }
 
@@ -111,6 +131,7 @@ impl Shape {
                 let nodes: &[u32; 8] = nodes.try_into().ok()?;
                 hexahedron::fault(mesh, nodes, &nodes.map(|node| mesh.coordinates[node as usize]))
             }
+            Shape::Plane => plane::fault(mesh, nodes.try_into().ok()?),
             Shape::Quadrilateral => {
                 let (a, b) = (subtract(at(2), at(0)), subtract(at(3), at(1)));
                 let normal = cross(a, b);
@@ -154,7 +175,7 @@ mod tests {
             let faces = HEX_SIDES.iter().filter(|side| side.contains(a) && side.contains(b)).count();
             assert_eq!(faces, 2);
         }
-        assert_eq!(Shape::ALL.map(|shape| shape.faces().len()), [6, 2, 0]);
+        assert_eq!(Shape::ALL.map(|shape| shape.faces().len()), [6, 2, 4, 0]);
     }
 
     #[test]

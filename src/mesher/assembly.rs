@@ -6,7 +6,7 @@ use super::{
     body::{Body, Face, Sides},
     merge,
 };
-use crate::mesh::{Block, Mesh, Shape, check};
+use crate::mesh::{Block, Dimension, Mesh, Shape, check};
 
 /// All parts of a recipe, in its order.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +17,8 @@ pub struct Assembly {
     blocks: Vec<i64>,
     /// Two-node elements, each with the number of its block.
     bars: Vec<([u32; 2], i64)>,
+    /// Whether the mesh is two-dimensional: the lower sides of the hexahedra are its elements.
+    flat: bool,
     parts: Vec<Part>,
 }
 
@@ -41,6 +43,7 @@ impl Assembly {
     /// Adds a body as a part of its own.
     pub fn add(&mut self, block: i64, body: Body) {
         let (nodes, elements) = (self.coordinates.len(), self.hexes.len());
+        self.flat |= body.flat;
         self.coordinates.extend(body.coordinates);
         self.hexes.extend(body.hexes.iter().map(|hex| hex.map(|node| node + nodes as u32)));
         self.blocks.resize(self.hexes.len(), block);
@@ -117,19 +120,26 @@ impl Assembly {
 
     /// The mesh: blocks in the order of their numbers, without the nodes that merging left over.
     pub fn finish(mut self, title: &str) -> Assembled {
+        if self.flat {
+            // What the upper sides had is not used any more.
+            self.hexes.iter_mut().for_each(|[a, b, c, d, above @ ..]| *above = [*a, *b, *c, *d]);
+        }
         self.drop_unused_nodes();
-        let mut mesh = Mesh { title: title.to_string(), ..Mesh::default() };
+        let dimension = if self.flat { Dimension::Two } else { Dimension::Three };
+        let corners = if self.flat { 4 } else { 8 };
+        let shape = if self.flat { Shape::Plane } else { Shape::Hexahedron };
+        let mut mesh = Mesh { title: title.to_string(), dimension, ..Mesh::default() };
         let mut ids: Vec<i64> = self.blocks.iter().copied().chain(self.bars.iter().map(|(_, block)| *block)).collect();
         ids.sort_unstable();
         ids.dedup();
         let mut place = vec![0u32; self.hexes.len()];
         let mut placed = 0;
         for id in ids {
-            let mut block = Block { id, ..Block::default() };
+            let mut block = Block { id, shape, ..Block::default() };
             for element in (0..self.hexes.len()).filter(|&element| self.blocks[element] == id) {
                 place[element] = placed;
                 placed += 1;
-                block.nodes.extend(self.hexes[element]);
+                block.nodes.extend(&self.hexes[element][..corners]);
             }
             let bars = self.bars.iter().filter(|(_, block)| *block == id);
             let bars: Vec<u32> = bars.flat_map(|(bar, _)| *bar).collect();

@@ -9,6 +9,8 @@ pub struct Body {
     pub hexes: Vec<[u32; 8]>,
     /// Two zero-based node indices per two-node element.
     pub bars: Vec<[u32; 2]>,
+    /// Whether only the lowest layer of the hexahedra is meant, as quadrilaterals of a two-dimensional mesh.
+    pub flat: bool,
     /// The faces of the shape that have a name.
     pub faces: Vec<(Face, Sides)>,
 }

@@ -42,7 +42,7 @@ impl Cylinder {
         [half * u * (1.0 - ROUNDING * v * v), half * v * (1.0 - ROUNDING * u * u)]
     }
 
-    fn section(&self, refine: usize) -> Section {
+    pub(super) fn section(&self, refine: usize) -> Section {
         let n = self.core_cells * refine;
         let rings = self.rings * refine;
         let lattice = Lattice::new(n, self.extent);

@@ -12,6 +12,7 @@ mod cylinder;
 mod hex_box;
 mod line;
 mod merge;
+mod patch;
 mod perturb;
 mod region;
 mod section;
@@ -19,11 +20,13 @@ mod sets;
 mod skin;
 mod spacing;
 mod sphere;
+mod sweep;
 mod transform;
 mod tube;
 mod turn;
 
 pub use recipe::{CARDS, language, manual};
+pub use sweep::{Sweep, Swept, sweep};
 
 use assembly::{Assembled, Assembly};
 use recipe::Recipe;

@@ -25,7 +25,7 @@ pub fn perturb(mesh: &mut Mesh, block: Option<i64>, amplitude: f64) -> usize {
         other.nodes.iter().for_each(|&node| reach[node as usize] = 0.0);
     }
     for (node, (x, reach)) in mesh.coordinates.iter_mut().zip(&reach).enumerate() {
-        for (axis, x) in x.iter_mut().enumerate() {
+        for (axis, x) in x.iter_mut().enumerate().take(mesh.dimension.count()) {
             *x += amplitude * reach * between_minus_one_and_one(3 * node as u64 + axis as u64);
         }
     }

@@ -18,6 +18,17 @@ pub struct Section {
 }
 
 impl Section {
+    /// The section itself. It is handed out as the lower side of one layer of hexahedra about as thick as the section is wide,
+    /// so that all that is done with solids is done with it; sides 0 to 3 are its edges.
+    pub fn flat(&self) -> Body {
+        let size = super::bounds(&self.points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>());
+        let thickness = size[..2].iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let mut body = self.sweep(thickness, Spacing { cells: 1, grading: 1.0 }, 1);
+        body.flat = true;
+        body.faces.retain(|(face, _)| !matches!(face, Face::Bottom | Face::Top));
+        body
+    }
+
     /// The body between z = 0 and z = `length`.
     pub fn sweep(&self, length: f64, along: Spacing, refine: usize) -> Body {
         let heights = along.positions(refine);

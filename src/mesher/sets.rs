@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     deck::{Diagnostic, Diagnostics, Span},
-    mesh::{Mesh, NodeSet, SideSet},
+    mesh::{Dimension, Mesh, NodeSet, SideSet},
     vector::{cross, subtract},
 };
 
@@ -126,7 +126,8 @@ fn sides(assembled: &Assembled, request: &Request, tolerance: f64) -> Sides {
             let elements = mesh.connectivity();
             let mut sides = skin::exterior(mesh, |_| true);
             sides.retain(|&(element, side)| {
-                let normal = normal(skin::nodes(&elements, element, side).map(at));
+                let corners = skin::nodes(&elements, element, side).map(at);
+                let normal = if mesh.dimension == Dimension::Two { across(corners) } else { normal(corners) };
                 (0..3).map(|i| normal[i] * direction[i]).sum::<f64>() >= *cosine
             });
             sides
@@ -143,6 +144,13 @@ fn named(assembled: &Assembled, block: i64, face: Face) -> impl Iterator<Item = 
     let parts = assembled.faces.iter().filter(move |(id, _)| *id == block);
     let faces = parts.flat_map(|(_, faces)| faces).filter(move |(name, _)| *name == face);
     faces.flat_map(|(_, sides)| sides.iter().copied())
+}
+
+/// Unit normal of an edge in the plane, to the right of the way from its first node to its second.
+fn across([a, b, ..]: [[f64; 3]; 4]) -> [f64; 3] {
+    let along = subtract(b, a);
+    let length = super::distance(along, [0.0; 3]);
+    [along[1] / length, -along[0] / length, 0.0]
 }
 
 /// Unit normal of a quadrilateral, from its diagonals.

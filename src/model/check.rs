@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Direction, Problem, RigidSurface, boundary::direction, problem::those_there_are};
+use super::{Analysis, Direction, Problem, RigidSurface, boundary::direction, problem::those_there_are};
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
     mesh::{Mesh, locate::locate},
@@ -12,6 +12,9 @@ use crate::{
 /// blocks without a material, and nodes that two commands move differently in the same direction.
 pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     let mut found = Diagnostics::new(problem.deck.source.clone());
+    if !dimensions(problem, mesh, &mut found) {
+        return found;
+    }
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         references(card, mesh, &mut found);
         if found.is_full() {
@@ -36,6 +39,47 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
         walls_there(card, problem, &mut found);
     }
     found
+}
+
+/// Whether deck and mesh have the same number of dimensions, and no body of revolution crosses its axis; reports it.
+fn dimensions(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) -> bool {
+    let analysis = problem.model.analysis;
+    let card = ["AXISYMMETRIC", "PLANE STRAIN"].into_iter().find_map(|name| problem.deck.cards_of(name).next());
+    if analysis.dimension() != mesh.dimension {
+        found.push(match card {
+            Some(card) => Diagnostic::error(format!("{}: the mesh is three-dimensional", card.name))
+                .at(card.record, "a mesh of quadrilaterals in the x-y plane is wanted")
+                .help("take this line out, or name a two-dimensional mesh"),
+            None => {
+                Diagnostic::error("the mesh is two-dimensional, and the deck has neither AXISYMMETRIC nor PLANE STRAIN")
+                    .help("add the line AXISYMMETRIC for bodies of revolution about the y axis, or PLANE STRAIN")
+            }
+        });
+        return false;
+    }
+    if analysis == Analysis::Axisymmetric {
+        let positions = crate::mesh::plane::on_axis(mesh);
+        let beyond = positions.iter().zip(&mesh.node_ids).filter(|(x, _)| x[0] < 0.0);
+        if let Some((x, id)) = beyond.clone().min_by(|a, b| a.0[0].total_cmp(&b.0[0])) {
+            let place = card.map(|card| card.record).unwrap_or_default();
+            found.push(
+                Diagnostic::error(format!(
+                    "AXISYMMETRIC: {} of the mesh have a negative x, the farthest is node {id} at {:.4e}",
+                    crate::mesh::check::counted(beyond.count(), "node"),
+                    x[0]
+                ))
+                .at(place, "x is the distance from the axis")
+                .help("model one half of the section, at positive x"),
+            );
+        }
+        for card in problem.deck.cards_of("INITIAL VELOCITY ANGULAR") {
+            found.push(
+                Diagnostic::error("INITIAL VELOCITY ANGULAR: bodies of revolution do not turn in their section")
+                    .at(card.record, "this turns about z"),
+            );
+        }
+    }
+    true
 }
 
 /// Reports nodes to watch that the mesh does not have.

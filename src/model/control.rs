@@ -1,13 +1,15 @@
 //! Title, times, time step, hourglass control, bulk viscosity.
 
 use super::{
-    BulkViscosity, Hourglass, StepModuli,
+    Analysis, BulkViscosity, Hourglass, StepModuli,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, language};
 
 pub(super) const COMMANDS: &[Setter] = &[
     ("TITLE", title),
+    ("AXISYMMETRIC", |card, draft| analysis(Analysis::Axisymmetric, card, draft)),
+    ("PLANE STRAIN", |card, draft| analysis(Analysis::PlaneStrain, card, draft)),
     ("TERMINATION TIME", termination_time),
     ("TIME STEP SCALE", time_step_scale),
     ("TIME STEP GROWTH", time_step_growth),
@@ -19,6 +21,18 @@ pub(super) const COMMANDS: &[Setter] = &[
 
 /// Hourglass control of a deck that asks for none.
 pub const DEFAULT_HOURGLASS: Hourglass = Hourglass::AssumedStrain { factor: 1.0 };
+
+fn analysis(kind: Analysis, card: &Card, draft: &mut Draft) {
+    if ![Analysis::Solid, kind].contains(&draft.model.analysis) {
+        let other = draft.model.analysis.name();
+        draft.report(
+            Diagnostic::error(format!("{} contradicts {other}", card.name))
+                .at(card.record, "a deck is one or the other")
+                .help("take one of the two lines out"),
+        );
+    }
+    draft.model.analysis = kind;
+}
 
 fn title(card: &Card, draft: &mut Draft) {
     draft.model.title = card.text("title").trim_end().to_string();

@@ -29,12 +29,15 @@ pub use problem::{Problem, examine, from_deck};
 pub use restart::{ReadRestart, Restarts, WriteRestart};
 
 use crate::material::Law;
+use crate::mesh::Dimension;
 
 /// A whole problem. Ids are the numbers the analyst wrote; `check` proves that the mesh has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// The deck's title line.
     pub title: String,
+    /// Whether bodies are in space, in a plane, or of revolution.
+    pub analysis: Analysis,
     /// Time at which the run ends, > 0.
     pub termination_time: f64,
     /// Interval between lines of the print log.
@@ -87,6 +90,34 @@ pub struct Model {
     pub history_interval: Option<f64>,
     /// Restarts to write and to go on from.
     pub restarts: Restarts,
+}
+
+/// In how many dimensions bodies are, and what stands for the one that is left out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Analysis {
+    /// Three dimensions.
+    #[default]
+    Solid,
+    /// PLANE STRAIN: no motion and no change along z; a unit of thickness.
+    PlaneStrain,
+    /// AXISYMMETRIC: bodies of revolution about the y axis, all 2π radians of them.
+    Axisymmetric,
+}
+
+impl Analysis {
+    /// The dimension of its meshes.
+    pub fn dimension(self) -> Dimension {
+        if self == Analysis::Solid { Dimension::Three } else { Dimension::Two }
+    }
+
+    /// Its name in the log.
+    pub fn name(self) -> &'static str {
+        match self {
+            Analysis::Solid => "3D SOLID",
+            Analysis::PlaneStrain => "PLANE STRAIN",
+            Analysis::Axisymmetric => "AXISYMMETRIC",
+        }
+    }
 }
 
 /// A command that an element brings with it, for the block that it names.
@@ -435,7 +466,7 @@ macro_rules! fields {
             pub const ALL: &'static [$name] = &[$($name::$variant),+];
             /// The word that the PLOT command knows.
             pub fn keyword(self) -> &'static str { match self { $($name::$variant => $keyword,)+ } }
-            /// Names of the EXODUS variables, one per component.
+            /// Names of the EXODUS variables, one per component in space.
             pub fn components(self) -> &'static [&'static str] { match self { $($name::$variant => &[$($component),+],)+ } }
             /// What the field is, for the manual.
             pub fn meaning(self) -> &'static str { match self { $($name::$variant => $meaning,)+ } }

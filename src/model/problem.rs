@@ -1,7 +1,7 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
+    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
     TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
     section,
 };
@@ -118,6 +118,7 @@ impl Default for Model {
     fn default() -> Model {
         Model {
             title: String::new(),
+            analysis: Analysis::default(),
             termination_time: f64::NAN,
             output_interval: f64::NAN,
             step_log: Vec::new(),

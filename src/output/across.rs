@@ -2,9 +2,9 @@
 
 use crate::comm::Communicator;
 use crate::mesh::Shape;
-use crate::mesh::exterior::{faces, key};
+use crate::mesh::exterior::{faces, key_of};
 
-/// A face that may have a neighbour: the [`key`] of its nodes in the whole mesh, with the element and its side.
+/// A face that may have a neighbour: the [`key_of`] its nodes in the whole mesh, with the element and its side.
 type Face = ([u32; 4], u32, u8);
 
 /// What one rank brings to the matching of faces.
@@ -19,11 +19,12 @@ impl Candidates {
         elements: impl Iterator<Item = (u32, Shape, &'a [u32])>,
         shared: impl Fn(u32) -> bool,
     ) -> Candidates {
-        let solids = elements.filter(|(_, shape, _)| shape.dimension() == 3);
-        let all = solids.flat_map(|(element, shape, nodes)| faces(shape, nodes).map(move |face| (element, face)));
+        let solids = elements.filter(|(_, shape, _)| shape.is_solid());
+        let all =
+            solids.flat_map(|(element, shape, nodes)| faces(shape, nodes).map(move |face| (element, shape, face)));
         let mut faces: Vec<Face> = all
-            .filter(|(_, (_, nodes))| nodes.iter().all(|&node| shared(node)))
-            .filter_map(|(element, (side, nodes))| Some((key(nodes)?, element, side)))
+            .filter(|(_, _, (_, nodes))| nodes.iter().all(|&node| shared(node)))
+            .filter_map(|(element, shape, (side, nodes))| Some((key_of(shape, nodes)?, element, side)))
             .collect();
         faces.sort_unstable();
         Candidates { faces }

@@ -1,6 +1,8 @@
 //! Fields of the plot file: their names, and their values on one rank.
 
+use super::plane;
 use crate::comm::Communicator;
+use crate::mesh::Dimension;
 use crate::model::{ElementField, Model, NodalField};
 use crate::solver::elements::fields::{field_values, state_values};
 use crate::solver::elements::{ElementBlock, Group};
@@ -25,10 +27,15 @@ pub const GLOBAL_VARIABLES: [(&str, &str); 15] = [
     ("TMSTEP", "time step"),
 ];
 
-/// Values of the global variables at the present state.
-pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 15] {
+/// Names of the global variables of files of this dimension.
+pub fn global_names(dimension: Dimension) -> impl Iterator<Item = &'static str> {
+    GLOBAL_VARIABLES.iter().map(|(name, _)| *name).filter(move |name| plane::is_in(dimension, name))
+}
+
+/// Values of these variables at the present state.
+pub fn global_values(solver: &Solver, totals: &Totals, dimension: Dimension) -> Vec<f64> {
     let [x, y, z] = totals.momentum;
-    [
+    let all: [f64; GLOBAL_VARIABLES.len()] = [
         totals.kinetic,
         totals.internal,
         totals.hourglass,
@@ -44,7 +51,9 @@ pub fn global_values(solver: &Solver, totals: &Totals) -> [f64; 15] {
         z,
         solver.step as f64,
         solver.time_step,
-    ]
+    ];
+    let named = GLOBAL_VARIABLES.iter().zip(all);
+    named.filter(|((name, _), _)| plane::is_in(dimension, name)).map(|(_, value)| value).collect()
 }
 
 /// The nodal and element variables of a run.
@@ -53,28 +62,40 @@ pub struct FieldList {
     nodal: Vec<NodalField>,
     element: Vec<ElementField>,
     state: Vec<String>,
+    dimension: Dimension,
 }
 
 impl FieldList {
     /// What the model asks for.
     pub fn new(model: &Model) -> FieldList {
         let requests = &model.plot_requests;
-        FieldList { nodal: requests.nodal.clone(), element: requests.element.clone(), state: requests.state.clone() }
+        FieldList {
+            nodal: requests.nodal.clone(),
+            element: requests.element.clone(),
+            state: requests.state.clone(),
+            dimension: model.analysis.dimension(),
+        }
     }
 
     /// Element variables and state variables.
-    pub(super) fn of_elements(element: Vec<ElementField>, state: Vec<String>) -> FieldList {
-        FieldList { nodal: Vec::new(), element, state }
+    pub(super) fn of_elements(element: Vec<ElementField>, state: Vec<String>, dimension: Dimension) -> FieldList {
+        FieldList { nodal: Vec::new(), element, state, dimension }
+    }
+
+    /// Those components, given by their names, that are in the files, and their places among all.
+    fn shown(&self, components: &'static [&'static str]) -> impl Iterator<Item = (usize, &'static str)> + use<> {
+        let dimension = self.dimension;
+        components.iter().copied().enumerate().filter(move |(_, name)| plane::is_in(dimension, name))
     }
 
     /// Names of the nodal variables.
     pub fn nodal_names(&self) -> Vec<String> {
-        self.nodal.iter().flat_map(|f| f.components()).map(|c| c.to_string()).collect()
+        self.nodal.iter().flat_map(|f| self.shown(f.components())).map(|(_, c)| c.to_string()).collect()
     }
 
     /// Names of the element variables.
     pub fn element_names(&self) -> Vec<String> {
-        let fields = self.element.iter().flat_map(|f| f.components()).map(|c| c.to_string());
+        let fields = self.element.iter().flat_map(|f| self.shown(f.components())).map(|(_, c)| c.to_string());
         fields.chain(self.state.iter().cloned()).collect()
     }
 
@@ -93,8 +114,8 @@ impl FieldList {
         let mut values = Vec::new();
         for field in &self.nodal {
             let first = values.len();
-            let count = field.components().len();
-            values.resize(first + count * owned.len(), 0.0);
+            let shown: Vec<usize> = self.shown(field.components()).map(|(place, _)| place).collect();
+            values.resize(first + shown.len() * owned.len(), 0.0);
             for (i, &node) in owned.iter().enumerate() {
                 let vector = nodal_value(*field, solver, node);
                 let components: &[f64] = match field {
@@ -103,8 +124,8 @@ impl FieldList {
                     NodalField::ContactRank => &owner_ranks[node as usize..=node as usize],
                     _ => &vector,
                 };
-                for c in 0..count {
-                    values[first + c * owned.len() + i] = components[c];
+                for (c, &component) in shown.iter().enumerate() {
+                    values[first + c * owned.len() + i] = components[component];
                 }
             }
         }
@@ -147,7 +168,7 @@ impl FieldList {
     ) {
         for field in &self.element {
             let values = field_values(*field, block, group, i, &solver.domain.nodes, rank);
-            out.extend(&values[..field.components().len()]);
+            out.extend(self.shown(field.components()).map(|(place, _)| values[place]));
         }
         if !self.state.is_empty() {
             let state = state_values(block, group, i, &solver.domain.nodes);

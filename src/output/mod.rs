@@ -4,13 +4,14 @@ mod across;
 mod collect;
 mod fields;
 mod history;
+mod plane;
 pub mod print;
 mod restart;
 mod schedule;
 mod split;
 
 pub use collect::Collector;
-pub use fields::{FieldList, GLOBAL_VARIABLES, global_values};
+pub use fields::{FieldList, GLOBAL_VARIABLES, global_names, global_values};
 pub use history::{HistoryPlan, block_energies, block_energy_names};
 pub use restart::snapshot;
 pub use schedule::Schedule;

@@ -5,7 +5,7 @@
 
 use crate::exodus::Restart;
 use crate::mesh::{Block, Mesh};
-use crate::model::{ContactMaterials, Hourglass, Model};
+use crate::model::{Analysis, ContactMaterials, Hourglass, Model};
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
@@ -18,6 +18,9 @@ const TOLD: usize = 5;
 /// What must stay the same: names and values, a line each.
 pub fn identity(model: &Model) -> String {
     let mut lines = vec![("format".to_string(), FORMAT.to_string())];
+    if model.analysis != Analysis::Solid {
+        lines.push(("ANALYSIS".to_string(), model.analysis.name().to_string()));
+    }
     for material in &model.materials {
         let states = state_names(&material.law);
         let stored = if states.is_empty() { String::new() } else { format!(" with {}", states.join(" ")) };

@@ -20,7 +20,7 @@ use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::{Model, StepColumns};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
-use crate::output::{FieldList, GLOBAL_VARIABLES, HistoryPlan, Schedule, block_energy_names};
+use crate::output::{FieldList, HistoryPlan, Schedule, block_energy_names, global_names};
 use crate::partition::{Decomposition, Share};
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Finding, Request, Section, Solver, Stop};
@@ -246,7 +246,7 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model);
-        let mut globals: Vec<String> = GLOBAL_VARIABLES.iter().map(|(name, _)| name.to_string()).collect();
+        let mut globals: Vec<String> = global_names(job.mesh.dimension).map(String::from).collect();
         if job.model.plot_requests.block_energies {
             globals.extend(block_energy_names(job.mesh));
         }

@@ -5,6 +5,7 @@ use super::RunError;
 use crate::comm::Communicator;
 use crate::exodus::pieces::piece_path;
 use crate::exodus::{ResultsHeader, ResultsWriter};
+use crate::mesh::Dimension;
 use crate::output::{self, Collector, FieldList, Split, block_energies, global_values};
 use crate::partition::Share;
 use crate::restart::Snapshot;
@@ -24,6 +25,7 @@ pub struct Plots {
     split: Option<Split>,
     /// Number of blocks whose energies are among the global variables.
     blocks: usize,
+    dimension: Dimension,
 }
 
 impl Plots {
@@ -36,6 +38,7 @@ impl Plots {
             variables,
             collector: gathers.then(|| Collector::new(solver, nodes, elements, comm)),
             blocks: if job.model.plot_requests.block_energies { job.mesh.blocks.len() } else { 0 },
+            dimension: job.mesh.dimension,
             split: job.split.then(|| Split::new(job.mesh, job.body, share, comm)),
         }
     }
@@ -70,7 +73,7 @@ impl Plots {
         comm: &mut dyn Communicator,
     ) -> Result<(), RunError> {
         let [nodal, element] = [fields.nodal_values(solver, comm), fields.element_values(solver, comm.rank())];
-        let mut globals = global_values(solver, totals).to_vec();
+        let mut globals = global_values(solver, totals, self.dimension);
         if self.blocks > 0 {
             globals.extend(block_energies(self.blocks, solver, comm));
         }

@@ -12,7 +12,7 @@ use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::{Block, Mesh};
-use crate::model::{InitialVelocity, Model};
+use crate::model::{Analysis, InitialVelocity, Model};
 use crate::partition::Share;
 
 /// Everything a rank owns.
@@ -135,7 +135,23 @@ impl Domain {
                 }
             }
         }
+        if model.analysis == Analysis::Axisymmetric {
+            self.hold_axis(&mut taken);
+        }
         taken
+    }
+
+    /// Holds nodes on the axis of a body of revolution on it.
+    fn hold_axis(&mut self, taken: &mut [[u32; 3]]) {
+        for node in 0..self.nodes.len() as u32 {
+            let taken = &mut taken[node as usize][0];
+            // Nodes that are not of the mesh stand in for elements that are gone, at rest.
+            let of_mesh = self.nodes.file[node as usize] != ABSENT;
+            if of_mesh && *taken == ABSENT && self.nodes.position(node)[0] == 0.0 {
+                *taken = self.constraints.len() as u32;
+                self.constraints.push(Constraint { node, axis: 0, motion: None, reaction: 0.0, work: 0.0 });
+            }
+        }
     }
 
     fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
@@ -273,6 +289,7 @@ fn pressure_faces(model: &Model, body: &Body, share: &Share, local: &[u32]) -> P
             nodes: face.nodes.map(|n| local[n as usize]),
             element: face.element,
             gone: false,
+            analysis: model.analysis,
             function: load.function,
             scale: load.scale,
             force: [[0.0; 3]; 4],

@@ -75,7 +75,7 @@ pub fn picture(results: &Path, options: &ViewOptions) -> Result<(Vec<u8>, Summar
     let subject = Subject::open(results, options)?;
     let state = subject.state(options.state)?;
     let shot = subject.shot(state)?;
-    let axes = Axes::new(options.from);
+    let axes = Axes::new(subject.from());
     let studio = Studio::new(&subject, options, bounds(&shot.scene, &axes), shot.scene.extremes());
     let image = studio.picture(&shot, state)?;
     let unnamed = Path::new("");
@@ -97,7 +97,7 @@ struct Studio<'a> {
 impl<'a> Studio<'a> {
     fn new(subject: &'a Subject, options: &'a ViewOptions, bounds: Bounds, extremes: Option<(f64, f64)>) -> Self {
         let layout = Layout::new(options.size);
-        let camera = Camera::fit(Axes::new(options.from), bounds, layout.body());
+        let camera = Camera::fit(Axes::new(subject.from()), bounds, layout.body());
         let signed = is_signed(options, options.range.or(extremes));
         let found = || match (spread(extremes.unwrap_or((0.0, 0.0))), signed) {
             ((low, high), true) => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
@@ -180,6 +180,9 @@ impl<'a> Studio<'a> {
             options.mirror.iter().enumerate().filter_map(|(axis, place)| Some(plane(axis, (*place)?))).collect();
         if !planes.is_empty() {
             remarks.push(format!("mirrored in {}", planes.join(", ")));
+        }
+        if let Some(angle) = options.revolve {
+            remarks.push(format!("turned by {angle} degrees about its axis"));
         }
         if !options.cuts.is_empty() {
             let cuts: Vec<String> = options.cuts.iter().map(|&(axis, place)| plane(axis, place)).collect();

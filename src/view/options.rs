@@ -34,6 +34,8 @@ pub struct ViewOptions {
     pub map: MapChoice,
     /// Stem of a nodal vector that is drawn as arrows.
     pub arrows: Option<String>,
+    /// Degrees by which a two-dimensional body is turned about its y axis; without it its plane is drawn.
+    pub revolve: Option<f64>,
 }
 
 /// Which colours mean which values.
@@ -64,6 +66,7 @@ impl Default for ViewOptions {
             cuts: Vec::new(),
             map: MapChoice::default(),
             arrows: None,
+            revolve: None,
         }
     }
 }
@@ -155,6 +158,13 @@ impl ViewOptions {
         }
         if !self.magnify.is_finite() {
             return Err(ViewError::option("magnification", self.magnify.to_string(), "a finite number"));
+        }
+        if let Some(angle) = self.revolve.filter(|angle| !(*angle > 0.0 && *angle <= 360.0)) {
+            return Err(ViewError::option(
+                "angle of revolution",
+                angle.to_string(),
+                "more than 0, 360 degrees at most",
+            ));
         }
         match self.range {
             Some((low, high)) if !(low.is_finite() && high.is_finite() && low < high) => {

@@ -2,7 +2,7 @@
 
 use super::run::model;
 use urto::comm::{Communicator, run_threads};
-use urto::mesh::Mesh;
+use urto::mesh::{Dimension, Mesh};
 use urto::model::Model;
 use urto::output::{Collector, FieldList, global_values, snapshot};
 use urto::partition::Decomposition;
@@ -59,7 +59,8 @@ impl Case {
         for step in 0..steps {
             solver.prepare(Request::Continue, comm).map_err(|stop| stop.to_string())?;
             let totals = solver.totals(comm);
-            let numbers = [vec![solver.time, solver.time_step], global_values(solver, &totals).to_vec()].concat();
+            let numbers =
+                [vec![solver.time, solver.time_step], global_values(solver, &totals, Dimension::Three)].concat();
             way.push(bits(&numbers));
             if step + 1 == steps {
                 let (nodal, element) = (fields.nodal_names().len(), fields.element_names().len());

@@ -64,8 +64,10 @@ impl State {
 
     /// Positions of all nodes.
     pub fn positions(&self, mesh: &Mesh) -> Vec<[f64; 3]> {
-        let u = ["DISPLX", "DISPLY", "DISPLZ"].map(|name| self.nodal(name));
-        mesh.coordinates.iter().enumerate().map(|(n, x)| [0, 1, 2].map(|i| x[i] + u[i][n])).collect()
+        let u = ["DISPLX", "DISPLY", "DISPLZ"].into_iter().take(mesh.dimension.count()).map(|name| self.nodal(name));
+        let u: Vec<&[f64]> = u.collect();
+        let moved = |n: usize, i: usize| u.get(i).map_or(0.0, |u| u[n]);
+        mesh.coordinates.iter().enumerate().map(|(n, x)| [0, 1, 2].map(|i| x[i] + moved(n, i))).collect()
     }
 }
 

@@ -51,13 +51,14 @@ fn tables(bytes: &[u8], problems: &mut Problems) -> Result<Tables, Broken> {
         std::mem::replace(&mut coordinates, rest)
     };
     let coordinates = [axis(), axis(), axis()];
-    if counts.dimensions != 3 {
-        // Refused for that; sides of flat elements would only be misunderstood.
+    if !matches!(counts.dimensions, 2 | 3) {
+        // Refused for that; what is in it would only be misunderstood.
         return Ok(Tables { title, dimensions: counts.dimensions, ..Tables::default() });
     }
     // The order in which a program wishes to work through the elements.
     file.skip("the element order map")?;
-    let mut blocks = (0..counts.blocks).map(|n| block(&mut file, n)).collect::<Result<Vec<_>, _>>()?;
+    let mut blocks =
+        (0..counts.blocks).map(|n| block(&mut file, n, counts.dimensions)).collect::<Result<Vec<_>, _>>()?;
     let node_sets = node_sets(&mut file, &counts, problems)?;
     let side_sets = side_sets(&mut file, &counts, &blocks, problems)?;
     let qa = closing(&mut file, &mut blocks, counts.dimensions)?;
@@ -99,7 +100,7 @@ fn counts(file: &mut Records) -> Result<Counts, Broken> {
     })
 }
 
-fn block(file: &mut Records, n: usize) -> Result<BlockTable, Broken> {
+fn block(file: &mut Records, n: usize, dimensions: usize) -> Result<BlockTable, Broken> {
     let name = |what: &str| format!("{what} of block {}", n + 1);
     let head = file.integers(4, &name("the head"))?;
     let (id, nodes_per_element) = (head[0], usize::try_from(head[2]).unwrap_or(0));
@@ -108,13 +109,16 @@ fn block(file: &mut Records, n: usize) -> Result<BlockTable, Broken> {
     // Attributes: the thickness of shells and the like.
     file.skip(&name("the attributes"))?;
     let attributes = head[3] > 0;
-    let element_type = inferred_type(nodes_per_element, attributes).to_string();
+    let element_type = inferred_type(dimensions, nodes_per_element, attributes).to_string();
     Ok(BlockTable { id, element_type, nodes_per_element, connectivity, ..BlockTable::default() })
 }
 
-/// The kind of a three-dimensional element that a file does not name.
-fn inferred_type(nodes: usize, attributes: bool) -> &'static str {
+/// The kind of an element that a file does not name.
+fn inferred_type(dimensions: usize, nodes: usize, attributes: bool) -> &'static str {
     match (nodes, attributes) {
+        (4, _) if dimensions == 2 => "QUAD",
+        (3, _) if dimensions == 2 => "TRIANGLE",
+        (8, _) if dimensions == 2 => "QUAD8",
         (8, false) => "HEX",
         (8, true) => "SHELL8",
         (4, false) => "TETRA",
@@ -166,27 +170,25 @@ fn side_sets(
     let elements = file.integers(counts.side_set_elements, "the elements of side sets")?;
     let nodes = file.integers(counts.side_set_nodes, "the nodes of side sets")?;
     file.skip("the factors of side sets")?;
-    if nodes.len() != 4 * elements.len() {
+    let (per_side, side_of, advice) = match counts.dimensions {
+        2 => (2, "an edge in the plane has two", WRITE_AGAIN),
+        _ => (4, "a face of a hexahedron has four", "make side sets of faces, not of edges"),
+    };
+    if nodes.len() != per_side * elements.len() {
         problems.add(|| {
-            Problem::new(
-                format!(
-                    "the side sets have {} for {}; a face of a hexahedron has four",
-                    counted(nodes.len(), "node"),
-                    counted(elements.len(), "side")
-                ),
-                "make side sets of faces, not of edges",
-            )
+            let [nodes, sides] = [counted(nodes.len(), "node"), counted(elements.len(), "side")];
+            Problem::new(format!("the side sets have {nodes} for {sides}; {side_of}"), advice)
         });
         return Ok(Vec::new());
     }
     let lengths = lengths(&sizes, elements.len(), "side sets", problems);
-    let mut faces = elements.into_iter().zip(nodes.chunks_exact(4));
+    let mut faces = elements.into_iter().zip(nodes.chunks_exact(per_side));
     let mut tables = Vec::new();
     for (id, length) in ids.into_iter().zip(lengths) {
         let mut table = SideSetTable { id, ..SideSetTable::default() };
         for (element, nodes) in faces.by_ref().take(length) {
             table.elements.push(element);
-            table.sides.push(side(blocks, id, element, nodes, problems));
+            table.sides.push(side((blocks, counts.dimensions), id, element, nodes, problems));
         }
         tables.push(table);
     }
@@ -194,9 +196,15 @@ fn side_sets(
 }
 
 /// The one-based side of an element that has these nodes, in any order.
-fn side(blocks: &[BlockTable], set: i64, element: i64, nodes: &[i64], problems: &mut Problems) -> i64 {
+fn side(
+    (blocks, dimensions): (&[BlockTable], usize),
+    set: i64,
+    element: i64,
+    nodes: &[i64],
+    problems: &mut Problems,
+) -> i64 {
     // An element that does not exist, or of a kind that is refused, is reported where that is looked at.
-    let Some((kind, own)) = element_nodes(blocks, element) else { return 1 };
+    let Some((kind, own)) = element_nodes(blocks, dimensions, element) else { return 1 };
     let wanted: BTreeSet<i64> = nodes.iter().copied().collect();
     let places: Vec<u32> = (0..own.len() as u32).collect();
     let corners: Vec<i64> = kind.expand(&places).map(|node| own[node as usize]).collect();
@@ -206,20 +214,24 @@ fn side(blocks: &[BlockTable], set: i64, element: i64, nodes: &[i64], problems: 
         return side as i64 + 1;
     }
     problems.add(|| {
+        let side = if dimensions == 2 { "edge" } else { "face" };
         let nodes: Vec<String> = nodes.iter().map(i64::to_string).collect();
-        let what = format!("side set {set}: the nodes {} are no face of element {element}", nodes.join(", "));
+        let what = format!("side set {set}: the nodes {} are no {side} of element {element}", nodes.join(", "));
         Problem::new(what, "write the mesh again")
     });
     1
 }
 
 /// What an element is and its nodes, by its one-based place in the file.
-fn element_nodes(blocks: &[BlockTable], element: i64) -> Option<(Kind, &[i64])> {
+fn element_nodes(blocks: &[BlockTable], dimensions: usize, element: i64) -> Option<(Kind, &[i64])> {
     let mut place = usize::try_from(element).ok()?.checked_sub(1)?;
     for block in blocks {
         let size = block.connectivity.len() / block.nodes_per_element.max(1);
         if place < size {
-            return Some((block.kind()?, block.connectivity.chunks_exact(block.nodes_per_element).nth(place)?));
+            return Some((
+                block.kind(dimensions)?,
+                block.connectivity.chunks_exact(block.nodes_per_element).nth(place)?,
+            ));
         }
         place -= size;
     }
@@ -254,4 +266,63 @@ fn closing(file: &mut Records, blocks: &mut [BlockTable], dimensions: usize) -> 
         }
     }
     Ok(qa)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Dimension, Shape};
+
+    /// A FORTRAN record of words of four bytes, little endian.
+    fn record(bytes: Vec<u8>) -> Vec<u8> {
+        let mark = (bytes.len() as u32).to_le_bytes();
+        [&mark[..], &bytes, &mark].concat()
+    }
+
+    fn integers(values: &[i32]) -> Vec<u8> {
+        record(values.iter().flat_map(|value| value.to_le_bytes()).collect())
+    }
+
+    fn reals(values: &[f32]) -> Vec<u8> {
+        record(values.iter().flat_map(|value| value.to_le_bytes()).collect())
+    }
+
+    /// A square and a triangle beside it, as FASTQ writes them: two coordinates, side sets of edges given by their nodes.
+    #[test]
+    fn a_two_dimensional_mesh_is_read() {
+        let file = [
+            record(format!("{:<80}", "TWO ELEMENTS").into_bytes()),
+            integers(&[5, 2, 2, 2, 1, 2, 1, 3, 6, 1]),
+            reals(&[0.0, 1.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5]),
+            integers(&[1, 2]),
+            integers(&[10, 1, 4, 0]),
+            integers(&[1, 2, 3, 4]),
+            reals(&[0.0]),
+            integers(&[20, 1, 3, 0]),
+            integers(&[2, 5, 3]),
+            reals(&[0.0]),
+            integers(&[7]),
+            integers(&[2]),
+            integers(&[1]),
+            integers(&[1, 4]),
+            reals(&[1.0, 1.0]),
+            integers(&[99]),
+            integers(&[3]),
+            integers(&[6]),
+            integers(&[1]),
+            integers(&[1]),
+            integers(&[1, 2, 2]),
+            integers(&[1, 2, 2, 5, 5, 3]),
+            reals(&[1.0; 6]),
+        ]
+        .concat();
+        let mut problems = Problems::default();
+        let mesh = tables(&file, &mut problems).ok().and_then(|tables| tables.assemble().ok()).expect("a mesh");
+        assert!(problems.is_empty());
+        assert_eq!((mesh.dimension, mesh.coordinates[4]), (Dimension::Two, [2.0, 0.5, 0.0]));
+        assert_eq!((mesh.blocks[0].shape, &mesh.blocks[1].nodes[..]), (Shape::Plane, &[1, 4, 2, 2][..]));
+        assert_eq!(mesh.node_sets[0].nodes, [0, 3]);
+        // The third side of a triangle is the fourth of a quadrilateral.
+        assert_eq!(mesh.side_sets[0].sides, [(0, 0), (1, 0), (1, 1)]);
+    }
 }

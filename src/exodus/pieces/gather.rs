@@ -35,6 +35,7 @@ impl Gathering {
         });
         let mesh = Mesh {
             title: like.title.clone(),
+            dimension: like.dimension,
             coordinates: vec![[0.0; 3]; sizes.nodes],
             blocks: blocks.collect(),
             node_sets: node_sets.collect(),

@@ -10,6 +10,7 @@ use crate::{
         cylinder::Cylinder,
         hex_box::Hexahedron,
         line::Line,
+        patch::{Disc, Patch, Ring},
         spacing::Spacing,
         sphere::{Sphere, SphereShell},
         tube::Tube,
@@ -24,6 +25,10 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("SPHERE", sphere),
     ("SPHERE SHELL", sphere_shell),
     ("LINE", line),
+    ("RECTANGLE", rectangle),
+    ("QUADRILATERAL", quadrilateral),
+    ("DISC", disc),
+    ("RING", ring),
 ];
 
 fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
@@ -84,6 +89,63 @@ fn cylinder(card: &Card, draft: &mut Draft) {
         extent: Extent::from_word(card.text("model")),
     };
     add(card, draft, shape);
+}
+
+fn rectangle(card: &Card, draft: &mut Draft) {
+    let ([x, y], [dx, dy]) = (["x", "y"].map(|field| card.number(field)), ["dx", "dy"].map(|field| card.number(field)));
+    let corners = [[x, y], [x + dx, y], [x + dx, y + dy], [x, y + dy]];
+    add(card, draft, Patch { corners, arcs: [0.0; 4], cells: cells_of_patch(card) });
+}
+
+fn cells_of_patch(card: &Card) -> [Spacing; 2] {
+    [spacing(card, "nx", "gx"), spacing(card, "ny", "gy")]
+}
+
+fn quadrilateral(card: &Card, draft: &mut Draft) {
+    let rows: Vec<[f64; 3]> = card.rows.iter().filter_map(|row| row.numbers[..].try_into().ok()).collect();
+    let rows: Result<[[f64; 3]; 4], _> = rows[..].try_into();
+    match rows {
+        Ok(rows) => {
+            let (corners, arcs) = (rows.map(|[x, y, _]| [x, y]), rows.map(|[.., arc]| arc));
+            add(card, draft, Patch { corners, arcs, cells: cells_of_patch(card) });
+        }
+        Err(_) => draft.report(
+            Diagnostic::error(format!("QUADRILATERAL: it has {} corners; it must have 4", card.rows.len()))
+                .at(card.record, "one line with x, y and, for an arc, its angle for each corner, then END")
+                .help("corners run counter-clockwise"),
+        ),
+    }
+}
+
+fn disc(card: &Card, draft: &mut Draft) {
+    let core_cells = count(card, "n");
+    let section = Cylinder {
+        radius: card.number("radius"),
+        length: 1.0,
+        core_cells,
+        rings: if card.given("rings") { count(card, "rings") } else { core_cells },
+        core: card.number("core"),
+        along: Spacing { cells: 1, grading: 1.0 },
+        extent: Extent::from_word(card.text("model")),
+    };
+    add(card, draft, Disc(section));
+}
+
+fn ring(card: &Card, draft: &mut Draft) {
+    let Some([inner, outer]) = radii(card, draft) else { return };
+    let [from, to] = ["from", "to"].map(|field| card.number(field));
+    let (turned, around) = (to - from, count(card, "around"));
+    // With fewer cells the wall would be flat.
+    if !(0.0..=360.0).contains(&turned) || turned == 0.0 || (around as f64) * 180.0 <= turned {
+        let message = format!("RING: {around} cells cannot make {turned} degrees");
+        let place = card.place("from").join(card.place("to"));
+        return draft.report(
+            Diagnostic::error(message)
+                .at(place, "the end lies beyond the beginning, by 360 degrees at most")
+                .help("a cell spans less than 180 degrees"),
+        );
+    }
+    add(card, draft, Ring { inner, outer, through: spacing(card, "through", "gr"), around, from, turned });
 }
 
 fn tube(card: &Card, draft: &mut Draft) {

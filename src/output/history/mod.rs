@@ -12,8 +12,9 @@ mod walls;
 use blocks::{Motion, block_motions};
 pub use blocks::{block_energies, block_energy_names};
 
+use super::plane;
 use crate::comm::{Communicator, ExactSum};
-use crate::mesh::Mesh;
+use crate::mesh::{Dimension, Mesh};
 use crate::model::{Model, Watched};
 use crate::solver::{Remembered, Solver};
 use points::Points;
@@ -34,13 +35,19 @@ pub struct HistoryPlan {
     blocks: Vec<(usize, i64)>,
     groups: Vec<NodeGroup>,
     walls: Vec<Wall>,
+    dimension: Dimension,
 }
 
 impl HistoryPlan {
     /// Finds what the model names in the mesh.
     pub fn new(mesh: &Mesh, model: &Model) -> HistoryPlan {
-        let mut plan =
-            HistoryPlan { points: Points::new(mesh, model), blocks: Vec::new(), groups: Vec::new(), walls: Vec::new() };
+        let mut plan = HistoryPlan {
+            points: Points::new(mesh, model),
+            blocks: Vec::new(),
+            groups: Vec::new(),
+            walls: Vec::new(),
+            dimension: mesh.dimension,
+        };
         for watched in &model.histories {
             match *watched {
                 Watched::Blocks => plan.blocks.extend(mesh.blocks.iter().map(|block| block.id).enumerate()),
@@ -62,6 +69,11 @@ impl HistoryPlan {
 
     /// Names of the variables: points, then blocks, then nodes and their sets, then rigid surfaces.
     pub fn names(&self) -> Vec<String> {
+        self.all_names().into_iter().filter(|name| plane::is_in(self.dimension, name)).collect()
+    }
+
+    /// The same with those that only space has.
+    fn all_names(&self) -> Vec<String> {
         let blocks = self.blocks.iter().flat_map(|(_, id)| Motion::NAMES.map(|name| format!("{name}_BLOCK{id}")));
         let groups = self.groups.iter().flat_map(NodeGroup::names);
         let walls = self.walls.iter().flat_map(Wall::names);
@@ -103,6 +115,10 @@ impl HistoryPlan {
             values.append(&mut of_group);
         }
         values.extend(walls.concat());
+        if self.dimension == Dimension::Two {
+            let mut names = self.all_names().into_iter();
+            values.retain(|_| names.next().is_some_and(|name| plane::is_in(self.dimension, &name)));
+        }
         Some(values)
     }
 }

@@ -4,7 +4,7 @@
 //! they are global variables, named after the plot variables with the number of the point: SIGZZ_1.
 
 use crate::comm::Communicator;
-use crate::mesh::{Block, Mesh, locate::locate};
+use crate::mesh::{Block, Dimension, Mesh, locate::locate};
 use crate::model::{ElementField, Model, NodalField};
 use crate::output::fields::FieldList;
 use crate::solver::elements::{ElementBlock, Group};
@@ -47,7 +47,7 @@ impl Points {
             let material = model.materials.iter().find(|material| material.block == block_id)?;
             let state = material.law.entry().state.iter().map(|variable| variable.name.to_string()).collect();
             let element_id = mesh.element_ids[element as usize];
-            let fields = FieldList::of_elements(ELEMENT_FIELDS.to_vec(), state);
+            let fields = FieldList::of_elements(ELEMENT_FIELDS.to_vec(), state, Dimension::Three);
             Some(Point { position, element, element_id, block, block_id, fields })
         };
         Points { points: model.material_points.iter().filter_map(point).collect() }
@@ -104,6 +104,7 @@ impl Points {
         });
         Mesh {
             title: whole.title.clone(),
+            dimension: whole.dimension,
             blocks: blocks.collect(),
             coordinates: used.iter().map(|&node| whole.coordinates[node as usize]).collect(),
             node_ids: used.iter().map(|&node| whole.node_ids[node as usize]).collect(),

@@ -2,7 +2,7 @@
 
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
-use crate::model::{Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
+use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
 use std::fmt::Write;
@@ -96,7 +96,7 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("NUMBER OF CONTACT SURFACES", &count(model.contact.surfaces.len()));
     out += &leader("NUMBER OF RIGID SURFACES", &count(model.rigid_surfaces.len()));
     out += &leader("NUMBER OF MATERIAL POINTS MONITORED", &model.material_points.len().to_string());
-    out += &leader("ANALYSIS TYPE", "3D SOLID");
+    out += &leader("ANALYSIS TYPE", model.analysis.name());
     out += &leader("TERMINATION TIME", &number(model.termination_time));
     out += &leader("PRINT OUTPUT AT INTERVALS OF", &number(model.output_interval));
     if model.history_interval.is_some() {
@@ -237,7 +237,13 @@ fn conditions(model: &Model) -> String {
 
 fn masses(echo: &Echo) -> String {
     let lines = echo.mesh.blocks.iter().zip(echo.masses).map(|(b, m)| format!("{:>13}{:>16}", b.id, number(*m)));
-    table("TOTAL MASS OF EACH MATERIAL", "  MATERIAL ID            MASS", lines.collect())
+    let table = table("TOTAL MASS OF EACH MATERIAL", "  MATERIAL ID            MASS", lines.collect());
+    let of = match echo.model.analysis {
+        Analysis::Solid => return table,
+        Analysis::PlaneStrain => "A UNIT OF THICKNESS",
+        Analysis::Axisymmetric => "TWO PI RADIANS",
+    };
+    format!("{table}                ( ALL MASSES ARE FOR {of} )\n")
 }
 
 fn variables([nodal, element, global]: [&[String]; 3]) -> String {

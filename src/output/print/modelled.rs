@@ -1,6 +1,7 @@
 //! What a model makes the code do, and which command asked for it.
 
 use crate::mesh::Shape;
+use crate::mesh::check::counted;
 use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
 use crate::model::{Hourglass, Model, MotionKind};
@@ -44,6 +45,13 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
 
 /// How many elements of which shapes a block has.
 fn elements(block: &Block) -> String {
+    if block.shape == Shape::Plane {
+        let all = block.elements();
+        let triangles = all.filter(|nodes| (0..4).any(|i| nodes[i] == nodes[(i + 1) % 4])).count();
+        let kinds = [(block.len() - triangles, "quadrilateral"), (triangles, "triangle")];
+        let named = kinds.into_iter().filter(|(count, name)| *count > 0 || block.is_empty() && *name != "triangle");
+        return named.map(|(count, name)| counted(count, name)).collect::<Vec<_>>().join(", ");
+    }
     if block.shape != Shape::Hexahedron {
         let [one, several] = block.shape.names();
         return format!("{} {}", block.len(), if block.len() == 1 { one } else { several });

@@ -6,7 +6,7 @@ use super::geometry::surface::{Surface, back_nodes, face_nodes};
 use super::layout::Layout;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
-use crate::mesh::{Connectivity, Mesh};
+use crate::mesh::{Connectivity, Dimension, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
 use crate::solver::Body;
 use std::sync::Arc;
@@ -57,7 +57,8 @@ impl Skin {
             sets: side_set_faces(mesh, contact, body),
             chosen,
             more,
-            edges_wanted: contact.control.edges,
+            // In the plane the edges are the faces.
+            edges_wanted: if mesh.dimension == Dimension::Two { ContactEdges::None } else { contact.control.edges },
             free: Vec::new(),
         }
     }

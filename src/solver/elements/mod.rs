@@ -7,6 +7,7 @@ pub mod fields;
 mod formulation;
 pub mod hexahedron;
 mod pass;
+pub mod quadrilateral;
 pub mod truss;
 
 use crate::lanes::{Matrix3, Sym3};
@@ -99,5 +100,6 @@ macro_rules! elements {
 
 elements! {
     hexahedron::Hexahedron,
+    quadrilateral::Quadrilateral,
     truss::Truss,
 }

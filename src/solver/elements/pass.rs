@@ -67,6 +67,12 @@ pub struct PassSettings {
 /// One step of one kind of element, from the motion of N corners to their forces. Implementations are compiled into the loop
 /// over elements, once for each instruction set.
 pub trait StepKernel<const N: usize> {
+    /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
+    #[inline(always)]
+    fn about_axis(&self) -> bool {
+        false
+    }
+
     /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities by direction and corner,
     /// both relative to the first corner, and the elements' masses. Advances the rows of `state`.
     fn step<V: Lanes>(
@@ -217,7 +223,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
         }
         for part in 0..CHUNK / V::COUNT {
-            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part);
+            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis());
             let mass = V::load(&group.mass[chunk], part);
             let outcome = kernel.step(&x, &v, state, part, mass);
             for corner in 0..N {
@@ -260,10 +266,14 @@ fn relative_corners<V: Lanes, const N: usize>(
     nodes: &[Row],
     connectivity: &[[u32; CHUNK]; N],
     part: usize,
+    about_axis: bool,
 ) -> ([[V; N]; 3], [[V; N]; 3]) {
-    let first = V::gather(nodes, &connectivity[0], part);
+    let mut first = V::gather(nodes, &connectivity[0], part);
     let zero = V::splat(0.0);
     let (mut x, mut v) = ([[zero; N]; 3], [[zero; N]; 3]);
+    if about_axis {
+        (x[0][0], v[0][0], first[0], first[4]) = (first[0], first[4], zero, zero);
+    }
     for corner in 1..N {
         let row = V::gather(nodes, &connectivity[corner], part);
         for i in 0..3 {

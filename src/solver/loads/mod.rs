@@ -17,7 +17,7 @@ use super::nodes::Nodes;
 use crate::mesh::Mesh;
 use crate::model::{Function, Model};
 
-pub use pressure::{PressureFace, PressureFaces};
+pub use pressure::{PressureFace, PressureFaces, area_vectors};
 
 /// Every load there is, in the order in which the log prints them.
 pub static LOADS: &[&LoadEntry] = &[&force::ENTRY, &pressure::ENTRY, &gravity::ENTRY, &silent::ENTRY];

@@ -2,7 +2,7 @@
 
 use super::{Account, Key, Load, LoadEntry, Places, Turn, function_number};
 use crate::lanes::Force;
-use crate::model::{Function, Model};
+use crate::model::{Analysis, Function, Model};
 use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::Nodes;
@@ -41,7 +41,8 @@ impl Load for PressureFaces {
     }
 
     fn accounts(&mut self, places: &Places, visit: &mut dyn FnMut(Account)) {
-        for PressureFace { nodes, element, work, gone: _, function: _, scale: _, force: _ } in &mut self.0 {
+        for PressureFace { nodes, element, work, gone: _, analysis: _, function: _, scale: _, force: _ } in &mut self.0
+        {
             let [a, b, c, _] = nodes.map(|node| places.node(node));
             visit(Account { key: [places.element(*element), a, b, c], own: true, work });
         }
@@ -58,12 +59,14 @@ impl Load for PressureFaces {
 /// Pressure on one face of this rank.
 #[derive(Debug, Clone)]
 pub struct PressureFace {
-    /// Local nodes, counter-clockwise seen from outside.
+    /// Local nodes, counter-clockwise seen from outside; of an edge of the plane a-b-b-a.
     pub nodes: [u32; 4],
     /// Canonical number of its element.
     pub element: u32,
     /// Whether the element has been taken away; nothing presses then.
     pub gone: bool,
+    /// What stands for the third dimension of an edge.
+    pub analysis: Analysis,
     /// Function of time.
     pub function: usize,
     /// Factor on it.
@@ -74,8 +77,24 @@ pub struct PressureFace {
     pub work: f64,
 }
 
+/// ∫ N_I n dA over a face of space, over an edge a-b-b-a times a unit of thickness, or over the ring that the edge sweeps in a
+/// turn about the y axis. All exact; of an edge the last two are zero.
+pub fn area_vectors(x: [[f64; 3]; 4], analysis: Analysis) -> [[f64; 3]; 4] {
+    let [a, b, ..] = x;
+    let normal = [b[1] - a[1], a[0] - b[0], 0.0];
+    let of_ends = |weights: [f64; 2]| [scaled(normal, weights[0]), scaled(normal, weights[1]), [0.0; 3], [0.0; 3]];
+    match analysis {
+        Analysis::Solid => face_area_vectors(x),
+        Analysis::PlaneStrain => of_ends([0.5, 0.5]),
+        Analysis::Axisymmetric => {
+            let sixth = std::f64::consts::TAU / 6.0;
+            of_ends([sixth * (2.0 * a[0] + b[0]), sixth * (a[0] + 2.0 * b[0])])
+        }
+    }
+}
+
 /// ∫ N_I n dA over a bilinear face: closed form, exact also for warped faces.
-pub fn face_area_vectors(x: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+fn face_area_vectors(x: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     let combine =
         |s: [f64; 4]| [0, 1, 2].map(|i| 0.25 * (s[0] * x[0][i] + s[1] * x[1][i] + s[2] * x[2][i] + s[3] * x[3][i]));
     let (e1, e2) = (combine([-1.0, 1.0, 1.0, -1.0]), combine([-1.0, -1.0, 1.0, 1.0]));
@@ -90,7 +109,7 @@ impl PressureFace {
     pub fn evaluate(&mut self, nodes: &Nodes, functions: &[Function], time: f64) {
         let pressure = if self.gone { 0.0 } else { self.scale * functions[self.function].value(time) };
         let corners = self.nodes.map(|n| nodes.position(n));
-        self.force = face_area_vectors(corners).map(|area| scaled(area, -pressure));
+        self.force = area_vectors(corners, self.analysis).map(|area| scaled(area, -pressure));
     }
 
     /// Minus the forces, as slots to be subtracted like element forces.

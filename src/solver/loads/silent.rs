@@ -9,7 +9,7 @@
 //!
 //! So the dashpots never give energy, Δt̄ F·v ≤ 0, and the stable step is that of the body without them.
 
-use super::pressure::face_area_vectors;
+use super::pressure::area_vectors;
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn};
 use crate::model::{Function, Model};
 use crate::solver::constraints::StepTimes;
@@ -118,7 +118,7 @@ fn dashpots(setting: &Setting) -> Vec<Dashpot> {
         let impedance = |modulus: f64| (material.density * modulus).sqrt();
         let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
         let Some(nodes) = mesh.blocks[block].shape.face(corners, side) else { continue };
-        let areas = face_area_vectors(nodes.map(|node| body.positions[node as usize]));
+        let areas = area_vectors(nodes.map(|node| body.positions[node as usize]), model.analysis);
         for (node, area) in nodes.into_iter().zip(areas).filter(|(node, _)| local[*node as usize] != ABSENT) {
             add_face(&mut sums[node as usize], area, along, across);
         }

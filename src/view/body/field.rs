@@ -15,14 +15,14 @@ pub enum Place {
     Elements,
 }
 
-/// A variable of the file, or the length of a vector of three.
+/// A variable of the file, or the length of a vector.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
     /// The name to print.
     pub label: String,
     /// Where the values are.
     pub place: Place,
-    /// The file's names: one, or the three components of a vector.
+    /// The file's names: one, or the components of a vector, two in the plane.
     pub names: Vec<String>,
     /// Whether a reflection in x, y, z changes the sign of the value, as it does for a vector's component along
     /// that axis and for a shear.
@@ -50,7 +50,7 @@ impl Names<'_> {
         CUSTOMARY.iter().find_map(|name| self.find(name)).or_else(any)
     }
 
-    /// The three components of the displacement, if the file has them.
+    /// The components of the displacement, if the file has them.
     pub fn displacement(&self) -> Option<Vec<String>> {
         DISPLACEMENTS.iter().find_map(|stem| vector(stem, Place::Nodes, self.nodal)).map(|field| field.names)
     }
@@ -85,14 +85,15 @@ fn vector(stem: &str, place: Place, names: &[String]) -> Option<Field> {
     Some(Field { label: format!("|{stem}|"), place, names, odd: [false; 3] })
 }
 
-/// The three variables whose names are `stem` and X, Y, Z, perhaps with an underscore between.
+/// The variables whose names are `stem` and X, Y, Z, perhaps with an underscore between; X and Y where nothing is said of Z.
 fn components(stem: &str, names: &[String]) -> Option<Vec<String>> {
     let stem = stem.trim_end_matches('_');
     let component = |axis: char| {
         let spellings = [format!("{stem}{axis}"), format!("{stem}_{axis}")];
         names.iter().find(|known| spellings.iter().any(|spelling| known.eq_ignore_ascii_case(spelling))).cloned()
     };
-    AXES.into_iter().map(component).collect()
+    let (x, y) = (component('X')?, component('Y')?);
+    Some([x, y].into_iter().chain(component('Z')).collect())
 }
 
 /// Which reflections change a value's sign. A tensor's component changes it with each of its two axes, a vector's

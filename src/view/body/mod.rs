@@ -1,6 +1,7 @@
 //! What is drawn: a file's body at a state with its surface, its sections and the variable on it.
 
 pub mod field;
+mod revolve;
 pub mod scene;
 pub mod section;
 pub mod subject;

@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use super::field::{Field, Names, Place};
+use super::revolve::{Turn, revolve};
 use super::scene::{Scene, Values};
 use super::section::{Between, Cutting, Plane};
 use crate::exodus::{Results, ResultsError};
 use crate::mesh::exterior::{SIDES, exterior};
-use crate::mesh::{Block, Mesh, Shape};
+use crate::mesh::{Block, Dimension, Mesh, Shape};
 use crate::vector::dot;
 use crate::view::ViewError;
 use crate::view::camera::Axes;
-use crate::view::options::{StateChoice, ViewOptions};
+use crate::view::options::{Direction, StateChoice, ViewOptions};
 
 /// A face of the outer surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -142,6 +143,9 @@ impl<'a> Subject<'a> {
             let quads = skin.iter().map(|face| face.nodes).collect();
             let values = self.values(&skin, &made, state)?;
             let mut copy = Scene { positions, quads, values, seams, vectors: self.vectors(&made, state)? };
+            if let (Dimension::Two, Some(angle)) = (self.mesh.dimension, self.options.revolve) {
+                copy = self.revolved(&copy, elements, angle, state)?;
+            }
             dropped += copy.drop_unusable_faces();
             flips.iter().for_each(|&(axis, place)| copy.reflect(axis, place, self.is_odd(axis)));
             match (&mut scene, flips.last()) {
@@ -162,6 +166,27 @@ impl<'a> Subject<'a> {
             scene.mirror(axis, place, self.is_odd(axis));
         }
         Ok(Shot { scene, dropped })
+    }
+
+    /// Where the eye is: straight above a plane, unless another direction is asked for.
+    pub fn from(&self) -> Direction {
+        let flat = self.mesh.dimension == Dimension::Two && self.options.revolve.is_none();
+        let top = Direction { azimuth: -90.0, elevation: 90.0 };
+        if flat && self.options.from == Direction::ISOMETRIC { top } else { self.options.from }
+    }
+
+    /// A section turned about its axis, open towards the eye.
+    fn revolved(
+        &self,
+        section: &Scene,
+        elements: &[usize],
+        angle: f64,
+        state: Option<usize>,
+    ) -> Result<Scene, ViewError> {
+        let rim = self.outside_of(elements);
+        let edges: Vec<[u32; 4]> = rim.iter().map(|face| face.nodes).collect();
+        let values = self.values(&rim, &[], state)?;
+        Ok(revolve(section, &edges, &values, Turn::open_to(self.options.from.azimuth, angle)))
     }
 
     /// Elements can die.
@@ -212,7 +237,7 @@ impl<'a> Subject<'a> {
 
     /// The planes asked for; what is on the eye's side of each goes.
     fn planes(&self) -> Vec<Plane> {
-        let toward = Axes::new(self.options.from).toward;
+        let toward = Axes::new(self.from()).toward;
         let plane = |&(axis, at): &(usize, f64)| Plane { axis, at, below: toward[axis] >= 0.0 };
         self.options.cuts.iter().map(plane).collect()
     }
@@ -243,11 +268,22 @@ impl<'a> Subject<'a> {
         };
         let parts = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let count = parts.first().map_or(0, Vec::len);
-        Ok((0..count).map(|node| [0, 1, 2].map(|axis| parts[axis][node])).collect())
+        let part = |axis: usize, node: usize| parts.get(axis).map_or(0.0, |part| part[node]);
+        Ok((0..count).map(|node| [0, 1, 2].map(|axis| part(axis, node))).collect())
     }
 
-    /// The surface of some elements.
+    /// The surface of some elements; in the plane the elements themselves.
     fn surface_of(&self, elements: &[usize]) -> Vec<Face> {
+        if self.mesh.dimension == Dimension::Three {
+            return self.outside_of(elements);
+        }
+        let all: Vec<&[u32]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
+        let face = |&element: &usize| Some(Face { element, nodes: all[element].try_into().ok()? });
+        elements.iter().filter_map(face).collect()
+    }
+
+    /// The outside of some elements.
+    fn outside_of(&self, elements: &[usize]) -> Vec<Face> {
         let all: Vec<(Shape, &[u32])> = self.mesh.shaped().collect();
         let shown = elements.iter().map(|&element| all[element]);
         let numbers = exterior(shown, self.mesh.coordinates.len(), |_| true);
@@ -294,6 +330,7 @@ impl<'a> Subject<'a> {
         let components = field.names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let mut values: Vec<f64> = match components.as_slice() {
             [x, y, z] => (0..x.len()).map(|i| dot([x[i], y[i], z[i]], [x[i], y[i], z[i]]).sqrt()).collect(),
+            [x, y] => x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()).collect(),
             _ => components.into_iter().next().unwrap_or_default(),
         };
         Ok(match field.place {
@@ -350,10 +387,10 @@ fn choose_field(path: &Path, options: &ViewOptions, names: &Names) -> Result<Opt
 fn choose_arrows(path: &Path, options: &ViewOptions, names: &Names) -> Result<Option<Vec<String>>, ViewError> {
     let Some(name) = &options.arrows else { return Ok(None) };
     let vectors = Names { nodal: names.nodal, element: &[] };
-    match vectors.find(name).filter(|field| field.names.len() == 3) {
+    match vectors.find(name).filter(|field| field.names.len() > 1) {
         Some(field) => Ok(Some(field.names)),
         None => {
-            let known = vectors.known().into_iter().filter(|n| vectors.find(n).is_some_and(|f| f.names.len() == 3));
+            let known = vectors.known().into_iter().filter(|n| vectors.find(n).is_some_and(|f| f.names.len() > 1));
             let (path, near, known) = (path.to_owned(), vectors.nearest(name), known.collect());
             Err(ViewError::NoVariable { path, name: name.clone(), near, known })
         }

@@ -36,7 +36,7 @@ pub fn draw_many(
     let mut states: Vec<usize> = (0..last).step_by(every.get()).collect();
     states.push(last);
     let (bounds, extremes) =
-        survey(&subject, &states.iter().copied().map(Some).collect::<Vec<_>>(), &Axes::new(options.from))?;
+        survey(&subject, &states.iter().copied().map(Some).collect::<Vec<_>>(), &Axes::new(subject.from()))?;
     let studio = Studio::new(&subject, options, bounds, extremes);
     let mut reel = Reel::new(picture, options.size, &studio.map)?;
     let mut summaries = Vec::with_capacity(states.len());

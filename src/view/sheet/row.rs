@@ -42,7 +42,7 @@ pub fn picture_of_row(
     options.check()?;
     let subject = Subject::open(results, options)?;
     let states = choices.iter().map(|&choice| subject.state(choice)).collect::<Result<Vec<_>, _>>()?;
-    let axes = Axes::new(options.from);
+    let axes = Axes::new(subject.from());
     let (bounds, extremes) = survey(&subject, &states, &axes)?;
     let mut studio = Studio::new(&subject, options, bounds, extremes);
     let shots = states.iter().map(|&state| subject.shot(state)).collect::<Result<Vec<_>, _>>()?;

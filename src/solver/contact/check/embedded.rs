@@ -2,8 +2,8 @@
 
 use super::initial_overlap::is_inside;
 use crate::comm::Communicator;
-use crate::mesh::HEX_SIDES;
 use crate::mesh::check::hexahedron_volume;
+use crate::mesh::{HEX_SIDES, plane};
 use crate::solver::body::centroid;
 use crate::solver::contact::Contact;
 use crate::solver::contact::geometry::projection;
@@ -22,7 +22,7 @@ pub struct EmbeddedNode {
     pub depth: f64,
 }
 
-/// An element by its canonical number and its local nodes.
+/// An element by its canonical number and its local nodes, eight as [`plane::eight`] has them.
 pub type Outer = (u32, [u32; 8]);
 
 /// Elements are seen larger by this part, so that a point between two of them is in both.
@@ -46,7 +46,7 @@ impl Contact {
     /// that it is in. All ranks call it.
     pub fn embedded_nodes(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
         let points = self.points_of_all(nodes, comm);
-        let corners = |outer: &Outer| outer.1.map(|node| nodes.position(node));
+        let corners = |outer: &Outer| plane::solid(&outer.1.map(|node| nodes.position(node)));
         let boxes: Vec<Box3> = elements.iter().map(|outer| Box3::around(&corners(outer))).collect();
         let places: Vec<Box3> = points.iter().map(|(_, at)| Box3::around(&[*at])).collect();
         let mut near = Candidates::default();

@@ -3,7 +3,7 @@
 use super::node_face;
 use super::node_face::{NO_CONTACT, NodeFaceCheck};
 use crate::mesh::{HEX_SIDES, Mesh};
-use crate::model::{ContactOverlap, Model};
+use crate::model::{Analysis, ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::contact_nodes::ContactNodes;
@@ -289,6 +289,10 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
 fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut NodeMotion) {
     for (point, &node) in layout.nodes.iter().enumerate() {
         motion.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
+        // What is on the axis stays there.
+        if model.analysis == Analysis::Axisymmetric && body.positions[node as usize][0] == 0.0 {
+            motion.inverse_mass[point][0] = 0.0;
+        }
     }
     let still = model.no_displacements.iter().map(|held| (held.node_set, held.direction));
     let driven = model.prescribed_motions.iter().map(|motion| (motion.node_set, motion.direction));

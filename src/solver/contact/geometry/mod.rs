@@ -5,5 +5,6 @@ pub mod edges;
 pub mod faces;
 pub mod motion;
 pub mod projection;
+pub mod strip;
 pub mod surface;
 pub mod swept_box;

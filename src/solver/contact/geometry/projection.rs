@@ -1,16 +1,18 @@
 //! Where a point stands against a face, and when it comes through.
 //!
 //! A quadrilateral of four free corners is not flat. Everywhere in contact it is taken as the four triangles around
-//! the mean of its corners; neighbouring faces then share their edges exactly, and the outside has no gaps.
+//! the mean of its corners; neighbouring faces then share their edges exactly, and the outside has no gaps. An edge of a
+//! two-dimensional mesh is the face a-b-b-a, a strip across the plane, see [`strip`].
 
 use super::crossing::{self, Path};
 use super::motion::Four;
+use super::strip;
 use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
 /// round-off decides which corner is inside; without the margin each may be beyond the other's border, and they pass
 /// through each other.
-const BORDER: f64 = 1e-6;
+pub(super) const BORDER: f64 = 1e-6;
 
 /// A foot nearer to the line between triangles or faces than this part of them is on both, for the normal. Below a node of a
 /// tilted surface the feet of the perpendiculars are not quite at the node.
@@ -29,7 +31,7 @@ pub struct Projection {
     /// How far the foot lies beyond the border, a length; 0 on the face.
     pub outside: f64,
     /// Number of the triangle in which the foot is.
-    triangle: usize,
+    pub(super) triangle: usize,
 }
 
 /// Mean of four corners.
@@ -43,7 +45,11 @@ pub fn foot(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
 }
 
 /// Normal with the length of the face's area.
+#[inline]
 pub fn area_normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
+    if let Some(ends) = strip::of(corners) {
+        return strip::area_normal(ends);
+    }
     scaled(cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1])), 0.5)
 }
 
@@ -66,6 +72,9 @@ pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
 
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
 pub fn project(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
+    if let Some(ends) = strip::of(corners) {
+        return strip::project(ends, point);
+    }
     let middle = centre(corners);
     // Written out: `map` of the arrays would be calls.
     let &[a, b, c, d] = corners;
@@ -131,6 +140,9 @@ fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], 
 /// Forces act at the beginning of a step, on the positions there; along the normal of its end they have no moment when
 /// the shares are these. The gap at the end is the same with all shares of points in the plane.
 pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], projection: &Projection) -> Option<[f64; 4]> {
+    if let Some(ends) = strip::of(corners) {
+        return strip::shares_along(ends, point, projection.normal);
+    }
     let middle = centre(corners);
     let next = (projection.triangle + 1) % 4;
     let (e1, e2, r) =
@@ -150,6 +162,9 @@ pub fn shares_along(corners: &[[f64; 3]; 4], point: [f64; 3], projection: &Proje
 /// Part of the step, 0 to 1, after which a point comes through a face from the front (Heinstein et al. 1993), or
 /// `None`. Corners and point move straight.
 pub fn first_crossing(corners: &[Path; 4], point: Path) -> Option<f64> {
+    if strip::of(&corners.map(|(start, _)| start)).is_some() {
+        return strip::first_crossing([corners[0], corners[1]], point);
+    }
     let mean = |pick: fn(&Path) -> [f64; 3]| centre(&[0, 1, 2, 3].map(|i| pick(&corners[i])));
     let middle: Path = (mean(|path| path.0), mean(|path| path.1));
     let r = crossing::relative(point, middle);

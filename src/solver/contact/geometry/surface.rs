@@ -2,10 +2,10 @@
 //!
 //! A face's number is 6 × its element + its side and never changes; see [`crate::mesh::exterior`].
 
+use crate::mesh::Connectivity;
 use crate::mesh::exterior::{self, EXTERIOR, NONE as GONE};
-use crate::mesh::{Connectivity, HEX_SIDES};
 
-/// All faces of a body of hexahedra and who is across.
+/// All faces of a body of solids and who is across.
 #[derive(Debug, Clone, Default)]
 pub struct Surface {
     /// Per face number: the face across, [`EXTERIOR`], or [`GONE`] with the element or if the face is of no interest.
@@ -14,8 +14,8 @@ pub struct Surface {
 
 /// What is on a face.
 pub fn face_nodes(elements: &Connectivity, face: u32) -> [u32; 4] {
-    let element = &elements[face as usize / 6];
-    HEX_SIDES[face as usize % 6].map(|corner| element[corner])
+    let element = face as usize / 6;
+    elements.shape(element).face(&elements[element], (face % 6) as u8).unwrap_or_default()
 }
 
 /// Nodes of the side across the element from a face.

@@ -2,6 +2,7 @@
 
 use super::{Symptom, When};
 use crate::comm::{Communicator, numbers_of_others};
+use crate::mesh::plane;
 use crate::solver::contact::EmbeddedNode;
 use crate::solver::health::finding::{Evidence, Spot};
 use crate::solver::health::place::{elements, first_of_all, node_id};
@@ -44,7 +45,11 @@ fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
     }
     let here = elements(domain).filter(|(_, group, i)| is_outer[group.places[*i] as usize]);
     let here: Vec<(u32, [u32; 8])> = here
-        .filter_map(|(_, group, i)| Some((domain.element_canonical[group.places[i] as usize], group.all_nodes(i)?)))
+        .filter(|(block, ..)| block.element.entry().shape.is_solid())
+        .map(|(_, group, i)| {
+            let nodes: Vec<u32> = group.nodes(i).collect();
+            (domain.element_canonical[group.places[i] as usize], plane::eight(&nodes))
+        })
         .collect();
     let found = contact.embedded_nodes(&here, &domain.nodes, comm);
     let mut count = [found.iter().filter(|sunk| sunk.depth >= DEEP).count() as u64];

@@ -1,0 +1,364 @@
+//! The four-node quadrilateral with one integration point: one step of one part of a chunk.
+
+use super::hourglass;
+use super::kinematics::{self, Flat, Motion};
+use super::rows;
+use super::sections::{Corners, Operator, Section};
+use crate::lanes::{Lanes, Row, Sym3, array};
+use crate::material::{Kernel, Step};
+use crate::model::Hourglass;
+use crate::solver::elements::pass::{Outcome, StepKernel};
+
+/// Numbers that hold for a whole block and step.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// Time step Δt that led to the present positions.
+    pub time_step: f64,
+    /// Time of the present positions.
+    pub time: f64,
+    /// Initial mass density.
+    pub density: f64,
+    /// Elastic dilatational modulus λ + 2μ.
+    pub dilatational: f64,
+    /// Shear modulus μ.
+    pub mu: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Linear bulk viscosity b₁.
+    pub linear_viscosity: f64,
+    /// Quadratic bulk viscosity b₂.
+    pub quadratic_viscosity: f64,
+    /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
+    pub effective_moduli: bool,
+    /// Hourglass control.
+    pub control: Hourglass,
+}
+
+/// What holds for a whole block: numbers and law.
+#[derive(Debug, Clone, Copy)]
+pub struct Physics<'a, K> {
+    /// Numbers.
+    pub settings: Settings,
+    /// Constitutive law.
+    pub law: &'a K,
+    /// Plane strain or axisymmetry. Asked at run time: kernels of each would take twice as long to compile.
+    pub section: Section,
+}
+
+/// Writes consecutive rows.
+#[inline(always)]
+fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usize, part: usize) {
+    let rows = &mut state[first..first + N];
+    for i in 0..N {
+        values[i].store(&mut rows[i], part);
+    }
+}
+
+#[inline(always)]
+fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
+    (V::load(row, part) + value).store(row, part);
+}
+
+#[inline(always)]
+fn load<V: Lanes>(state: &[Row], first: usize, part: usize) -> [V; 4] {
+    array![i in 4 => V::load(&state[first + i], part)]
+}
+
+#[inline(always)]
+fn dot<V: Lanes>(a: &Corners<V>, b: &Corners<V>) -> V {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
+/// Γ · a with Γ = (1, −1, 1, −1).
+#[inline(always)]
+fn mode<V: Lanes>(a: &Corners<V>) -> V {
+    (a[0] - a[1]) + (a[2] - a[3])
+}
+
+/// A tensor of the plane as one of space.
+#[inline(always)]
+pub fn solid<V: Lanes>([xx, yy, zz, xy]: Flat<V>) -> Sym3<V> {
+    let zero = V::splat(0.0);
+    Sym3 { xx, yy, zz, xy, yz: zero, zx: zero }
+}
+
+impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
+    #[inline(always)]
+    fn about_axis(&self) -> bool {
+        self.section.about_axis()
+    }
+
+    #[inline(always)]
+    fn step<V: Lanes>(
+        &self,
+        positions: &[Corners<V>; 3],
+        velocities: &[Corners<V>; 3],
+        state: &mut [Row],
+        part: usize,
+        mass: V,
+    ) -> Outcome<V, 4> {
+        let Physics { settings, law, section } = self;
+        let (about_axis, turn) = (section.about_axis(), section.turn());
+        let (zero, half, one) = (V::splat(0.0), V::splat(0.5), V::splat(1.0));
+        let (time_step, half_step) = (V::splat(settings.time_step), V::splat(0.5 * settings.time_step));
+        let x = [positions[0], positions[1]];
+        let v = [velocities[0], velocities[1]];
+
+        // (i) velocity gradient and hourglass rates at mid-step
+        let middle: [Corners<V>; 2] =
+            [array![i in 4 => x[0][i] - half_step * v[0][i]], array![i in 4 => x[1][i] - half_step * v[1][i]]];
+        let operator = section.operator(&middle);
+        let inverse = one / operator.volume;
+        let Rates { gradient, hoop, hourglass: hourglass_rate } = rates(about_axis, &operator, &v, &middle, inverse);
+        let middle_volume = operator.volume * V::splat(turn);
+        let middle_thickness = if about_axis { middle_volume / operator.area } else { one };
+
+        // (ii) frame, stretch and strain increment
+        let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
+        let mut stretch: Flat<V> = load(state, rows::STRETCH, part);
+        let Motion { strain, frame, middle: frame_middle } =
+            kinematics::advance(&gradient, hoop, frame, &mut stretch, time_step);
+        store(frame, state, rows::FRAME, part);
+        store(stretch, state, rows::STRETCH, part);
+
+        // (iii) stress
+        let old = solid(load(state, rows::STRESS, part));
+        let strain = solid(strain);
+        let mut stress = old;
+        let operator = section.operator(&x);
+        let volume = operator.volume * V::splat(turn);
+        let (own, law_state) = state.split_at_mut(rows::LAW);
+        let inverse_volume = V::splat(settings.density) / mass;
+        let motion = Step {
+            strain,
+            stretch: solid(stretch),
+            volume: volume * inverse_volume,
+            middle_volume: middle_volume * inverse_volume,
+            // Laws with an equation of state, which look at these, are refused.
+            energy: zero,
+            swept: zero,
+            time: settings.time,
+            time_step: settings.time_step,
+        };
+        let response = law.update(&motion, &mut stress, law_state, part);
+        store([stress.xx, stress.yy, stress.zz, stress.xy], own, rows::STRESS, part);
+        let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
+        accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+
+        // (iv) stable step 2/ω and bulk viscosity in the new configuration
+        let stiffness = response.stiffness;
+        let elastic = if K::STIFFNESS { stiffness.dilatational } else { V::splat(settings.dilatational) };
+        let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
+        let inverse_corners: Corners<V> = load(own, rows::INVERSE_MASS, part);
+        let lightest = one / inverse_corners[0].max(inverse_corners[1]).max(inverse_corners[2].max(inverse_corners[3]));
+        let inverse_area = one / operator.area;
+        let thickness = if about_axis { volume * inverse_area } else { one };
+        let b_squared = dot(&operator.plane[0], &operator.plane[0]) + dot(&operator.plane[1], &operator.plane[1]);
+        let (measure, lengths) = (b_squared * inverse_area, lengths(&x, &frame));
+        let gamma = hourglass_vector(&operator, &x, inverse_area);
+        let mut square = frequency_square(*section, &operator, &inverse_corners, [elastic, mu]);
+        if about_axis {
+            // Near the axis, where corners weigh differently, hourglass and strain modes are not orthogonal.
+            let stiffness = hourglass::stiffness(settings.control, mu, V::splat(settings.poisson), &lengths, measure);
+            let uneven = ((one - V::splat(4.0) * lightest / mass) * V::splat(3.0)).min(one);
+            let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
+            square = square + uneven * stiffness * thickness * dot(&squares, &inverse_corners);
+        }
+        let modulus = if K::STIFFNESS { elastic } else { step_modulus(settings, &old, &stress, &strain) };
+        let bound = (V::splat(4.0) * elastic / (square * modulus)).sqrt();
+        let rate = gradient[0][0] + gradient[1][1] + hoop;
+        let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity) * bound * rate.min(zero);
+        let damping = V::splat(settings.linear_viscosity) + quadratic;
+        let viscous = damping * modulus * bound * rate;
+        let last = V::load(&own[rows::VISCOUS_STRESS], part);
+        viscous.store(&mut own[rows::VISCOUS_STRESS], part);
+        accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+        let stable_step = bound * ((one + damping * damping).sqrt() - damping);
+
+        // (v) hourglass resistance in the frame
+        let light = V::splat(4.0) * lightest / thickness;
+        let state = hourglass::State {
+            lengths,
+            stiffness_measure: measure,
+            mass: light,
+            mu,
+            poisson: V::splat(settings.poisson),
+            returned: response.returned,
+            time_step,
+        };
+        let turned = [frame_middle, frame];
+        let resistance = resist(settings.control, &hourglass_rate, turned, (own, part), middle_thickness, &state);
+        let stable_step = hourglass::stable_step(settings.control, stable_step, measure, light, mu);
+        // An element that passed through itself within the step has failed, even if it looks sound at the end.
+        let least = middle_volume.min(volume).min(operator.area);
+        let stable_step = V::select_less(zero, least, stable_step, zero);
+
+        // (vi) corner forces from the rotated stress
+        let total = rotated(&stress, &frame, viscous);
+        Outcome { force: forces(*section, &total, &resistance, &operator, &gamma, thickness), stable_step }
+    }
+}
+
+/// Rates of an element at mid-step.
+struct Rates<V> {
+    /// L in the plane.
+    gradient: [[V; 2]; 2],
+    /// Rate across it.
+    hoop: V,
+    /// q̇_i = v_i · γ.
+    hourglass: [V; 2],
+}
+
+#[inline(always)]
+fn rates<V: Lanes>(
+    about_axis: bool,
+    operator: &Operator<V>,
+    v: &[Corners<V>; 2],
+    x: &[Corners<V>; 2],
+    inverse: V,
+) -> Rates<V> {
+    // Relative to the first corner, so that a ring that grows fast as a whole costs no digits.
+    let radial: Corners<V> = if about_axis { array![i in 4 => v[0][i] - v[0][0]] } else { v[0] };
+    let Operator { radial: g, axial: h, .. } = operator;
+    let gradient =
+        [[dot(g, &radial) * inverse, dot(h, &radial) * inverse], [dot(g, &v[1]) * inverse, dot(h, &v[1]) * inverse]];
+    let hoop = if about_axis { dot(&operator.hoop, &v[0]) * inverse } else { V::splat(0.0) };
+    // γ = Γ − B_j (x_j·Γ)/A is orthogonal to linear fields of the plane.
+    let [bx, by] = &operator.plane;
+    let scale = V::splat(1.0) / operator.area;
+    let (hx, hy) = (mode(&x[0]) * scale, mode(&x[1]) * scale);
+    let along = mode(&radial) - (dot(bx, &radial) * hx + dot(by, &radial) * hy);
+    let across = mode(&v[1]) - (dot(bx, &v[1]) * hx + dot(by, &v[1]) * hy);
+    Rates { gradient, hoop, hourglass: [along, across] }
+}
+
+/// A bound of ω²: the trace of the corners' scaled stiffness, Σ_I [λ (V_x² + V_y²) + 2μ (G² + H² + V_y²)]_I / (m_I V).
+#[inline(always)]
+fn frequency_square<V: Lanes>(
+    section: Section,
+    operator: &Operator<V>,
+    inverse_mass: &Corners<V>,
+    [dilatational, mu]: [V; 2],
+) -> V {
+    let two_mu = mu + mu;
+    let Operator { radial, axial, hoop, volume, .. } = operator;
+    if !section.about_axis() {
+        let squares: Corners<V> = array![i in 4 => radial[i] * radial[i] + axial[i] * axial[i]];
+        return dilatational * dot(&squares, inverse_mass) / *volume;
+    }
+    let lambda = (dilatational - two_mu).max(V::splat(0.0));
+    let terms: Corners<V> = array![i in 4 => {
+        let (whole, axial2) = (radial[i] + hoop[i], axial[i] * axial[i]);
+        lambda * (whole * whole + axial2) + two_mu * ((radial[i] * radial[i] + hoop[i] * hoop[i]) + axial2)
+    }];
+    dot(&terms, inverse_mass) * V::splat(section.turn()) / *volume
+}
+
+/// Dilatational modulus for the stable step: elastic, or PRONTO's estimate from the last increment as in the hexahedron.
+#[inline(always)]
+fn step_modulus<V: Lanes>(settings: &Settings, old: &Sym3<V>, new: &Sym3<V>, strain: &Sym3<V>) -> V {
+    let elastic = V::splat(settings.dilatational);
+    if !settings.effective_moduli {
+        return elastic;
+    }
+    let change = new.zip(*old, |a, b| a - b).deviator();
+    let e = strain.deviator();
+    let square = e.contract(e);
+    let two_mu = V::splat(2.0 * settings.mu);
+    let floor = V::splat(1e-24);
+    let shear = V::select_less(floor, square, change.contract(e) / square.max(floor), two_mu).min(two_mu);
+    let bulk = elastic - two_mu * V::splat(2.0 / 3.0);
+    (bulk + shear * V::splat(2.0 / 3.0)).min(elastic).max(elastic * V::splat(0.1))
+}
+
+/// Λ₁ · x with Λ₁ = (−1, 1, 1, −1).
+#[inline(always)]
+fn xi<V: Lanes>(x: &Corners<V>) -> V {
+    (x[1] - x[0]) + (x[2] - x[3])
+}
+
+/// Λ₂ · x with Λ₂ = (−1, −1, 1, 1).
+#[inline(always)]
+fn eta<V: Lanes>(x: &Corners<V>) -> V {
+    (x[3] - x[0]) + (x[2] - x[1])
+}
+
+/// Λ_i · x̂_i, the element's lengths along its frame, kept positive in elements that have folded over.
+#[inline(always)]
+fn lengths<V: Lanes>(x: &[Corners<V>; 2], [c, s]: &[V; 2]) -> [V; 2] {
+    let [xi, eta] = [[xi(&x[0]), xi(&x[1])], [eta(&x[0]), eta(&x[1])]];
+    let (l1, l2) = (xi[0] * *c + xi[1] * *s, eta[1] * *c - eta[0] * *s);
+    let floor = l1.max(l2) * V::splat(1e-3);
+    [l1.max(floor), l2.max(floor)]
+}
+
+/// Turns the rates into the frame of the middle, lets the control act, books the energy, and turns the resistance back by the
+/// frame of the end.
+#[inline(always)]
+fn resist<V: Lanes>(
+    control: Hourglass,
+    rate: &[V; 2],
+    [[cm, sm], [c, s]]: [[V; 2]; 2],
+    (own, part): (&mut [Row], usize),
+    thickness: V,
+    state: &hourglass::State<V>,
+) -> [V; 2] {
+    let local = [cm * rate[0] + sm * rate[1], cm * rate[1] - sm * rate[0]];
+    let old = [V::load(&own[rows::HOURGLASS], part), V::load(&own[rows::HOURGLASS + 1], part)];
+    let mut q = old;
+    let total = hourglass::resist(control, &local, &mut q, state);
+    store(q, own, rows::HOURGLASS, part);
+    let half = V::splat(0.5);
+    // Stored resistance by the trapezoidal rule, a viscous rest as it acts now.
+    let work = (total[0] + (old[0] - q[0]) * half) * local[0] + (total[1] + (old[1] - q[1]) * half) * local[1];
+    accumulate(work * state.time_step * thickness, &mut own[rows::HOURGLASS_ENERGY], part);
+    [c * total[0] - s * total[1], s * total[0] + c * total[1]]
+}
+
+/// Cauchy stress in space with bulk viscosity: xx, yy, zz, xy.
+#[inline(always)]
+fn rotated<V: Lanes>(stress: &Sym3<V>, [c, s]: &[V; 2], viscous: V) -> Flat<V> {
+    let (cc, ss, cs) = (*c * *c, *s * *s, *c * *s);
+    let shear = (stress.xy + stress.xy) * cs;
+    [
+        cc * stress.xx + ss * stress.yy - shear + viscous,
+        ss * stress.xx + cc * stress.yy + shear + viscous,
+        stress.zz + viscous,
+        (stress.xx - stress.yy) * cs + stress.xy * (cc - ss),
+    ]
+}
+
+/// γ = Γ − B_j (x_j·Γ)/A: the hourglass mode made orthogonal to linear fields.
+#[inline(always)]
+fn hourglass_vector<V: Lanes>(operator: &Operator<V>, x: &[Corners<V>; 2], inverse_area: V) -> Corners<V> {
+    let [bx, by] = &operator.plane;
+    let (hx, hy) = (mode(&x[0]) * inverse_area, mode(&x[1]) * inverse_area);
+    array![i in 4 => {
+        let one = V::splat(if i % 2 == 0 { 1.0 } else { -1.0 });
+        one - (bx[i] * hx + by[i] * hy)
+    }]
+}
+
+/// f_x = σ_r G + τ V_y + σ_θ H, f_y = τ G + σ_z V_y, and Q_i γ times the thickness.
+#[inline(always)]
+fn forces<V: Lanes>(
+    section: Section,
+    [xx, yy, zz, xy]: &Flat<V>,
+    q: &[V; 2],
+    operator: &Operator<V>,
+    gamma: &Corners<V>,
+    thickness: V,
+) -> [Corners<V>; 3] {
+    let turn = V::splat(section.turn());
+    let (xx, yy, zz, xy) = (*xx * turn, *yy * turn, *zz * turn, *xy * turn);
+    let q = [q[0] * thickness, q[1] * thickness];
+    let Operator { radial, axial, hoop, .. } = operator;
+    [
+        array![i in 4 => {
+            let f = xx * radial[i] + xy * axial[i] + q[0] * gamma[i];
+            if section.about_axis() { f + zz * hoop[i] } else { f }
+        }],
+        array![i in 4 => xy * radial[i] + yy * axial[i] + q[1] * gamma[i]],
+        [V::splat(0.0); 4],
+    ]
+}
