@@ -130,18 +130,18 @@ impl KernelVisitor for Increment<'_> {
         let turned = half * half * point.stretch;
         point.stretch = 0.5 * (turned + turned.transpose());
         let u = &point.stretch;
+        let [xx, yy, zz, xy, yz, zx] = point.stress;
+        let before = Sym3 { xx, yy, zz, xy, yz, zx };
         let step = Step {
             strain,
             stretch: Sym3 { xx: u[(0, 0)], yy: u[(1, 1)], zz: u[(2, 2)], xy: u[(0, 1)], yz: u[(1, 2)], zx: u[(2, 0)] },
             volume: if K::VOLUME { u.determinant() } else { 1.0 },
             middle_volume: middle,
-            energy: point.energy,
-            swept: 0.0,
+            energy: point.energy + 0.5 * before.contract(strain) * middle,
+            swept: strain.trace() * middle,
             time: point.time,
             time_step: point.time_step,
         };
-        let [xx, yy, zz, xy, yz, zx] = point.stress;
-        let before = Sym3 { xx, yy, zz, xy, yz, zx };
         let mut stress = before;
         let _: Response<f64> = kernel.update::<f64>(&step, &mut stress, &mut point.stored, 0);
         point.energy += before.zip(stress, |a, b| 0.5 * (a + b)).contract(strain) * middle;
