@@ -54,7 +54,7 @@ fn model(law: Law, hourglass: Hourglass) -> Model {
         bulk_viscosity: BulkViscosity { linear: 0.06, quadratic: 1.2 },
         hourglass,
         materials: vec![BlockMaterial { block: 1, density: 1.0, law }],
-        no_displacements: vec![NoDisplacement { direction: Direction::X, node_set: 1 }],
+        no_displacements: vec![NoDisplacement { of: Unknown::Position, direction: Direction::X, node_set: 1 }],
         initial_velocities: vec![InitialVelocity::Material { block: 1, velocity: [1e-2, 3e-3, 0.0] }],
         ..Model::default()
     }

@@ -6,7 +6,6 @@ use super::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::mesh::{Dimension, plane};
 use crate::output::print::{self, scientific};
-use crate::partition::Decomposition;
 use crate::run::Endless;
 use crate::solver::elements::Element;
 use crate::solver::{Body, Request, Solver, state_names};
@@ -91,7 +90,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let (mesh, model) = (&given.mesh, &given.problem.model);
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
-    let share = Decomposition::new(&contributors, mesh.coordinates.len(), 1).share(0);
+    let share = body.decomposition(&contributors, 1).share(0);
     let comm = &mut Serial;
     let mut solver = Solver::new(mesh, model, body, &share, comm);
     let stopped = |stop| Failure::run(format_args!("error: the run would stop at once: {stop}"));
@@ -158,8 +157,10 @@ fn memory(given: &Given) -> f64 {
             let law_rows =
                 model.materials.iter().find(|m| m.block == block.id).map_or(0, |m| state_names(&m.law).len());
             // State, mass, connectivity; place, file number, analyst's number and canonical number.
-            let own_rows = Element::of_block(block, model).map_or(0, |element| element.entry().rows.len());
-            block.len() * (8 * (own_rows + law_rows) + 8 + 4 * block.shape.corners() + 4 + 4 + 8 + 4)
+            let rows =
+                |element: Element| element.entry().rows.len() + element.points() * (element.point_rows() + law_rows);
+            let rows = Element::of_block(block, model).map_or(0, rows);
+            block.len() * (8 * rows + 8 + 4 * block.shape.corners() + 4 + 4 + 8 + 4)
         })
         .sum();
     // A node's record, force, initial position, file number and ownership.

@@ -11,7 +11,7 @@ use crate::mesh::{Mesh, check::unreferenced_nodes, plane};
 use crate::mesher;
 use crate::model::{Analysis, Problem, examine};
 use crate::solver::elements::Unfit;
-use crate::solver::{Body, unfit_blocks};
+use crate::solver::{Body, idle_rotations, unfit_blocks};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -134,7 +134,7 @@ impl Given {
     pub fn warnings(&self) -> Option<String> {
         let found = &self.problem.diagnostics;
         let deck = found.warnings().next().is_some().then(|| render(found));
-        let warnings: Vec<String> = deck.into_iter().chain(self.idle_nodes()).collect();
+        let warnings: Vec<String> = deck.into_iter().chain(self.idle_nodes()).chain(self.idle_rotations()).collect();
         (!warnings.is_empty()).then(|| warnings.join("\n"))
     }
 
@@ -150,6 +150,20 @@ impl Given {
                 self.mesh_path.display(),
                 idle.len(),
                 first.join(", ")
+            )
+        })
+    }
+}
+
+impl Given {
+    /// A warning about rotations that are held, driven or loaded where nothing can turn.
+    pub fn idle_rotations(&self) -> Option<String> {
+        let sets: Vec<String> =
+            idle_rotations(&self.mesh, &self.problem.model).iter().map(|set| set.to_string()).collect();
+        (!sets.is_empty()).then(|| {
+            format!(
+                "warning: rotations of node sets {} are held, driven or loaded, but none of their nodes belongs to a shell or beam",
+                sets.join(", ")
             )
         })
     }

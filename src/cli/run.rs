@@ -7,7 +7,6 @@ use super::terminal::{complain, say};
 use super::{DONE, FAILED, Failure, date, display, options, restart, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, with_warnings};
-use crate::partition::Decomposition;
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
@@ -151,10 +150,10 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
     let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
     let idle = prepared.given.idle_nodes().map(|warning| warning.trim_start_matches("warning: ").to_string());
-    let warnings: Vec<String> = told.chain(idle).collect();
+    let turn = prepared.given.idle_rotations().map(|warning| warning.trim_start_matches("warning: ").to_string());
+    let warnings: Vec<String> = told.chain(idle).chain(turn).collect();
     let cut = prepared.body.cut(prepared.ranks);
     let contributors = prepared.body.contributors(&cut);
-    let nodes = prepared.given.mesh.coordinates.len();
     work(&Job {
         mesh: &prepared.given.mesh,
         model: &problem.model,
@@ -167,7 +166,7 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         files: &prepared.files,
         body: &prepared.body,
         continuation: prepared.continuation.as_ref(),
-        decomposition: &Decomposition::new(&contributors, nodes, prepared.ranks),
+        decomposition: &prepared.body.decomposition(&contributors, prepared.ranks),
         split: prepared.split,
         wish,
     })

@@ -15,6 +15,7 @@ mod johnson_cook;
 mod low_density_foam;
 mod mooney_rivlin;
 mod orthotropic_crush;
+mod piecewise_plastic;
 mod plastic;
 #[cfg(test)]
 mod point;
@@ -36,6 +37,7 @@ pub use johnson_cook::JohnsonCook;
 pub use low_density_foam::LowDensityFoam;
 pub use mooney_rivlin::MooneyRivlin;
 pub use orthotropic_crush::OrthotropicCrush;
+pub use piecewise_plastic::PiecewisePlastic;
 pub use power_hardening::PowerHardening;
 pub use property::{Curve, Given, Refusal};
 pub use soil::Soil;
@@ -118,6 +120,7 @@ laws! {
     elastic_plastic::ElasticPlastic,
     power_hardening::PowerHardening,
     viscoplastic::Viscoplastic,
+    piecewise_plastic::PiecewisePlastic,
     johnson_cook::JohnsonCook,
     hydrodynamic::Hydrodynamic,
     ep_hydrodynamic::ElasticPlasticHydrodynamic,

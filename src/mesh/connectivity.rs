@@ -15,6 +15,8 @@ pub struct Connectivity {
 #[derive(Debug, Clone, PartialEq)]
 struct Run {
     shape: Shape,
+    /// Nodes of each.
+    corners: usize,
     /// The first of them, and the place of its first corner among all.
     first: usize,
     start: usize,
@@ -24,15 +26,18 @@ impl Connectivity {
     /// Elements of one shape, given by the nodes of one after the other.
     pub fn of(shape: Shape, nodes: Vec<u32>) -> Connectivity {
         let len = nodes.len() / shape.corners();
-        Connectivity { runs: vec![Run { shape, first: 0, start: 0 }], nodes, len }
+        Connectivity { runs: vec![Run { shape, corners: shape.corners(), first: 0, start: 0 }], nodes, len }
     }
 
-    /// Adds an element, which must have as many nodes as its shape has corners.
+    /// Adds an element with its nodes, of which there must be at least one: as many as its shape has corners, or more where
+    /// other unknowns than positions are numbered behind them.
     pub fn push(&mut self, shape: Shape, nodes: impl IntoIterator<Item = u32>) {
-        if self.runs.last().is_none_or(|run| run.shape != shape) {
-            self.runs.push(Run { shape, first: self.len, start: self.nodes.len() });
-        }
+        let start = self.nodes.len();
         self.nodes.extend(nodes);
+        let corners = self.nodes.len() - start;
+        if self.runs.last().is_none_or(|run| run.shape != shape || run.corners != corners) {
+            self.runs.push(Run { shape, corners, first: self.len, start });
+        }
         self.len += 1;
     }
 
@@ -60,13 +65,13 @@ impl Connectivity {
     #[inline]
     pub fn start(&self, element: usize) -> usize {
         let run = self.run(element);
-        run.start + (element - run.first) * run.shape.corners()
+        run.start + (element - run.first) * run.corners
     }
 
     /// The element that has a corner at this place among all corners, and which corner that is.
     pub fn corner(&self, place: usize) -> (usize, usize) {
         let run = &self.runs[self.runs.partition_point(|run| run.start <= place) - 1];
-        let (behind, corners) = (place - run.start, run.shape.corners());
+        let (behind, corners) = (place - run.start, run.corners);
         (run.first + behind / corners, behind % corners)
     }
 
@@ -78,9 +83,10 @@ impl Connectivity {
     /// Shape and nodes of each element.
     pub fn shaped(&self) -> impl Iterator<Item = (Shape, &[u32])> + Clone {
         let ends = self.runs.iter().skip(1).map(|run| run.start).chain([self.nodes.len()]);
-        self.runs.iter().zip(ends).flat_map(|(run, end)| {
-            self.nodes[run.start..end].chunks_exact(run.shape.corners()).map(|nodes| (run.shape, nodes))
-        })
+        self.runs
+            .iter()
+            .zip(ends)
+            .flat_map(|(run, end)| self.nodes[run.start..end].chunks_exact(run.corners).map(|nodes| (run.shape, nodes)))
     }
 
     #[inline]
@@ -95,8 +101,7 @@ impl Index<usize> for Connectivity {
     #[inline]
     fn index(&self, element: usize) -> &[u32] {
         let run = self.run(element);
-        let corners = run.shape.corners();
-        &self.nodes[run.start + (element - run.first) * corners..][..corners]
+        &self.nodes[run.start + (element - run.first) * run.corners..][..run.corners]
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Assembly {
     bars: Vec<([u32; 2], i64)>,
     /// Whether the mesh is two-dimensional: the lower sides of the hexahedra are its elements.
     flat: bool,
+    /// Quadrilaterals of surfaces, in the same way.
+    quads: Vec<([u32; 4], i64)>,
     parts: Vec<Part>,
 }
 
@@ -48,6 +50,7 @@ impl Assembly {
         self.hexes.extend(body.hexes.iter().map(|hex| hex.map(|node| node + nodes as u32)));
         self.blocks.resize(self.hexes.len(), block);
         self.bars.extend(body.bars.iter().map(|bar| (bar.map(|node| node + nodes as u32), block)));
+        self.quads.extend(body.quads.iter().map(|quad| (quad.map(|node| node + nodes as u32), block)));
         let mut faces = body.faces;
         faces.iter_mut().flat_map(|(_, sides)| sides).for_each(|(element, _)| *element += elements as u32);
         self.parts.push(Part {
@@ -70,6 +73,12 @@ impl Assembly {
         }
         for [a, b] in self.bars.iter().map(|(bar, _)| bar.map(|node| self.coordinates[node as usize])) {
             shortest = shortest.min(super::distance(a, b));
+        }
+        for (quad, _) in &self.quads {
+            let x = quad.map(|node| self.coordinates[node as usize]);
+            for i in 0..4 {
+                shortest = shortest.min(super::distance(x[i], x[(i + 1) % 4]));
+            }
         }
         (super::distance(diagonal, [0.0; 3]), shortest)
     }
@@ -99,13 +108,18 @@ impl Assembly {
 
     /// Nodes of all elements.
     fn nodes_mut(&mut self) -> impl Iterator<Item = &mut u32> {
-        self.hexes.iter_mut().flatten().chain(self.bars.iter_mut().flat_map(|(bar, _)| bar))
+        let bars = self.bars.iter_mut().flat_map(|(bar, _)| bar);
+        let quads = self.quads.iter_mut().flat_map(|(quad, _)| quad);
+        self.hexes.iter_mut().flatten().chain(bars).chain(quads)
     }
 
-    /// The first part of bars in a block that has hexahedra, if there is one.
+    /// The first part of bars or surfaces in a block that has elements of another shape, if there is one.
     pub fn mixed_part(&self) -> Option<usize> {
-        let (block, _) =
-            self.bars.iter().map(|(_, block)| (*block, ())).find(|(block, ())| self.blocks.contains(block))?;
+        let solid = |block: &i64| self.blocks.contains(block);
+        let lined = |block: &i64| self.bars.iter().any(|(_, bar)| bar == block);
+        let mut bars = self.bars.iter().map(|(_, block)| *block).filter(|block| solid(block));
+        let mut quads = self.quads.iter().map(|(_, block)| *block).filter(|block| solid(block) || lined(block));
+        let block = bars.next().or(quads.next())?;
         self.parts.iter().position(|part| part.block == block && part.elements.is_empty())
     }
 
@@ -129,7 +143,9 @@ impl Assembly {
         let corners = if self.flat { 4 } else { 8 };
         let shape = if self.flat { Shape::Plane } else { Shape::Hexahedron };
         let mut mesh = Mesh { title: title.to_string(), dimension, ..Mesh::default() };
-        let mut ids: Vec<i64> = self.blocks.iter().copied().chain(self.bars.iter().map(|(_, block)| *block)).collect();
+        let quads = self.quads.iter().map(|(_, block)| *block);
+        let bars = self.bars.iter().map(|(_, block)| *block);
+        let mut ids: Vec<i64> = self.blocks.iter().copied().chain(bars).chain(quads).collect();
         ids.sort_unstable();
         ids.dedup();
         let mut place = vec![0u32; self.hexes.len()];
@@ -145,6 +161,12 @@ impl Assembly {
             let bars: Vec<u32> = bars.flat_map(|(bar, _)| *bar).collect();
             if !bars.is_empty() {
                 block = Block { shape: Shape::Bar, nodes: bars, ..block };
+                placed += block.len() as u32;
+            }
+            let quads = self.quads.iter().filter(|(_, block)| *block == id);
+            let quads: Vec<u32> = quads.flat_map(|(quad, _)| *quad).collect();
+            if !quads.is_empty() {
+                block = Block { shape: Shape::Quadrilateral, nodes: quads, ..block };
                 placed += block.len() as u32;
             }
             mesh.blocks.push(block);

@@ -1,4 +1,4 @@
-//! One meshed shape: its nodes, its hexahedra or bars, and its faces by name.
+//! One meshed shape: its nodes, its hexahedra, quadrilaterals or bars, and its faces by name.
 
 /// The elements of one shape. No two of its nodes coincide.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -11,6 +11,8 @@ pub struct Body {
     pub bars: Vec<[u32; 2]>,
     /// Whether only the lowest layer of the hexahedra is meant, as quadrilaterals of a two-dimensional mesh.
     pub flat: bool,
+    /// Four zero-based node indices per quadrilateral of a surface, counter-clockwise seen from its top.
+    pub quads: Vec<[u32; 4]>,
     /// The faces of the shape that have a name.
     pub faces: Vec<(Face, Sides)>,
 }

@@ -17,6 +17,7 @@ mod perturb;
 mod region;
 mod section;
 mod sets;
+mod sheet;
 mod skin;
 mod spacing;
 mod sphere;

@@ -1,30 +1,37 @@
 //! Motions that are held or driven, and loads.
 
 use super::{
-    Direction, Gravity, MotionKind, NoDisplacement, PrescribedForce, PrescribedMotion, Pressure,
+    Direction, Gravity, MotionKind, NoDisplacement, PointMass, PrescribedForce, PrescribedMotion, Pressure, Unknown,
+    Unknown::{Position, Rotation},
     problem::{Draft, Setter},
 };
 use crate::deck::Card;
 
 pub(super) const COMMANDS: &[Setter] = &[
-    ("NO DISPLACEMENT", no_displacement),
-    ("PRESCRIBED DISPLACEMENT", |card, draft| prescribed_motion(MotionKind::Displacement, card, draft)),
-    ("PRESCRIBED VELOCITY", |card, draft| prescribed_motion(MotionKind::Velocity, card, draft)),
-    ("PRESCRIBED ACCELERATION", |card, draft| prescribed_motion(MotionKind::Acceleration, card, draft)),
-    ("PRESCRIBED FORCE", prescribed_force),
+    ("NO DISPLACEMENT", |card, draft| held(Position, card, draft)),
+    ("NO ROTATION", |card, draft| held(Rotation, card, draft)),
+    ("PRESCRIBED DISPLACEMENT", |card, draft| driven(Position, MotionKind::Displacement, card, draft)),
+    ("PRESCRIBED VELOCITY", |card, draft| driven(Position, MotionKind::Velocity, card, draft)),
+    ("PRESCRIBED ACCELERATION", |card, draft| driven(Position, MotionKind::Acceleration, card, draft)),
+    ("PRESCRIBED ROTATION", |card, draft| driven(Rotation, MotionKind::Displacement, card, draft)),
+    ("PRESCRIBED ANGULAR VELOCITY", |card, draft| driven(Rotation, MotionKind::Velocity, card, draft)),
+    ("PRESCRIBED FORCE", |card, draft| loaded(Position, card, draft)),
+    ("PRESCRIBED MOMENT", |card, draft| loaded(Rotation, card, draft)),
+    ("POINT MASS", point_mass),
     ("PRESSURE", pressure),
     ("GRAVITY", gravity),
     ("SILENT BC", |card, draft| draft.model.silent_boundaries.push(card.integer("side_set"))),
 ];
 
-fn no_displacement(card: &Card, draft: &mut Draft) {
-    let held = NoDisplacement { direction: direction(card), node_set: card.integer("node_set") };
+fn held(of: Unknown, card: &Card, draft: &mut Draft) {
+    let held = NoDisplacement { of, direction: direction(card), node_set: card.integer("node_set") };
     draft.model.no_displacements.push(held);
 }
 
-fn prescribed_motion(kind: MotionKind, card: &Card, draft: &mut Draft) {
+fn driven(of: Unknown, kind: MotionKind, card: &Card, draft: &mut Draft) {
     let Some(function) = draft.function(card) else { return };
     draft.model.prescribed_motions.push(PrescribedMotion {
+        of,
         kind,
         direction: direction(card),
         node_set: card.integer("node_set"),
@@ -33,13 +40,22 @@ fn prescribed_motion(kind: MotionKind, card: &Card, draft: &mut Draft) {
     });
 }
 
-fn prescribed_force(card: &Card, draft: &mut Draft) {
+fn loaded(of: Unknown, card: &Card, draft: &mut Draft) {
     let Some(function) = draft.function(card) else { return };
     draft.model.prescribed_forces.push(PrescribedForce {
+        of,
         direction: direction(card),
         node_set: card.integer("node_set"),
         function,
         scale: card.number("scale"),
+    });
+}
+
+fn point_mass(card: &Card, draft: &mut Draft) {
+    draft.model.point_masses.push(PointMass {
+        node_set: card.integer("node_set"),
+        mass: card.number("mass"),
+        inertia: card.number("inertia"),
     });
 }
 

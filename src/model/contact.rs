@@ -51,6 +51,7 @@ fn death(card: &Card, draft: &mut Draft) {
         is_maximum: card.text("bound") == "MAX",
         value: card.number("value"),
         keeps_nodes,
+        share: card.number("share"),
     });
 }
 

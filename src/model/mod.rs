@@ -62,6 +62,8 @@ pub struct Model {
     pub no_displacements: Vec<NoDisplacement>,
     /// Motions imposed on node sets.
     pub prescribed_motions: Vec<PrescribedMotion>,
+    /// Masses at the nodes of node sets.
+    pub point_masses: Vec<PointMass>,
     /// Forces on the nodes of node sets.
     pub prescribed_forces: Vec<PrescribedForce>,
     /// Pressures on side sets.
@@ -137,6 +139,13 @@ impl Section {
     /// A number by the name of its field; NaN for a field that the command does not have.
     pub fn number(&self, field: &str) -> f64 {
         self.numbers.iter().find(|(name, _)| name == field).map_or(f64::NAN, |(_, value)| *value)
+    }
+}
+
+impl Section {
+    /// A word by the name of its field.
+    pub fn word(&self, field: &str) -> Option<&str> {
+        self.words.iter().find(|(name, _)| name == field).map(|(_, word)| &word[..])
     }
 }
 
@@ -260,18 +269,31 @@ impl Direction {
     }
 }
 
-/// NO DISPLACEMENT.
+/// What of a node is held, driven or loaded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Its position, by forces.
+    Position,
+    /// Its rotation, by moments.
+    Rotation,
+}
+
+/// NO DISPLACEMENT and NO ROTATION.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoDisplacement {
+    /// Position or rotation.
+    pub of: Unknown,
     /// Direction held.
     pub direction: Direction,
     /// Node set number.
     pub node_set: i64,
 }
 
-/// PRESCRIBED DISPLACEMENT, VELOCITY or ACCELERATION.
+/// PRESCRIBED DISPLACEMENT, VELOCITY, ACCELERATION, ROTATION or ANGULAR VELOCITY.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrescribedMotion {
+    /// Position or rotation.
+    pub of: Unknown,
     /// Which derivative of the position is given.
     pub kind: MotionKind,
     /// Direction of the motion.
@@ -295,9 +317,11 @@ pub enum MotionKind {
     Acceleration,
 }
 
-/// PRESCRIBED FORCE on every node of a set.
+/// PRESCRIBED FORCE or PRESCRIBED MOMENT on every node of a set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrescribedForce {
+    /// Position, for a force, or rotation, for a moment.
+    pub of: Unknown,
     /// Direction of the force.
     pub direction: Direction,
     /// Node set number.
@@ -306,6 +330,17 @@ pub struct PrescribedForce {
     pub function: usize,
     /// Factor on the function.
     pub scale: f64,
+}
+
+/// POINT MASS at every node of a set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointMass {
+    /// Node set number.
+    pub node_set: i64,
+    /// Mass per node.
+    pub mass: f64,
+    /// Rotary inertia per node, the same about all axes.
+    pub inertia: f64,
 }
 
 /// PRESSURE on the deformed faces of a side set; positive pushes on the face.
@@ -395,6 +430,8 @@ pub struct Death {
     pub value: f64,
     /// Whether nodes that lose their last element go on as free masses.
     pub keeps_nodes: bool,
+    /// Part of the points of integration that must have passed the value before an element with several of them goes.
+    pub share: f64,
 }
 
 /// What DEATH watches.
@@ -489,6 +526,10 @@ fields! {
         Mass = "MASS", ["NODMASS"], "lumped nodal mass";
         /// contact
         Contact = "CONTACT", ["CONTX", "CONTY", "CONTZ", "CONTGAP", "CONTSTAT", "CONTFACE"], "contact force, of rigid surfaces too; overlap that is closed in the coming step; 0 free, 1 pushed, 2 pushed as a node on a face; element of that face";
+        /// angle
+        Rotation = "ROTATION", ["ROTX", "ROTY", "ROTZ"], "integral of the rotation rate of a node of shells or beams, radians";
+        /// rotation rate
+        RotationRate = "ROTATION RATE", ["ROTVELX", "ROTVELY", "ROTVELZ"], "rotation rate of a node of shells or beams, radians/time";
         /// home
         ContactRank = "CONTACT RANK", ["CONTRANK"], "rank that computes the contact of a node, −1 where there is none";
     }
@@ -523,9 +564,20 @@ fields! {
         BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
         /// corner Jacobian
         Corners = "CORNERS", ["CORNER"], "least Jacobian of the corners over the mean one: 1 in a parallelepiped, 0 or less where a corner is inside out";
+        /// thickness
+        Thickness = "THICKNESS", ["THICKNESS"], "present thickness of shells, length";
+        /// resultants
+        Resultants = "RESULTANTS", ["NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"], "forces and moments of shells per length, in the frame of the element";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank
         Rank = "RANK", ["RANK"], "rank that computes the element";
+    }
+}
+
+impl ElementField {
+    /// Whether it differs between the points of integration of an element, and is plotted at some of them.
+    pub fn of_points(self) -> bool {
+        matches!(self, ElementField::Stress | ElementField::Pressure | ElementField::VonMises)
     }
 }

@@ -136,6 +136,7 @@ impl Default for Model {
             sections: Vec::new(),
             no_displacements: Vec::new(),
             prescribed_motions: Vec::new(),
+            point_masses: Vec::new(),
             prescribed_forces: Vec::new(),
             pressures: Vec::new(),
             gravities: Vec::new(),

@@ -19,7 +19,7 @@ impl Collector {
     /// Learns where every rank's values go.
     pub fn new(solver: &Solver, nodes: usize, elements: usize, comm: &mut dyn Communicator) -> Collector {
         let own = &solver.domain.nodes;
-        let owned = own.file.iter().zip(&own.owned).filter(|(_, owned)| **owned).map(|(file, _)| *file);
+        let owned = own.file[..own.places].iter().zip(&own.owned).filter(|(_, owned)| **owned).map(|(file, _)| *file);
         let node_places = comm.gather(pack_integers(owned));
         let element_places = comm.gather(pack_integers(solver.domain.element_file.iter().copied()));
         let ranks = node_places.unwrap_or_default().into_iter().zip(element_places.unwrap_or_default());

@@ -4,8 +4,9 @@ use super::plane;
 use crate::comm::Communicator;
 use crate::mesh::Dimension;
 use crate::model::{ElementField, Model, NodalField};
-use crate::solver::elements::fields::{field_values, state_values};
+use crate::solver::elements::fields::{field_values, point_state, point_values, state_values};
 use crate::solver::elements::{ElementBlock, Group};
+use crate::solver::nodes::Nodes;
 use crate::solver::{Solver, Totals};
 
 /// Global variables of the plot file with their meaning.
@@ -63,23 +64,34 @@ pub struct FieldList {
     element: Vec<ElementField>,
     state: Vec<String>,
     dimension: Dimension,
+    /// Whether there are elements in layers, whose values are listed at bottom, middle and top too.
+    layered: bool,
 }
+
+/// What the names of values at the bottom, in the middle and at the top of layered elements end in.
+const LAYERS: [&str; 3] = ["B", "M", "T"];
 
 impl FieldList {
     /// What the model asks for.
-    pub fn new(model: &Model) -> FieldList {
+    pub fn new(model: &Model, solver: &Solver) -> FieldList {
         let requests = &model.plot_requests;
         FieldList {
             nodal: requests.nodal.clone(),
             element: requests.element.clone(),
             state: requests.state.clone(),
             dimension: model.analysis.dimension(),
+            layered: solver.domain.layered.contains(&true),
         }
     }
 
     /// Element variables and state variables.
-    pub(super) fn of_elements(element: Vec<ElementField>, state: Vec<String>, dimension: Dimension) -> FieldList {
-        FieldList { nodal: Vec::new(), element, state, dimension }
+    pub(super) fn of_element(
+        element: Vec<ElementField>,
+        state: Vec<String>,
+        dimension: Dimension,
+        layered: bool,
+    ) -> FieldList {
+        FieldList { nodal: Vec::new(), element, state, dimension, layered }
     }
 
     /// Those components, given by their names, that are in the files, and their places among all.
@@ -96,7 +108,16 @@ impl FieldList {
     /// Names of the element variables.
     pub fn element_names(&self) -> Vec<String> {
         let fields = self.element.iter().flat_map(|f| self.shown(f.components())).map(|(_, c)| c.to_string());
-        fields.chain(self.state.iter().cloned()).collect()
+        let mut names: Vec<String> = fields.chain(self.state.iter().cloned()).collect();
+        for layer in LAYERS.iter().filter(|_| self.layered) {
+            let fields = self.fields_of_points().flat_map(|f| f.components()).map(|c| c.to_string());
+            names.extend(fields.chain(self.state.iter().cloned()).map(|name| format!("{name}_{layer}")));
+        }
+        names
+    }
+
+    fn fields_of_points(&self) -> impl Iterator<Item = ElementField> + '_ {
+        self.element.iter().copied().filter(|field| field.of_points())
     }
 
     /// Nodal values of the owned nodes of a rank, variable by variable. All ranks call it.
@@ -106,10 +127,16 @@ impl FieldList {
         }
         let solver = &*solver;
         let nodes = &solver.domain.nodes;
-        let owned: Vec<u32> = (0..nodes.len() as u32).filter(|&n| nodes.owned[n as usize]).collect();
+        let owned: Vec<u32> = (0..nodes.places as u32).filter(|&n| nodes.owned[n as usize]).collect();
         let wanted = |field: NodalField| self.nodal.contains(&field);
         let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
         let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
+        let turned = if wanted(NodalField::Rotation) { rotations(solver, Nodes::position) } else { Vec::new() };
+        let rates = if wanted(NodalField::RotationRate) {
+            rotations(solver, |_, rotation| solver.velocity_now(rotation))
+        } else {
+            Vec::new()
+        };
         let owner_ranks = if wanted(NodalField::ContactRank) { contact_ranks(solver) } else { Vec::new() };
         let mut values = Vec::new();
         for field in &self.nodal {
@@ -121,6 +148,8 @@ impl FieldList {
                 let components: &[f64] = match field {
                     NodalField::Reaction => &reactions[node as usize],
                     NodalField::Contact => &contact[node as usize],
+                    NodalField::Rotation => &turned[node as usize],
+                    NodalField::RotationRate => &rates[node as usize],
                     NodalField::ContactRank => &owner_ranks[node as usize..=node as usize],
                     _ => &vector,
                 };
@@ -177,6 +206,26 @@ impl FieldList {
             let value = |name: &String| names.iter().position(|v| v.name == *name).map_or(0.0, |k| state[k]);
             out.extend(self.state.iter().map(value));
         }
+        if self.layered {
+            self.layers(block, group, i, &solver.domain.nodes, out);
+        }
+    }
+
+    /// Values at the bottom, in the middle and at the top of an element; zeros of one without layers.
+    fn layers(&self, block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes, out: &mut Vec<f64>) {
+        let Some(layers) = block.element.layers() else {
+            return out.resize(self.element_names().len(), 0.0);
+        };
+        let names = block.law.entry().state;
+        for [a, b] in layers {
+            for field in self.fields_of_points() {
+                let [a, b] = [a, b].map(|point| point_values(field, block, group, i, point, nodes));
+                out.extend((0..field.components().len()).map(|c| 0.5 * (a[c] + b[c])));
+            }
+            let [a, b] = [a, b].map(|point| point_state(block, group, i, point, nodes));
+            let value = |name: &String| names.iter().position(|v| v.name == *name).map_or(0.0, |k| 0.5 * (a[k] + b[k]));
+            out.extend(self.state.iter().map(value));
+        }
     }
 }
 
@@ -189,10 +238,18 @@ fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
         }
         NodalField::Velocity => solver.velocity_now(node),
         NodalField::Acceleration => nodes.acceleration(node),
-        NodalField::Mass | NodalField::Reaction | NodalField::Contact | NodalField::ContactRank => {
-            [nodes.mass(node), 0.0, 0.0]
-        }
+        _ => [nodes.mass(node), 0.0, 0.0],
     }
+}
+
+/// A vector of the rotation of each local node, zero of nodes that do not turn.
+fn rotations(solver: &Solver, vector: impl Fn(&Nodes, u32) -> [f64; 3]) -> Vec<[f64; 3]> {
+    let nodes = &solver.domain.nodes;
+    let mut values = vec![[0.0; 3]; nodes.len()];
+    for &(node, rotation) in &solver.domain.rotations {
+        values[node as usize] = vector(nodes, rotation);
+    }
+    values
 }
 
 /// Rank that computes the contact of each local node, −1 where there is none.

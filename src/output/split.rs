@@ -41,6 +41,7 @@ enum Origin {
 impl Split {
     /// Cuts a rank's piece out of the mesh. All ranks call it.
     pub fn new(mesh: &Mesh, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Split {
+        let share = &share.of_nodes(mesh.coordinates.len());
         let mut nodes = share.nodes.clone();
         if share.rank == 0 {
             nodes.extend(unreferenced_nodes(mesh));

@@ -31,6 +31,8 @@ impl<'a> Contributors<'a> {
 pub struct Decomposition<'a> {
     groups: &'a [Contributors<'a>],
     node_count: usize,
+    /// Number of the first rotation: local numbers of rotations come behind those of all nodes.
+    first_rotation: usize,
     /// `members[group][rank]`: the contributors that a rank computes, ascending.
     members: Vec<Vec<Vec<u32>>>,
     /// Nodes with contributions from several ranks, ascending.
@@ -57,7 +59,7 @@ pub struct Share {
     pub rank: usize,
     /// This rank's contributors, in the groups of the decomposition.
     pub groups: Vec<LocalGroup>,
-    /// Mesh node numbers of the local nodes, which are numbered in the order of their first use.
+    /// Mesh node numbers of the local nodes, which are numbered in the order of their first use; behind them rotations.
     pub nodes: Vec<u32>,
     /// Whether this rank, the lowest of the node's sharers, answers for the node in output and sums over nodes.
     pub owned: Vec<bool>,
@@ -120,6 +122,12 @@ impl<'a> Decomposition<'a> {
     /// Finds the shared nodes among `node_count` nodes, computed by `ranks` ranks. All node and rank numbers in
     /// `groups` must be below these. The groups come in canonical order.
     pub fn new(groups: &'a [Contributors<'a>], node_count: usize, ranks: usize) -> Self {
+        Self::with_rotations(groups, [node_count, 0], ranks)
+    }
+
+    /// The same with so many nodes, and rotations that are numbered behind them.
+    pub fn with_rotations(groups: &'a [Contributors<'a>], [nodes, rotations]: [usize; 2], ranks: usize) -> Self {
+        let node_count = nodes + rotations;
         let members = groups.iter().map(|group| members_by_rank(group, ranks)).collect();
         let shared_nodes = find_shared_nodes(groups, node_count);
         let (first, corners) = collect_corners(groups, node_count, ranks, &shared_nodes);
@@ -129,12 +137,15 @@ impl<'a> Decomposition<'a> {
                 shared_by[rank as usize].push(position);
             }
         }
-        Self { groups, node_count, members, shared_nodes, first, corners, shared_by }
+        Self { groups, node_count, first_rotation: nodes, members, shared_nodes, first, corners, shared_by }
     }
 
     /// The share of one rank, in O(size of the share).
     pub fn share(&self, rank: usize) -> Share {
         let mut local = LocalNumbers::new(self.node_count);
+        if self.first_rotation < self.node_count {
+            self.number_nodes(rank, &mut local);
+        }
         let mut first_slot = 0;
         let mut groups = Vec::new();
         for (group, members) in self.groups.iter().zip(&self.members) {
@@ -165,6 +176,14 @@ impl<'a> Decomposition<'a> {
         share
     }
 
+    /// Numbers the nodes of a rank's share in the order of their first use, without rotations.
+    fn number_nodes(&self, rank: usize, local: &mut LocalNumbers) {
+        for (group, members) in self.groups.iter().zip(&self.members) {
+            let nodes = members[rank].iter().flat_map(|&member| &group.nodes[member as usize]);
+            nodes.filter(|&&node| (node as usize) < self.first_rotation).for_each(|&node| _ = local.number(node));
+        }
+    }
+
     /// The contributions to a shared node.
     fn corners_of(&self, position: u32) -> &[Corner] {
         &self.corners[self.first[position as usize]..self.first[position as usize + 1]]
@@ -187,6 +206,16 @@ impl<'a> Decomposition<'a> {
 }
 
 impl Share {
+    /// The share without what is numbered from `count` on: without rotations, of a mesh with so many nodes.
+    pub fn of_nodes(&self, count: usize) -> Share {
+        let own = self.nodes.partition_point(|&node| (node as usize) < count);
+        let mut share = self.clone();
+        share.nodes.truncate(own);
+        share.owned.truncate(own);
+        share.sums.retain(|sum| (sum.node as usize) < own);
+        share
+    }
+
     /// Buffers for an exchange of `width` numbers per contribution.
     pub fn peers(&self, width: usize) -> Vec<Peer> {
         let peer = |neighbour: &Neighbour| Peer {

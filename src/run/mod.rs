@@ -245,7 +245,7 @@ struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
-        let fields = FieldList::new(job.model);
+        let fields = FieldList::new(job.model, solver);
         let mut globals: Vec<String> = global_names(job.mesh.dimension).map(String::from).collect();
         if job.model.plot_requests.block_energies {
             globals.extend(block_energy_names(job.mesh));
@@ -256,7 +256,7 @@ impl<'a> Writer<'a> {
             fields,
             names,
             log: None,
-            watched: HistoryPlan::new(job.mesh, job.model),
+            watched: HistoryPlan::new(job.mesh, job.model, solver),
             histories: None,
             restarts: RestartFiles::new(job, solver),
             files: job.files,

@@ -10,7 +10,6 @@ pub use table::{Row, csv, rows, text};
 use crate::comm::{Communicator, Count, Counted, Counts, RankFailure, Traffic, run_threads};
 use crate::mesh::Mesh;
 use crate::model::Model;
-use crate::partition::Decomposition;
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Request, Solver, Stop};
 
@@ -67,7 +66,7 @@ pub fn count(
 ) -> Result<Case, Box<RankFailure<Stop>>> {
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
-    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
+    let decomposition = body.decomposition(&contributors, ranks);
     let work = run_threads(ranks, |inner| {
         let comm = &mut Counted::on_nodes(inner, ranks_of_node);
         let mut solver = Solver::new(mesh, model, body, &decomposition.share(comm.rank()), comm);

@@ -3,11 +3,12 @@
 //! The canonical order depends on mesh and model only, never on the decomposition. Every sum over elements at a
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
-use crate::mesh::{Connectivity, Mesh, Shape};
+use crate::mesh::{Block, Connectivity, Mesh, Shape};
 use crate::model::Model;
-use crate::partition::{Contributors, rcb, space_filling_order};
+use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
 use crate::solver::contact::{self, Overlap};
 use crate::solver::elements::{Element, Sample};
+use crate::solver::rotations::Rotations;
 use crate::vector::add;
 use std::sync::Arc;
 
@@ -19,13 +20,17 @@ pub struct Body {
     pub element_block: Arc<Vec<u32>>,
     /// Nodes of each element, in canonical order.
     pub element_nodes: Arc<Connectivity>,
+    /// The same with the rotations of those that have them behind their nodes: all that elements give forces to.
+    pub element_unknowns: Arc<Connectivity>,
+    /// Rotations of the nodes that can turn.
+    pub rotations: Rotations,
     /// Element masses, in canonical order.
     pub element_mass: Vec<f64>,
     /// What computes the elements of each mesh block.
     pub elements: Vec<Element>,
     /// File position of the first element of each mesh block.
     first: Vec<u32>,
-    /// Lumped nodal masses, in file order.
+    /// Lumped nodal masses, in file order, and rotary inertias of the rotations behind them.
     pub node_mass: Vec<f64>,
     /// Initial positions, lengths, in file order; those of the mesh unless contact surfaces overlapped there.
     pub positions: Arc<Vec<[f64; 3]>>,
@@ -56,6 +61,11 @@ pub struct NoMaterial {
     pub block: i64,
 }
 
+/// The element that computes a block.
+fn element(block: &Block, model: &Model) -> Element {
+    Element::of_block(block, model).expect("`model::check` has seen to it")
+}
+
 /// Mean of an element's corners.
 pub fn centroid(corners: &[[f64; 3]]) -> [f64; 3] {
     let sum = corners.iter().fold([0.0; 3], |sum, corner| add(sum, *corner));
@@ -81,10 +91,20 @@ impl Body {
         }
     }
 
+    /// The body cut into shares.
+    pub fn decomposition<'a>(&self, contributors: &'a [Contributors<'a>], ranks: usize) -> Decomposition<'a> {
+        Decomposition::with_rotations(contributors, [self.positions.len(), self.rotations.len()], ranks)
+    }
+
+    /// Position of a node; of a rotation, which has none, that of a node that has not turned.
+    pub fn start_of(&self, unknown: u32) -> [f64; 3] {
+        self.positions.get(unknown as usize).copied().unwrap_or_default()
+    }
+
     /// Everything that contributes forces to nodes, in canonical order: elements, then loaded faces.
     pub fn contributors<'a>(&'a self, cut: &'a Cut) -> [Contributors<'a>; 2] {
         [
-            Contributors { nodes: &self.element_nodes, ranks: &cut.element_ranks },
+            Contributors { nodes: &self.element_unknowns, ranks: &cut.element_ranks },
             Contributors { nodes: &cut.face_nodes, ranks: &cut.face_ranks },
         ]
     }
@@ -100,6 +120,8 @@ impl Body {
             element_order: Arc::default(),
             element_block: Arc::default(),
             element_nodes: Arc::default(),
+            element_unknowns: Arc::default(),
+            rotations: Rotations::default(),
             element_mass: Vec::with_capacity(mesh.element_count()),
             elements: Vec::new(),
             first: Vec::new(),
@@ -156,29 +178,58 @@ impl Body {
         }
         (self.element_order, self.element_block) = (Arc::new(order), Arc::new(blocks));
         self.element_nodes = Arc::new(elements);
+        self.take_rotations(mesh, model);
         self.weigh(mesh, model);
+    }
+
+    /// Finds the nodes that can turn, and numbers their rotations.
+    fn take_rotations(&mut self, mesh: &Mesh, model: &Model) {
+        let turns: Vec<bool> = mesh.blocks.iter().map(|block| element(block, model).entry().rotations).collect();
+        let blocks = mesh.blocks.iter().zip(&turns).filter(|(_, turns)| **turns);
+        let mut turning: Vec<u32> = blocks.flat_map(|(block, _)| &block.nodes).copied().collect();
+        turning.sort_unstable();
+        turning.dedup();
+        self.rotations = Rotations::new(mesh.coordinates.len(), turning);
+        let of_block = |element: usize| turns[self.element_block[element] as usize];
+        self.element_unknowns = self.rotations.extended(&self.element_nodes, of_block);
+        self.node_mass.resize(self.rotations.unknowns(), 0.0);
     }
 
     /// Masses of elements and nodes from the positions as they are.
     fn weigh(&mut self, mesh: &Mesh, model: &Model) {
         self.node_mass.fill(0.0);
         self.element_mass.clear();
-        let of_block = |block| Element::of_block(block, model).expect("`model::check` has seen to it");
-        self.elements = mesh.blocks.iter().map(of_block).collect();
+        self.elements = mesh.blocks.iter().map(|block| element(block, model)).collect();
         let (mut corners, mut shares) = (Vec::new(), Vec::new());
         for element in 0..self.element_nodes.len() {
             let nodes = &self.element_nodes[element];
             let block = self.element_block[element] as usize;
             corners.clear();
             corners.extend(nodes.iter().map(|&node| self.positions[node as usize]));
-            shares.resize(nodes.len(), 0.0);
+            let unknowns = &self.element_unknowns[element];
+            shares.resize(unknowns.len(), 0.0);
             let attributes = mesh.blocks[block].attributes_of(self.place_in_block(element));
             let sample = Sample { nodes, corners: &corners, attributes };
             let density = model.materials[self.block_material[block]].density;
             let mass = self.elements[block].weigh(&sample, density, &mut shares);
             self.element_mass.push(mass);
-            for (&node, share) in nodes.iter().zip(&shares) {
+            for (&node, share) in unknowns.iter().zip(&shares) {
                 self.node_mass[node as usize] += mass * share;
+            }
+        }
+        self.add_point_masses(mesh, model);
+    }
+
+    /// Adds the masses that the deck gives nodes. One that belongs to no element has no part in the motion, with or without.
+    fn add_point_masses(&mut self, mesh: &Mesh, model: &Model) {
+        for point in &model.point_masses {
+            for &node in mesh.node_set(point.node_set).map_or(&[][..], |set| &set.nodes) {
+                if self.node_mass[node as usize] > 0.0 {
+                    self.node_mass[node as usize] += point.mass;
+                }
+                if let Some(rotation) = self.rotations.of(node) {
+                    self.node_mass[rotation as usize] += point.inertia;
+                }
             }
         }
     }

@@ -8,11 +8,12 @@ use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
+use super::rotations::Rotations;
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::{Block, Mesh};
-use crate::model::{Analysis, InitialVelocity, Model};
+use crate::model::{Analysis, InitialVelocity, Model, Unknown};
 use crate::partition::Share;
 
 /// Everything a rank owns.
@@ -27,10 +28,17 @@ pub struct Domain {
     pub element_id: Vec<i64>,
     /// Canonical number of each local element in the whole body.
     pub element_canonical: Vec<u32>,
-    /// Names of the state variables that the laws of the whole model store, ascending; the same on all ranks.
+    /// Names of the state variables that the laws of the whole model store in elements with one point, ascending; the same on
+    /// all ranks.
     pub law_states: Vec<&'static str>,
     /// Names of what the elements of the whole model store beside that, in the elements' order; the same on all ranks.
     pub element_rows: Vec<&'static str>,
+    /// Names of what points of integration store, of elements that have several; the same on all ranks.
+    pub point_rows: Vec<String>,
+    /// Local nodes that can turn, with the numbers of their rotations, ascending.
+    pub rotations: Vec<(u32, u32)>,
+    /// Of each block of the mesh, whether its elements have points of integration in layers; the same on all ranks.
+    pub layered: Vec<bool>,
     /// Faces under pressure.
     pub pressure_faces: PressureFaces,
     /// All other loads, in the order in which they act.
@@ -60,13 +68,39 @@ pub fn state_names(law: &Law) -> &'static [&'static str] {
     law.accept(StateNames)
 }
 
-/// Names of all state variables that the model's laws store, ascending.
-fn law_states(model: &Model) -> Vec<&'static str> {
-    let mut names: Vec<&str> =
-        model.materials.iter().flat_map(|material| state_names(&material.law)).copied().collect();
+/// Names of all state variables that the model's laws store in elements with one point, ascending.
+fn law_states(mesh: &Mesh, model: &Model, body: &Body) -> Vec<&'static str> {
+    let of_points = |block: i64| {
+        let index = mesh.block_index(block);
+        index.is_some_and(|index| body.elements[index].entry().points.is_some())
+    };
+    let materials = model.materials.iter().filter(|material| !of_points(material.block));
+    let mut names: Vec<&str> = materials.flat_map(|material| state_names(&material.law)).copied().collect();
     names.sort_unstable();
     names.dedup();
     names
+}
+
+/// Names of all that the points of integration of a body's elements store, where these have several: each once, with the
+/// number of the point behind it.
+fn point_rows(model: &Model, body: &Body) -> Vec<String> {
+    let mut names = Vec::new();
+    for (element, &material) in body.elements.iter().zip(&body.block_material) {
+        let Some(entry) = &element.entry().points else { continue };
+        let own = entry.rows.iter().map(|row| row.name);
+        let all: Vec<&str> = own.chain(state_names(&model.materials[material].law).iter().copied()).collect();
+        for point in 0..element.points() {
+            names.extend(all.iter().map(|name| point_name(name, point)));
+        }
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    names
+}
+
+/// Name of what a point of integration stores.
+pub(super) fn point_name(name: &str, point: usize) -> String {
+    format!("{name}.{}", point + 1)
 }
 
 /// Names of all that the elements of a body store, each once, in the order in which its blocks come.
@@ -83,7 +117,7 @@ fn element_rows(body: &Body) -> Vec<&'static str> {
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
-        let local = local_numbers(body.positions.len(), &share.nodes);
+        let local = local_numbers(body.rotations.unknowns(), &share.nodes);
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
         let mut domain = Domain {
@@ -92,8 +126,11 @@ impl Domain {
             element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
             element_file,
             element_canonical: elements.clone(),
-            law_states: law_states(model),
+            law_states: law_states(mesh, model, body),
             element_rows: element_rows(body),
+            point_rows: point_rows(model, body),
+            rotations: rotations(body, share, &local),
+            layered: body.elements.iter().map(|element| element.layers().is_some()).collect(),
             pressure_faces: pressure_faces(model, body, share, &local),
             loads: Vec::new(),
             constraints: Vec::new(),
@@ -104,7 +141,7 @@ impl Domain {
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
         domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
-        let held = domain.set_constraints(mesh, model, &local);
+        let held = domain.set_constraints(mesh, model, body, &local);
         domain.contact =
             Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
@@ -118,16 +155,16 @@ impl Domain {
     }
 
     /// Returns which constraint takes each direction of each node, [`ABSENT`] where none does.
-    fn set_constraints(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) -> Vec<[u32; 3]> {
-        let still = model.no_displacements.iter().map(|c| (c.node_set, c.direction, None));
+    fn set_constraints(&mut self, mesh: &Mesh, model: &Model, body: &Body, local: &[u32]) -> Vec<[u32; 3]> {
+        let still = model.no_displacements.iter().map(|c| (c.node_set, (c.of, c.direction), None));
         let moving = model.prescribed_motions.iter().map(|m| {
             let motion = Motion { kind: m.kind, function: m.function, scale: m.scale };
-            (m.node_set, m.direction, Some(motion))
+            (m.node_set, (m.of, m.direction), Some(motion))
         });
         let mut taken = vec![[ABSENT; 3]; self.nodes.len()];
-        for (set, direction, motion) in still.chain(moving) {
+        for (set, (of, direction), motion) in still.chain(moving) {
             let axis = direction.axis();
-            for node in nodes_of_set(mesh, set, local) {
+            for node in unknowns_of_set(mesh, set, of, &body.rotations, local) {
                 // Sets overlap; a node is held once in each direction, the first command counts.
                 if taken[node as usize][axis] == ABSENT {
                     taken[node as usize][axis] = self.constraints.len() as u32;
@@ -182,6 +219,10 @@ impl Domain {
                     for node in nodes_of_block(mesh, block, local) {
                         let arm = subtract(self.nodes.position(node), point);
                         self.set_velocity(node, add(self.nodes.velocity(node), cross(spin, arm)));
+                        if let Ok(place) = self.rotations.binary_search_by_key(&node, |(node, _)| *node) {
+                            let rotation = self.rotations[place].1;
+                            self.set_velocity(rotation, add(self.nodes.velocity(rotation), spin));
+                        }
                     }
                 }
             }
@@ -214,6 +255,22 @@ pub(super) fn nodes_of_set<'a>(mesh: &'a Mesh, set: i64, local: &'a [u32]) -> im
     nodes.iter().map(|&n| local[n as usize]).filter(|&n| n != ABSENT)
 }
 
+/// The same of the nodes themselves or of their rotations, where they have any.
+pub(super) fn unknowns_of_set<'a>(
+    mesh: &'a Mesh,
+    set: i64,
+    of: Unknown,
+    rotations: &'a Rotations,
+    local: &'a [u32],
+) -> impl Iterator<Item = u32> + 'a {
+    let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
+    let number = move |node: u32| match of {
+        Unknown::Position => Some(node),
+        Unknown::Rotation => rotations.of(node),
+    };
+    nodes.iter().filter_map(move |&node| number(node)).map(|n| local[n as usize]).filter(|&n| n != ABSENT)
+}
+
 /// Local nodes of a block, each once, ascending.
 fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     let Some(index) = mesh.block_index(block) else { return Vec::new() };
@@ -224,15 +281,26 @@ fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     nodes
 }
 
+/// The local nodes that can turn, with their rotations.
+fn rotations(body: &Body, share: &Share, local: &[u32]) -> Vec<(u32, u32)> {
+    let of = |(here, &file): (usize, &u32)| Some((here as u32, local[body.rotations.of(file)? as usize]));
+    share.nodes.iter().enumerate().filter_map(of).filter(|(_, rotation)| *rotation != ABSENT).collect()
+}
+
 fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
     let row = |&file: &u32| {
-        let ([x, y, z], m) = (body.positions[file as usize], body.node_mass[file as usize]);
+        let ([x, y, z], m) = (body.start_of(file), body.node_mass[file as usize]);
         Row([x, y, z, m, 0.0, 0.0, 0.0, 1.0 / m])
     };
     Nodes {
         rows: share.nodes.iter().map(row).collect(),
         forces: vec![Default::default(); share.nodes.len()],
-        initial: share.nodes.iter().map(|&file| mesh.coordinates[file as usize]).collect(),
+        initial: share
+            .nodes
+            .iter()
+            .map(|&file| mesh.coordinates.get(file as usize).copied().unwrap_or_default())
+            .collect(),
+        places: share.nodes.partition_point(|&file| (file as usize) < mesh.coordinates.len()),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
     }
@@ -275,7 +343,7 @@ fn new_element(place: u32, block: &Block, body: &Body, share: &Share, local: &[u
     let nodes = &body.element_nodes[element];
     NewElement {
         place,
-        nodes: nodes.iter().map(|&n| local[n as usize]).collect(),
+        nodes: body.element_unknowns[element].iter().map(|&n| local[n as usize]).collect(),
         corners: nodes.iter().map(|&n| body.positions[n as usize]).collect(),
         mass: body.element_mass[element],
         attributes: block.attributes_of(body.place_in_block(element)).to_vec(),

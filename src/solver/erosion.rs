@@ -4,6 +4,7 @@
 //! that nobody else has: it exerts no force and never sets the time step, so the kernels know nothing of death.
 
 mod delete;
+mod points;
 mod state;
 
 use super::Body;
@@ -28,13 +29,16 @@ pub struct Erosion {
     step_scale: f64,
     deletions: Deletions,
     element_order: Arc<Vec<u32>>,
-    element_nodes: Arc<Connectivity>,
+    /// Nodes of each element of the whole body, and the rotations of those that have them.
+    element_unknowns: Arc<Connectivity>,
     /// Local number of each node of the mesh.
     local: Vec<u32>,
     /// Whether a node of the mesh goes on when it has lost its elements: if any block around it wants that.
     keeps: Vec<bool>,
     /// Elements left at each local node, of all ranks.
     left: Vec<u32>,
+    /// Number of local nodes; behind them are rotations.
+    places: usize,
     /// First of the eight nodes of the stand-in.
     stand_in: u32,
     edge: f64,
@@ -51,7 +55,7 @@ impl Erosion {
             return None;
         }
         let mut left = vec![0; nodes.len()];
-        for &node in body.element_nodes.nodes().iter().filter(|&&node| local[node as usize] != ABSENT) {
+        for &node in body.element_unknowns.nodes().iter().filter(|&&node| local[node as usize] != ABSENT) {
             left[local[node as usize] as usize] += 1;
         }
         let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -70,10 +74,11 @@ impl Erosion {
             rules: model.deaths.clone(),
             step_scale: model.time_step.scale,
             element_order: body.element_order.clone(),
-            element_nodes: body.element_nodes.clone(),
+            element_unknowns: body.element_unknowns.clone(),
             local: local.to_vec(),
-            keeps: deletions.keeps(&body.element_nodes, body.positions.len()),
+            keeps: deletions.keeps(&body.element_unknowns, body.rotations.unknowns()),
             deletions,
+            places: nodes.places,
             left,
             stand_in,
             edge,
@@ -103,11 +108,15 @@ impl Erosion {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
             let stand_in = self.stand_in(block);
             for border in [true, false] {
+                let mut lost = Vec::new();
+                if block.element.entry().points.is_some() {
+                    lost = Erosion::lose_points(block, border, &rules, nodes);
+                }
                 let group = if border { &block.border } else { &block.interior };
                 let failed = if deleted.contains(&block.id) {
                     (0..group.len()).filter(|&i| group.is_alive(i)).collect()
                 } else {
-                    self.failing(&rules, block, group, nodes)
+                    self.failing(&rules, block, group, nodes, lost)
                 };
                 let ElementBlock { border: at_border, interior, element, .. } = block;
                 let group = if border { at_border } else { interior };
@@ -131,7 +140,7 @@ impl Erosion {
     /// Counts the elements that nodes lose, and drops free nodes where that is asked for.
     fn release(&mut self, dead: &[u32], nodes: &mut Nodes) {
         for &element in dead {
-            for &node in &self.element_nodes[element as usize] {
+            for &node in &self.element_unknowns[element as usize] {
                 let here = self.local[node as usize];
                 if here == ABSENT {
                     continue;
@@ -147,7 +156,7 @@ impl Erosion {
     /// The stand-in of a block's elements.
     fn stand_in(&self, block: &ElementBlock) -> StandIn {
         let own = block.element.entry().rows.len();
-        let mut numbers = vec![0.0; own + block.state_names.len()];
+        let mut numbers = vec![0.0; block.first_of_point(block.element.points())];
         let mass = block.element.stand_in(block.density, self.edge, &mut numbers[..own]);
         StandIn { nodes: [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| self.stand_in + corner), mass, numbers }
     }
@@ -159,7 +168,7 @@ impl Erosion {
 
     /// Local nodes that have lost all their elements and go on as free masses.
     pub fn free_nodes(&self) -> impl Iterator<Item = u32> + '_ {
-        (0u32..).zip(&self.left).filter(|(_, left)| **left == 0).map(|(node, _)| node)
+        (0u32..).zip(&self.left[..self.places]).filter(|(_, left)| **left == 0).map(|(node, _)| node)
     }
 
     /// Local number of each node of the mesh.
@@ -212,16 +221,18 @@ fn everyone(mut own: Vec<u32>, comm: &mut dyn Communicator) -> Vec<u32> {
 
 /// Watching.
 impl Erosion {
-    /// Elements that have passed the value of a rule, ascending. NaN has passed every value.
-    fn failing(&self, rules: &[&Death], block: &ElementBlock, group: &Group, nodes: &Nodes) -> Vec<usize> {
-        let mut failed = Vec::new();
-        for rule in rules {
+    /// Elements that have passed the value of a rule, with those of which so many points have, ascending.
+    fn failing(
+        &self,
+        rules: &[&Death],
+        block: &ElementBlock,
+        group: &Group,
+        nodes: &Nodes,
+        mut failed: Vec<usize>,
+    ) -> Vec<usize> {
+        for rule in rules.iter().filter(|rule| !points::is_of_points(rule, block)) {
             let value = self.watched(rule, block, group, nodes);
-            let passed = |value: f64| {
-                let beyond = if rule.is_maximum { value > rule.value } else { value <= rule.value };
-                value.is_nan() || beyond
-            };
-            let known_and_passed = |i: usize| value(i).is_some_and(passed);
+            let known_and_passed = |i: usize| value(i).is_some_and(|value| has_passed(rule, value));
             failed.extend((0..group.len()).filter(|&i| group.is_alive(i) && known_and_passed(i)));
         }
         failed.sort_unstable();
@@ -245,7 +256,7 @@ impl Erosion {
             }
             DeathVariable::TimeStep => Box::new(move |i| group.stable_step(i).map(|step| scale * step)),
             DeathVariable::State(name) => match block.state_names.iter().position(|stored| stored == name) {
-                Some(row) => Box::new(move |i| Some(group.value(i, block.first_of_law() + row))),
+                Some(row) => Box::new(move |i| Some(group.value(i, block.first_of_law(0) + row))),
                 None => Box::new(|i| Some(state(block, group, i, (nodes, name)))),
             },
             DeathVariable::Field(field, component) => {
@@ -253,6 +264,12 @@ impl Erosion {
             }
         }
     }
+}
+
+/// Whether a value has passed that of a rule; NaN has passed every value.
+fn has_passed(rule: &Death, value: f64) -> bool {
+    let beyond = if rule.is_maximum { value > rule.value } else { value <= rule.value };
+    value.is_nan() || beyond
 }
 
 /// A state variable of an element's law, by name; zero where the law has none of that name.

@@ -16,6 +16,7 @@ mod health;
 pub mod loads;
 pub mod nodes;
 mod remembered;
+mod rotations;
 mod state;
 mod stop;
 mod totals;
@@ -25,17 +26,19 @@ pub use clock::{Clock, Section};
 pub use domain::{Domain, state_names};
 pub use health::{Evidence, Finding, Spot};
 pub use remembered::Remembered;
+pub use rotations::Rotations;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
 
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
-use crate::mesh::Mesh;
-use crate::model::{Function, Model, TimeStepControl};
+use crate::mesh::{Mesh, Shape};
+use crate::model::{ContactMaterials, Function, Model, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
 use health::Watch;
+use std::collections::BTreeSet;
 
 /// One rank's solver.
 pub struct Solver {
@@ -96,7 +99,47 @@ impl Request {
 /// Why blocks of a mesh cannot be computed as the model has them, each with the number of the block.
 pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
     let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
-    mesh.blocks.iter().filter_map(unfit).collect()
+    mesh.blocks.iter().filter_map(unfit).chain(untouchable_blocks(mesh, model)).collect()
+}
+
+/// Blocks of surfaces that the model lets touch: contact does not know their thickness yet.
+fn untouchable_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let materials = model.contact.materials.as_ref();
+    let by_material = |id: i64| match materials {
+        Some(ContactMaterials::All) => true,
+        Some(ContactMaterials::Blocks(blocks)) => blocks.contains(&id),
+        None => false,
+    };
+    let sets = model.contact.surfaces.iter().flat_map(|surface| surface.side_sets);
+    let named: BTreeSet<u32> =
+        sets.filter_map(|set| mesh.side_set(set)).flat_map(|set| &set.sides).map(|(element, _)| *element).collect();
+    let mut first = 0;
+    let mut found = Vec::new();
+    for block in &mesh.blocks {
+        let own = first..first + block.len() as u32;
+        first = own.end;
+        if block.shape == Shape::Quadrilateral && (by_material(block.id) || named.range(own).next().is_some()) {
+            let reason = "shells take no part in contact between bodies yet".to_string();
+            let help = "name the blocks of solids in CONTACT MATERIAL; RIGID SURFACE holds for shells".to_string();
+            found.push((block.id, elements::Unfit { reason, help }));
+        }
+    }
+    found
+}
+
+/// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.
+pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
+    let turns = |block: &&crate::mesh::Block| {
+        elements::Element::of_block(block, model).is_ok_and(|element| element.entry().rotations)
+    };
+    let turning: BTreeSet<u32> = mesh.blocks.iter().filter(turns).flat_map(|block| &block.nodes).copied().collect();
+    let idle =
+        |set: &&i64| mesh.node_set(**set).is_some_and(|set| !set.nodes.iter().any(|node| turning.contains(node)));
+    let held = model.no_displacements.iter().map(|held| (held.of, held.node_set));
+    let driven = model.prescribed_motions.iter().map(|motion| (motion.of, motion.node_set));
+    let loaded = model.prescribed_forces.iter().map(|force| (force.of, force.node_set));
+    let all = held.chain(driven).chain(loaded).filter(|(of, _)| *of == Unknown::Rotation).map(|(_, set)| set);
+    all.collect::<BTreeSet<i64>>().iter().filter(idle).copied().collect()
 }
 
 impl Solver {
@@ -269,7 +312,7 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &mut exchange.slots[..];
         for block in blocks {
-            let (own, rest) = slots.split_at_mut(block.border.corner_count());
+            let (own, rest) = slots.split_at_mut(block.border.force_count());
             found = found.and(block.run(&nodes.rows, Sink::Apart(own), &self.pass));
             slots = rest;
         }
@@ -281,7 +324,7 @@ impl Solver {
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &exchange.slots[..];
         for block in blocks {
-            let (border, rest) = slots.split_at(block.border.corner_count());
+            let (border, rest) = slots.split_at(block.border.force_count());
             let sink = Sink::Nodes { forces: &mut nodes.forces, border };
             found = found.and(block.run(&nodes.rows, sink, &self.pass));
             slots = rest;

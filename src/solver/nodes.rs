@@ -4,15 +4,18 @@ use crate::lanes::{Force, Row};
 
 pub use crate::vector::{add, cross, dot, scaled, subtract};
 
-/// The nodes that a rank's elements use.
+/// The nodes that a rank's elements use; behind them the rotations of those that can turn, each like a node of its own: see
+/// [`Rotations`](super::Rotations).
 #[derive(Default)]
 pub struct Nodes {
-    /// `[x, y, z, m, vx, vy, vz, 1/m]` per node.
+    /// `[x, y, z, m, vx, vy, vz, 1/m]` per node; of a rotation the integral of its rate, rotary inertia and rate.
     pub rows: Vec<Row>,
-    /// Force sums; zero between steps.
+    /// Force sums, moments of rotations; zero between steps.
     pub forces: Vec<Force>,
     /// Positions in the mesh, lengths.
     pub initial: Vec<[f64; 3]>,
+    /// How many of them are nodes of the mesh: the first ones.
+    pub places: usize,
     /// Node of the mesh file.
     pub file: Vec<u32>,
     /// Whether this rank answers for the node: one rank does, of those that share it.
@@ -20,7 +23,7 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    /// Number of nodes.
+    /// Number of nodes, rotations and whatever else is behind them.
     pub fn len(&self) -> usize {
         self.rows.len()
     }

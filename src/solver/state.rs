@@ -11,6 +11,7 @@ use super::loads::{self, LOADS, Places};
 use super::nodes::Nodes;
 use super::{Domain, Solver};
 use crate::comm::Communicator;
+use crate::lanes::Row;
 use crate::restart::{Archive, Loader, Snapshot, TIME};
 
 impl Solver {
@@ -74,6 +75,7 @@ impl Domain {
             element_file,
             element_canonical,
             element_rows,
+            point_rows,
             law_states,
             pressure_faces,
             loads,
@@ -83,6 +85,8 @@ impl Domain {
             erosion,
             // Of the problem and its cut.
             element_id: _,
+            rotations: _,
+            layered: _,
             exchange: _,
         } = self;
         nodes.visit_state(archive);
@@ -90,7 +94,7 @@ impl Domain {
         if let Some(erosion) = erosion {
             dead = erosion.visit_state(archive, blocks, element_file, element_canonical);
         }
-        elements::visit(archive, blocks, [element_rows, law_states], element_file.len());
+        elements::visit(archive, blocks, [element_rows, law_states], point_rows, element_file.len());
         archive.heap("CARRIEDW", carried_work);
         let places = Places { nodes, elements: [element_file, element_canonical] };
         carried_work.extend(works::of_constraints(archive, constraints, &places));
@@ -114,12 +118,30 @@ impl Domain {
 impl Nodes {
     fn visit_state(&mut self, archive: &mut dyn Archive) {
         // Forces are zero between steps; the others are of the problem and its cut.
-        let Nodes { rows, forces: _, initial: _, file: _, owned: _ } = self;
+        let Nodes { rows, forces: _, initial: _, places, file, owned } = self;
         const NAMES: [&str; 8] = ["POSX", "POSY", "POSZ", "NODMASS", "VELX", "VELY", "VELZ", "INVMASS"];
         for (i, name) in NAMES.into_iter().enumerate() {
-            let mut values: Vec<f64> = rows.iter().map(|row| row.0[i]).collect();
+            let mut values: Vec<f64> = rows[..*places].iter().map(|row| row.0[i]).collect();
             archive.nodal(name, &mut values);
             rows.iter_mut().zip(values).for_each(|(row, value)| row.0[i] = value);
+        }
+        visit_rotations(archive, &mut rows[*places..], &file[*places..], &owned[*places..]);
+    }
+}
+
+/// Visits the rows of rotations by their numbers. They are a list of their own, which is empty where nothing turns.
+fn visit_rotations(archive: &mut dyn Archive, rows: &mut [Row], numbers: &[u32], owned: &[bool]) {
+    let own = rows.iter().zip(numbers).zip(owned).filter(|(_, owned)| **owned);
+    let mut list: Vec<f64> =
+        own.flat_map(|((row, &number), _)| std::iter::once(f64::from(number)).chain(row.0)).collect();
+    archive.list("ROTATION", 9, &mut list);
+    if !archive.loading() {
+        return;
+    }
+    let (list, _) = list.as_chunks::<9>();
+    for (row, &number) in rows.iter_mut().zip(numbers) {
+        if let Ok(found) = list.binary_search_by(|one| one[0].total_cmp(&f64::from(number))) {
+            row.0.copy_from_slice(&list[found][1..]);
         }
     }
 }

@@ -136,16 +136,18 @@ pub fn contact_gain(domain: &mut Domain, comm: &mut dyn Communicator) -> f64 {
 
 fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
     let nodes = &domain.nodes;
-    for ((row, force), owned) in nodes.rows.iter().zip(&nodes.forces).zip(&nodes.owned) {
+    for (i, ((row, force), owned)) in nodes.rows.iter().zip(&nodes.forces).zip(&nodes.owned).enumerate() {
         if !owned {
             continue;
         }
-        let r = &row.0;
+        let (r, turns) = (&row.0, i >= nodes.places);
         let mut product = 0.0;
         for i in 0..3 {
             let (before, after) = (r[4 + i], r[4 + i] + kick * (force.0[i] * r[7]));
             product += before * after;
-            sums[7 + i].add(0.5 * r[3] * (before + after));
+            if !turns {
+                sums[7 + i].add(0.5 * r[3] * (before + after));
+            }
         }
         sums[0].add(0.5 * r[3] * product);
     }

@@ -5,7 +5,6 @@ use urto::comm::{Communicator, run_threads};
 use urto::mesh::{Dimension, Mesh};
 use urto::model::Model;
 use urto::output::{Collector, FieldList, global_values, snapshot};
-use urto::partition::Decomposition;
 use urto::restart::Snapshot;
 use urto::solver::{Body, Request, Solver};
 
@@ -39,7 +38,7 @@ impl Case {
     pub fn part(&self, ranks: usize, from: Option<&Snapshot>, steps: usize) -> Part {
         let cut = self.body.cut(ranks);
         let contributors = self.body.contributors(&cut);
-        let decomposition = Decomposition::new(&contributors, self.mesh.coordinates.len(), ranks);
+        let decomposition = self.body.decomposition(&contributors, ranks);
         let parts = run_threads(ranks, |comm| {
             let share = decomposition.share(comm.rank());
             let mut solver = Solver::new(&self.mesh, &self.model, &self.body, &share, comm);
@@ -53,7 +52,7 @@ impl Case {
     }
 
     fn steps(&self, solver: &mut Solver, steps: usize, comm: &mut dyn Communicator) -> Result<Option<Part>, String> {
-        let fields = FieldList::new(&self.model);
+        let fields = FieldList::new(&self.model, solver);
         let collector = Collector::new(solver, self.mesh.coordinates.len(), self.mesh.element_count(), comm);
         let (mut way, mut shown) = (Vec::new(), Vec::new());
         for step in 0..steps {

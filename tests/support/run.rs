@@ -5,7 +5,6 @@ use urto::deck::Source;
 use urto::mesh::Mesh;
 use urto::model::{Model, examine};
 use urto::output::{Collector, FieldList, Schedule};
-use urto::partition::Decomposition;
 use urto::solver::{Body, Request, Solver, Stop, Totals};
 
 /// A finished run.
@@ -130,7 +129,7 @@ pub fn run_on(ranks: usize, deck: &str, mesh: &Mesh) -> Run {
     let body = Body::new(mesh, &model).expect("materials");
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
-    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
+    let decomposition = body.decomposition(&contributors, ranks);
     let results = run_threads(ranks, |comm| {
         let share = decomposition.share(comm.rank());
         let mut solver = Solver::new(mesh, &model, &body, &share, comm);
@@ -152,7 +151,7 @@ struct Record {
 
 /// The program's own step loop (`urto::run`) without its files.
 fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communicator) -> Record {
-    let fields = FieldList::new(model);
+    let fields = FieldList::new(model, solver);
     let collector = Collector::new(solver, mesh.coordinates.len(), mesh.element_count(), comm);
     let mut plots = Schedule::new(model.plot.start, model.plot.interval, model.plot.stop);
     let mut log = Schedule::new(0.0, Some(model.output_interval), f64::INFINITY);

@@ -6,11 +6,12 @@ use super::{Draft, Part, Place, Setter};
 use crate::{
     deck::{Card, Diagnostic},
     mesher::{
-        body::{Extent, Shape},
+        body::{Extent, Face, Shape},
         cylinder::Cylinder,
         hex_box::Hexahedron,
         line::Line,
         patch::{Disc, Patch, Ring},
+        sheet::Sheet,
         spacing::Spacing,
         sphere::{Sphere, SphereShell},
         tube::Tube,
@@ -29,6 +30,9 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("QUADRILATERAL", quadrilateral),
     ("DISC", disc),
     ("RING", ring),
+    ("SHEET", sheet),
+    ("SHEET TUBE", sheet_tube),
+    ("SHEET SPHERE", sheet_sphere),
 ];
 
 fn add(card: &Card, draft: &mut Draft, shape: impl Shape + 'static) {
@@ -74,6 +78,51 @@ fn line(card: &Card, draft: &mut Draft) {
         return draft.report(Diagnostic::error(message).at(card.record, "the two ends must be apart"));
     }
     add(card, draft, Line { ends, cells: count(card, "n") });
+}
+
+/// Thickness over radius of the solids whose outer faces round sheets are; the faces do not depend on it.
+const WALL: f64 = 0.1;
+
+fn sheet(card: &Card, draft: &mut Draft) {
+    let (corner, size) = (card.vector(["x", "y", "z"]), card.vector(["dx", "dy", "dz"]));
+    let flat: Vec<usize> = (0..3).filter(|&axis| size[axis] == 0.0).collect();
+    let &[across] = &flat[..] else {
+        let place = card.place("dx").join(card.place("dz"));
+        return draft.report(
+            Diagnostic::error("SHEET: one of its three sizes must be 0, and the others not")
+                .at(place, "sizes along x, y and z")
+                .help("a sheet lies across x, y or z; ROTATE turns it"),
+        );
+    };
+    let mut cells = [Spacing { cells: 1, grading: 1.0 }; 3];
+    let along = (0..3).filter(|&axis| axis != across);
+    along.zip([("n1", "g1"), ("n2", "g2")]).for_each(|(axis, (n, g))| cells[axis] = spacing(card, n, g));
+    let face = [Face::Right, Face::Back, Face::Top][across];
+    add(card, draft, Sheet { solid: Hexahedron::right_angled(corner, size, cells), face });
+}
+
+fn sheet_tube(card: &Card, draft: &mut Draft) {
+    let (outer, around) = (card.number("radius"), count(card, "around"));
+    let extent = Extent::from_word(card.text("model"));
+    let through = Spacing { cells: 1, grading: 1.0 };
+    let inner = outer * (1.0 - WALL);
+    let along = spacing(card, "nz", "gz");
+    let least = [1, 1, 2, 0, 3][extent.quadrants()];
+    if around < least {
+        let message = format!("SHEET TUBE: {around} cells around are not enough; it needs {least}");
+        return draft
+            .report(Diagnostic::error(message).at(card.place("around"), "cells around the part that is modelled"));
+    }
+    let solid = Tube { inner, outer, length: card.number("length"), through, around, along, extent };
+    add(card, draft, Sheet { solid, face: Face::Outer });
+}
+
+fn sheet_sphere(card: &Card, draft: &mut Draft) {
+    let (outer, around) = (card.number("radius"), count(card, "n"));
+    let extent = Extent::from_word(card.text("model"));
+    let through = Spacing { cells: 1, grading: 1.0 };
+    let solid = SphereShell { inner: outer * (1.0 - WALL), outer, around, through, extent };
+    add(card, draft, Sheet { solid, face: Face::Outer });
 }
 
 fn cylinder(card: &Card, draft: &mut Draft) {

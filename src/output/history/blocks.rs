@@ -8,7 +8,7 @@ use crate::comm::{Communicator, ExactSum};
 use crate::mesh::{Block, Mesh};
 use crate::solver::Solver;
 use crate::solver::elements::{ElementBlock, Energies, Group, Sample};
-use crate::solver::nodes::{add, cross, scaled, subtract};
+use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 use nalgebra::{Matrix3, Vector3};
 
 /// Sums of a block: mass; mass times displacement, velocity, place, angular momentum; second moments of mass; energies.
@@ -101,14 +101,16 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
 /// An element's part of the sums. Places are measured from the origin of the mesh.
 fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f64; SUMS] {
     let nodes = &solver.domain.nodes;
-    let own: Vec<u32> = group.nodes(i).collect();
+    let own: Vec<u32> = (0..group.unknowns).map(|unknown| group.node(i, unknown)).collect();
+    let (own, rotations) = own.split_at(group.corners);
     let corners: Vec<[f64; 3]> = own.iter().map(|&node| nodes.initial[node as usize]).collect();
-    let mut shares = vec![0.0; own.len()];
-    let sample = Sample { nodes: &own, corners: &corners, attributes: &[] };
+    let mut shares = vec![0.0; group.unknowns];
+    let sample = Sample { nodes: own, corners: &corners, attributes: &[] };
     // The mass itself is known.
     block.element.clone().weigh(&sample, 1.0, &mut shares);
     let mut sums = [0.0; SUMS];
-    for (node, share) in own.into_iter().zip(shares) {
+    let (shares, inertias) = shares.split_at(group.corners);
+    for (&node, share) in own.iter().zip(shares) {
         let mass = share * group.element_mass(i);
         let (x, velocity) = (nodes.position(node), solver.velocity_now(node));
         let momentum = scaled(velocity, mass);
@@ -124,6 +126,17 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
         }
         let [before, after] = solver.velocities_around(node);
         sums[19] += 0.5 * mass * (0..3).map(|a| before[a] * after[a]).sum::<f64>();
+    }
+    for (&rotation, share) in rotations.iter().zip(inertias) {
+        let inertia = share * group.element_mass(i);
+        let [before, after] = solver.velocities_around(rotation);
+        let rate = scaled(add(before, after), 0.5 * inertia);
+        for a in 0..3 {
+            sums[10 + a] += rate[a];
+            // Of which two make the inertia about an axis.
+            sums[13 + a] += 0.5 * inertia;
+        }
+        sums[19] += 0.5 * inertia * dot(before, after);
     }
     let Energies { internal, hourglass, viscous } = block.element.entry().energies;
     let energies = [Some(internal), hourglass, viscous];

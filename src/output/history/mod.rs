@@ -40,9 +40,9 @@ pub struct HistoryPlan {
 
 impl HistoryPlan {
     /// Finds what the model names in the mesh.
-    pub fn new(mesh: &Mesh, model: &Model) -> HistoryPlan {
+    pub fn new(mesh: &Mesh, model: &Model, solver: &Solver) -> HistoryPlan {
         let mut plan = HistoryPlan {
-            points: Points::new(mesh, model),
+            points: Points::new(mesh, model, solver),
             blocks: Vec::new(),
             groups: Vec::new(),
             walls: Vec::new(),

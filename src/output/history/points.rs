@@ -39,7 +39,7 @@ struct Point {
 
 impl Points {
     /// Finds the elements of the model's points.
-    pub fn new(mesh: &Mesh, model: &Model) -> Points {
+    pub fn new(mesh: &Mesh, model: &Model, solver: &Solver) -> Points {
         let point = |&position: &[f64; 3]| {
             let element = locate(mesh, position)?.element;
             let (block, _) = mesh.elements().nth(element as usize)?;
@@ -47,7 +47,8 @@ impl Points {
             let material = model.materials.iter().find(|material| material.block == block_id)?;
             let state = material.law.entry().state.iter().map(|variable| variable.name.to_string()).collect();
             let element_id = mesh.element_ids[element as usize];
-            let fields = FieldList::of_elements(ELEMENT_FIELDS.to_vec(), state, Dimension::Three);
+            let layered = solver.domain.layered[block];
+            let fields = FieldList::of_element(ELEMENT_FIELDS.to_vec(), state, Dimension::Three, layered);
             Some(Point { position, element, element_id, block, block_id, fields })
         };
         Points { points: model.material_points.iter().filter_map(point).collect() }

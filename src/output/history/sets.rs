@@ -54,7 +54,7 @@ pub fn values(groups: &[NodeGroup], solver: &mut Solver, comm: &mut dyn Communic
     let reactions = solver.reactions();
     let nodes = &solver.domain.nodes;
     let mut sums: Vec<ExactSum> = (0..SUMS * groups.len()).map(|_| ExactSum::new()).collect();
-    for node in (0..nodes.len() as u32).filter(|&node| nodes.owned[node as usize]) {
+    for node in (0..nodes.places as u32).filter(|&node| nodes.owned[node as usize]) {
         let file = nodes.file[node as usize];
         for (group, own) in groups.iter().zip(sums.chunks_exact_mut(SUMS)) {
             if group.nodes.binary_search(&file).is_err() {

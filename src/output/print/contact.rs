@@ -87,5 +87,6 @@ fn death(death: &Death) -> String {
     };
     let bound = if death.is_maximum { "MAX" } else { "MIN" };
     let nodes = if death.keeps_nodes { "FREE" } else { "DROP" };
-    format!("{:>5}   {variable:<14}{bound:<8}{:>10}   {nodes}", death.block, number(death.value))
+    let share = if death.share < 1.0 { format!("   {}", number(death.share)) } else { String::new() };
+    format!("{:>5}   {variable:<14}{bound:<8}{:>10}   {nodes}{share}", death.block, number(death.value))
 }

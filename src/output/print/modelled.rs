@@ -4,7 +4,7 @@ use crate::mesh::Shape;
 use crate::mesh::check::counted;
 use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
-use crate::model::{Hourglass, Model, MotionKind};
+use crate::model::{Hourglass, Model, MotionKind, PrescribedMotion, Unknown};
 
 /// A part of the code that has work to do.
 pub struct Feature {
@@ -17,13 +17,22 @@ pub struct Feature {
 /// Everything that is modelled. What is not in this list costs nothing.
 pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
     let mut list = solids(model, mesh);
-    let motions = |kind| model.prescribed_motions.iter().filter(|motion| motion.kind == kind).count();
+    let (held, forces) = (&model.no_displacements, &model.prescribed_forces);
+    let motions = |kind| {
+        let of_kind = |motion: &&PrescribedMotion| motion.of == Unknown::Position && motion.kind == kind;
+        model.prescribed_motions.iter().filter(of_kind).count()
+    };
+    let turned = model.prescribed_motions.iter().filter(|motion| motion.of == Unknown::Rotation).count();
     let counts = [
-        ("nodes held still", "NO DISPLACEMENT", model.no_displacements.len()),
+        ("nodes held still", "NO DISPLACEMENT", held.iter().filter(|held| held.of == Unknown::Position).count()),
+        ("rotations of nodes held", "NO ROTATION", held.iter().filter(|held| held.of == Unknown::Rotation).count()),
+        ("prescribed rotations", "PRESCRIBED ROTATION", turned),
         ("prescribed displacements", "PRESCRIBED DISPLACEMENT", motions(MotionKind::Displacement)),
         ("prescribed velocities", "PRESCRIBED VELOCITY", motions(MotionKind::Velocity)),
         ("prescribed accelerations", "PRESCRIBED ACCELERATION", motions(MotionKind::Acceleration)),
-        ("forces on nodes", "PRESCRIBED FORCE", model.prescribed_forces.len()),
+        ("forces on nodes", "PRESCRIBED FORCE", forces.iter().filter(|force| force.of == Unknown::Position).count()),
+        ("moments on nodes", "PRESCRIBED MOMENT", forces.iter().filter(|force| force.of == Unknown::Rotation).count()),
+        ("masses at nodes", "POINT MASS", model.point_masses.len()),
         ("pressure on deformed faces", "PRESSURE", model.pressures.len()),
         ("body force", "GRAVITY", model.gravities.len()),
         ("waves leave through side sets", "SILENT BC", model.silent_boundaries.len()),

@@ -37,7 +37,9 @@ pub struct Group {
     pub places: Vec<u32>,
     /// Nodes per element.
     pub corners: usize,
-    /// Local nodes of eight elements, `corners` such rows per chunk.
+    /// Nodes per element, and their rotations where the elements have any.
+    pub unknowns: usize,
+    /// Local nodes of eight elements, then their rotations: `unknowns` such rows per chunk.
     pub connectivity: Vec<[u32; CHUNK]>,
     /// Element masses, one row per chunk.
     pub mass: Vec<Row>,
@@ -56,7 +58,7 @@ pub struct Group {
 pub struct NewElement {
     /// Place in the rank's canonical order.
     pub place: u32,
-    /// Local nodes.
+    /// Local nodes, and behind them their rotations if the element has any.
     pub nodes: Vec<u32>,
     /// Corner positions, lengths.
     pub corners: Vec<[f64; 3]>,
@@ -67,10 +69,11 @@ pub struct NewElement {
 }
 
 impl Group {
-    /// Elements at rest. `start` fills in the numbers that an element stores, of which there are `stride`.
+    /// Elements at rest, with so many corners and unknowns. `start` fills in the numbers that an element stores, of which there
+    /// are `stride`.
     pub fn new(
         elements: &[NewElement],
-        corners: usize,
+        [corners, unknowns]: [usize; 2],
         stride: usize,
         start: impl Fn(&NewElement, &mut [f64]),
     ) -> Group {
@@ -78,7 +81,8 @@ impl Group {
         let mut group = Group {
             places: elements.iter().map(|e| e.place).collect(),
             corners,
-            connectivity: vec![[0; CHUNK]; chunks * corners],
+            unknowns,
+            connectivity: vec![[0; CHUNK]; chunks * unknowns],
             mass: vec![Row::default(); chunks],
             state: vec![Row::default(); chunks * stride],
             stride,
@@ -98,7 +102,7 @@ impl Group {
     /// Gives a lane nodes, mass and state.
     fn set(&mut self, slot: usize, nodes: &[u32], mass: f64, numbers: &[f64]) {
         let (chunk, lane) = (slot / CHUNK, slot % CHUNK);
-        for (row, node) in self.connectivity[chunk * self.corners..].iter_mut().zip(&nodes[..self.corners]) {
+        for (row, node) in self.connectivity[chunk * self.unknowns..].iter_mut().zip(&nodes[..self.unknowns]) {
             row[lane] = *node;
         }
         self.mass[chunk].0[lane] = mass;
@@ -130,9 +134,9 @@ impl Group {
         self.places.len()
     }
 
-    /// Number of corners of all elements.
-    pub fn corner_count(&self) -> usize {
-        self.corners * self.len()
+    /// Number of corners of all elements, and of their rotations: of the forces that a pass gives.
+    pub fn force_count(&self) -> usize {
+        self.unknowns * self.len()
     }
 
     /// Whether there are none.
@@ -145,18 +149,26 @@ impl Group {
         self.state[i / CHUNK * self.stride + row].0[i % CHUNK]
     }
 
+    /// Sets one stored number of the `i`-th element, and of the lanes that copy the last one.
+    pub fn set_value(&mut self, i: usize, row: usize, value: f64) {
+        let end = if i + 1 == self.len() { self.mass.len() * CHUNK } else { i + 1 };
+        for slot in i..end {
+            self.state[slot / CHUNK * self.stride + row].0[slot % CHUNK] = value;
+        }
+    }
+
     /// Several consecutive stored numbers of the `i`-th element.
     pub fn values<const N: usize>(&self, i: usize, first: usize) -> [f64; N] {
         std::array::from_fn(|k| self.value(i, first + k))
     }
 
-    /// Local node at a corner of the `i`-th element.
+    /// Local node at a corner of the `i`-th element; from [`Group::corners`] on, the rotations of these nodes.
     #[inline(always)]
     pub fn node(&self, i: usize, corner: usize) -> u32 {
-        self.connectivity[i / CHUNK * self.corners + corner][i % CHUNK]
+        self.connectivity[i / CHUNK * self.unknowns + corner][i % CHUNK]
     }
 
-    /// Local nodes of the `i`-th element.
+    /// Local nodes of the `i`-th element, without rotations.
     pub fn nodes(&self, i: usize) -> impl ExactSizeIterator<Item = u32> + '_ {
         (0..self.corners).map(move |corner| self.node(i, corner))
     }
@@ -196,23 +208,38 @@ impl ElementBlock {
     /// A group of elements of this block's kind.
     pub fn group(element: &Element, law: &Law, density: f64, elements: &[NewElement]) -> Group {
         let entry = element.entry();
-        let stride = entry.rows.len() + state_names(law).len();
-        Group::new(elements, entry.shape.corners(), stride, |new, numbers| {
-            let (own, of_law) = numbers.split_at_mut(entry.rows.len());
-            let start = element.start(new, density, own);
-            of_law.copy_from_slice(&law.start(&start));
+        let (of_points, of_law) = (element.point_rows(), state_names(law).len());
+        let stride = entry.rows.len() + element.points() * (of_points + of_law);
+        Group::new(elements, [entry.shape.corners(), entry.unknowns()], stride, |new, numbers| {
+            let (own, points) = numbers.split_at_mut(entry.rows.len());
+            let start = law.start(&element.start(new, density, own));
+            // A law may store nothing, and an element with one point nothing of it.
+            for point in points.chunks_exact_mut((of_points + of_law).max(1)) {
+                point[of_points..].copy_from_slice(&start);
+            }
         })
     }
 
-    /// Place among the stored numbers of the first that is the law's.
-    pub fn first_of_law(&self) -> usize {
-        self.element.entry().rows.len()
+    /// Place among the stored numbers of the first that belongs to a point of integration.
+    pub fn first_of_point(&self, point: usize) -> usize {
+        self.element.entry().rows.len() + point * (self.element.point_rows() + self.state_names.len())
+    }
+
+    /// Place among the stored numbers of the first that is the law's at a point of integration.
+    pub fn first_of_law(&self, point: usize) -> usize {
+        self.first_of_point(point) + self.element.point_rows()
+    }
+
+    /// Whether a point of the `i`-th element carries nothing any more.
+    pub fn is_lost(&self, group: &Group, i: usize, point: usize) -> bool {
+        let entry = self.element.entry().points.as_ref();
+        entry.is_some_and(|entry| group.value(i, self.first_of_point(point) + entry.lost) != 0.0)
     }
 
     /// Place among the stored numbers of the power of the last corner forces, in blocks that keep it.
     pub fn end_power(&self) -> Option<usize> {
         let last = self.state_names.len().checked_sub(1)?;
-        (self.state_names[last] == END_POWER).then_some(self.first_of_law() + last)
+        (self.state_names[last] == END_POWER).then_some(self.first_of_law(0) + last)
     }
 
     /// Advances one group: the border elements when the sink keeps forces apart, else the interior.

@@ -21,19 +21,15 @@ pub fn field_values(
 ) -> [f64; MOST] {
     let (element, entry) = (&block.element, block.element.entry());
     let in_space = |own: Sym3<f64>| own.rotate(&element.frame(group, i, nodes)).to_array();
-    let stress = || element.stress(group, i);
     let per_volume = |energy: Option<usize>| {
         let initial_volume = group.element_mass(i) / block.density;
         energy.map_or(0.0, |row| group.value(i, row) / initial_volume)
     };
     match field {
-        ElementField::Stress => filled(&in_space(stress())),
+        ElementField::Stress => filled(&in_space(element.stress(group, i))),
         ElementField::Strain => filled(&in_space(logarithm(element.stretch(group, i, nodes)))),
-        ElementField::Pressure => filled(&[-stress().trace() / 3.0]),
-        ElementField::VonMises => {
-            let s = stress().deviator();
-            filled(&[(1.5 * s.contract(s)).sqrt()])
-        }
+        ElementField::Pressure => filled(&[pressure(element.stress(group, i))]),
+        ElementField::VonMises => filled(&[von_mises(element.stress(group, i))]),
         ElementField::Energy => filled(&[per_volume(Some(entry.energies.internal))]),
         ElementField::SpecificEnergy => filled(&[specific_energy(block, group, i)]),
         ElementField::Temperature => filled(&[temperature(block, group, i, nodes)]),
@@ -43,6 +39,8 @@ pub fn field_values(
         ElementField::Rotation => filled(element.frame(group, i, nodes).as_flattened()),
         ElementField::BulkViscosity => filled(&[entry.viscous_stress.map_or(0.0, |row| -group.value(i, row))]),
         ElementField::Corners => filled(&[element.least_corner(group, i, nodes)]),
+        ElementField::Thickness => filled(&[element.thickness(group, i)]),
+        ElementField::Resultants => filled(&element.resultants(group, i)),
         ElementField::Status => filled(&[1.0]),
         ElementField::Rank => filled(&[rank as f64]),
     }
@@ -64,9 +62,49 @@ fn temperature(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> 
     place.map_or(0.0, |place| state_values(block, group, i, nodes).get(place).copied().unwrap_or(0.0))
 }
 
-/// The state variables of an element's law, in the order in which the law lists them.
+/// The same at a point of integration, of fields that differ between points; see [`ElementField::of_points`].
+pub fn point_values(
+    field: ElementField,
+    block: &ElementBlock,
+    group: &Group,
+    i: usize,
+    point: usize,
+    nodes: &Nodes,
+) -> [f64; MOST] {
+    let stress = block.element.point_stress(group, i, point);
+    match field {
+        ElementField::Pressure => filled(&[pressure(stress)]),
+        ElementField::VonMises => filled(&[von_mises(stress)]),
+        _ => filled(&stress.rotate(&block.element.frame(group, i, nodes)).to_array()),
+    }
+}
+
+fn pressure(stress: Sym3<f64>) -> f64 {
+    -stress.trace() / 3.0
+}
+
+fn von_mises(stress: Sym3<f64>) -> f64 {
+    let s = stress.deviator();
+    (1.5 * s.contract(s)).sqrt()
+}
+
+/// The state variables of an element's law, in the order in which the law lists them; means over its points of integration.
 pub fn state_values(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> Vec<f64> {
-    let first = block.first_of_law();
+    if block.element.entry().points.is_none() {
+        return point_state(block, group, i, 0, nodes);
+    }
+    let mut mean = vec![0.0; block.law.entry().state.len()];
+    for point in 0..block.element.points() {
+        let share = block.element.point_share(point);
+        let values = point_state(block, group, i, point, nodes);
+        mean.iter_mut().zip(values).for_each(|(mean, value)| *mean += share * value);
+    }
+    mean
+}
+
+/// The state variables of the law at a point of integration.
+pub fn point_state(block: &ElementBlock, group: &Group, i: usize, point: usize, nodes: &Nodes) -> Vec<f64> {
+    let first = block.first_of_law(point);
     let stored: Vec<f64> = (0..block.state_names.len()).map(|k| group.value(i, first + k)).collect();
     block.law.state(&stored, &block.element.frame(group, i, nodes))
 }

@@ -16,12 +16,34 @@ pub struct Entry {
     pub summary: &'static str,
     /// Shape of the blocks that it computes.
     pub shape: Shape,
+    /// Whether its nodes have rotations.
+    pub rotations: bool,
     /// What it stores per element beside its law's state variables, in this order.
     pub rows: &'static [StoredRow],
+    /// Points of integration, for elements with more than one.
+    pub points: Option<PointEntry>,
     /// Which of the rows are energies.
     pub energies: Energies,
     /// Which row is the bulk viscosity of the last step as a mean stress, if it has any.
     pub viscous_stress: Option<usize>,
+}
+
+impl Entry {
+    /// Nodes of an element, and their rotations if it has any.
+    pub fn unknowns(&self) -> usize {
+        self.shape.corners() * if self.rotations { 2 } else { 1 }
+    }
+}
+
+/// What is to be known of the points of integration of an element that has several, each with a state of its law. Behind the
+/// rows of the element come those of its points, one point after the other: its own rows, then those of the law.
+pub struct PointEntry {
+    /// What each point stores beside its law's state variables.
+    pub rows: &'static [StoredRow],
+    /// Which of these rows is 1 at a point that DEATH has made to carry nothing any more, and 0 before.
+    pub lost: usize,
+    /// Whether the points lie one above the other, from the bottom of a surface to its top, and are plotted so.
+    pub layered: bool,
 }
 
 /// One number that an element stores.
@@ -64,13 +86,19 @@ pub struct Unfit {
 /// A kind of element, with what holds for all elements of a block. One file or folder implements it, and one line in
 /// `elements!` makes it known.
 pub trait Formulation: Sized {
+    /// Whether a block of its shape is one of its own; others go to the next element of that shape.
+    fn takes(_block: &Block, _model: &Model) -> bool {
+        true
+    }
+
     /// Takes over a block of its shape.
     ///
     /// # Errors
     /// Why it cannot, for instance because a thickness or an area is missing.
     fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit>;
 
-    /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner. Called
+    /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner; behind
+    /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length². Called
     /// once for every element of the block on every rank, so that bounds over the block can be found here.
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64;
 
@@ -92,6 +120,32 @@ pub trait Formulation: Sized {
 
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
+
+    /// Number of points of integration.
+    fn points(&self) -> usize {
+        1
+    }
+
+    /// Share of a point in the means of an element; they add up to one.
+    fn point_share(&self, _point: usize) -> f64 {
+        1.0
+    }
+
+    /// Cauchy stress at a point of the `i`-th element, as [`Formulation::stress`].
+    fn point_stress(&self, group: &Group, i: usize, _point: usize) -> Sym3<f64> {
+        self.stress(group, i)
+    }
+
+    /// Thickness of the `i`-th element now, length; 0 of elements that have none.
+    fn thickness(&self, _group: &Group, _i: usize) -> f64 {
+        0.0
+    }
+
+    /// Resultants of the `i`-th element in its frame; zeros of elements that have none. Of a surface, per length of the cut:
+    /// forces Nxx, Nyy, Nxy, moments Mxx, Myy, Mxy, shear forces Qx, Qy.
+    fn resultants(&self, _group: &Group, _i: usize) -> [f64; 8] {
+        [0.0; 8]
+    }
 
     /// Right stretch in the frame of the `i`-th element.
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64>;

@@ -2,13 +2,16 @@
 //!
 //! A kind of element is a folder here and a line in the list below: see `docs/adding-an-element.md`.
 
+pub mod beam;
 mod block;
 pub mod fields;
 mod formulation;
 pub mod hexahedron;
 mod pass;
 pub mod quadrilateral;
+pub mod shell;
 pub mod truss;
+mod uniaxial;
 
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
@@ -17,7 +20,7 @@ use crate::model::Model;
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
-pub use formulation::{Energies, Entry, Formulation, Sample, StoredRow, Unfit};
+pub use formulation::{Energies, Entry, Formulation, PointEntry, Sample, StoredRow, Unfit};
 pub use pass::{Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 
 macro_rules! elements {
@@ -35,7 +38,7 @@ macro_rules! elements {
             /// # Errors
             /// Why none can.
             pub fn of_block(block: &Block, model: &Model) -> Result<Element, Unfit> {
-                $(if $module::ENTRY.shape == block.shape {
+                $(if $module::ENTRY.shape == block.shape && $module::$element::takes(block, model) {
                     return $module::$element::of_block(block, model).map(Element::$element);
                 })+
                 let [_, shapes] = block.shape.names();
@@ -80,6 +83,31 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.stress(group, i),)+ }
             }
 
+            /// See [`Formulation::points`].
+            pub fn points(&self) -> usize {
+                match self { $(Element::$element(own) => own.points(),)+ }
+            }
+
+            /// See [`Formulation::point_share`].
+            pub fn point_share(&self, point: usize) -> f64 {
+                match self { $(Element::$element(own) => own.point_share(point),)+ }
+            }
+
+            /// See [`Formulation::point_stress`].
+            pub fn point_stress(&self, group: &Group, i: usize, point: usize) -> Sym3<f64> {
+                match self { $(Element::$element(own) => own.point_stress(group, i, point),)+ }
+            }
+
+            /// See [`Formulation::thickness`].
+            pub fn thickness(&self, group: &Group, i: usize) -> f64 {
+                match self { $(Element::$element(own) => own.thickness(group, i),)+ }
+            }
+
+            /// See [`Formulation::resultants`].
+            pub fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
+                match self { $(Element::$element(own) => own.resultants(group, i),)+ }
+            }
+
             /// See [`Formulation::stretch`].
             pub fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
                 match self { $(Element::$element(own) => own.stretch(group, i, nodes),)+ }
@@ -101,5 +129,22 @@ macro_rules! elements {
 elements! {
     hexahedron::Hexahedron,
     quadrilateral::Quadrilateral,
+    beam::Beam,
     truss::Truss,
+    shell::Shell,
+}
+
+impl Element {
+    /// Numbers that each point of integration stores beside those of its law.
+    pub fn point_rows(&self) -> usize {
+        self.entry().points.as_ref().map_or(0, |points| points.rows.len())
+    }
+
+    /// The points of a layered element that are its bottom, its middle and its top; the middle is the mean of two where their
+    /// number is even. `None` of elements that have no layers.
+    pub fn layers(&self) -> Option<[[usize; 2]; 3]> {
+        let last = self.points().saturating_sub(1);
+        let layered = self.entry().points.as_ref().is_some_and(|points| points.layered);
+        layered.then_some([[0, 0], [last / 2, last - last / 2], [last, last]])
+    }
 }

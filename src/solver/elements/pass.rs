@@ -67,6 +67,9 @@ pub struct PassSettings {
 /// One step of one kind of element, from the motion of N corners to their forces. Implementations are compiled into the loop
 /// over elements, once for each instruction set.
 pub trait StepKernel<const N: usize> {
+    /// How many of the N, the last ones, are rotations: their rates are given as they are, and moments belong to them.
+    const ROTATIONS: usize = 0;
+
     /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
     #[inline(always)]
     fn about_axis(&self) -> bool {
@@ -179,7 +182,7 @@ impl Merge<'_> {
         while let Some(&border_place) = self.border.places.get(self.next)
             && border_place < place
         {
-            let corners = self.border.corners;
+            let corners = self.border.unknowns;
             for corner in 0..corners {
                 let node = self.border.node(self.next, corner);
                 Merge::subtract(self.forces, node, &self.slots[corners * self.next + corner]);
@@ -223,7 +226,8 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
         }
         for part in 0..CHUNK / V::COUNT {
-            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis());
+            let places = N - S::ROTATIONS;
+            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis(), places);
             let mass = V::load(&group.mass[chunk], part);
             let outcome = kernel.step(&x, &v, state, part, mass);
             for corner in 0..N {
@@ -259,7 +263,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
 }
 
 /// Positions and velocities of the corners, relative to the first corner so that neither a far origin nor a fast
-/// flight costs digits.
+/// flight costs digits. Of those from `places` on, which are rotations, only the rates are fetched, as they are.
 #[inline(always)]
 #[allow(clippy::type_complexity)]
 fn relative_corners<V: Lanes, const N: usize>(
@@ -267,6 +271,7 @@ fn relative_corners<V: Lanes, const N: usize>(
     connectivity: &[[u32; CHUNK]; N],
     part: usize,
     about_axis: bool,
+    places: usize,
 ) -> ([[V; N]; 3], [[V; N]; 3]) {
     let mut first = V::gather(nodes, &connectivity[0], part);
     let zero = V::splat(0.0);
@@ -274,11 +279,17 @@ fn relative_corners<V: Lanes, const N: usize>(
     if about_axis {
         (x[0][0], v[0][0], first[0], first[4]) = (first[0], first[4], zero, zero);
     }
-    for corner in 1..N {
+    for corner in 1..places {
         let row = V::gather(nodes, &connectivity[corner], part);
         for i in 0..3 {
             x[i][corner] = row[i] - first[i];
             v[i][corner] = row[4 + i] - first[4 + i];
+        }
+    }
+    for corner in places..N {
+        let row = V::gather(nodes, &connectivity[corner], part);
+        for i in 0..3 {
+            v[i][corner] = row[4 + i];
         }
     }
     (x, v)

@@ -48,7 +48,7 @@ impl Deletions {
 impl Erosion {
     /// Drops the free masses that the elements of deleted blocks had left.
     pub(super) fn drop_free_nodes(&mut self, nodes: &mut Nodes) {
-        self.keeps = self.deletions.keeps(&self.element_nodes, self.local.len());
+        self.keeps = self.deletions.keeps(&self.element_unknowns, self.local.len());
         for (&here, keeps) in self.local.iter().zip(&self.keeps).filter(|(here, _)| **here != ABSENT) {
             if self.left[here as usize] == 0 && !keeps {
                 self.energy.extend(drop_node(nodes, here));

@@ -23,12 +23,13 @@ impl Erosion {
             element_order,
             deletions,
             keeps,
-            element_nodes,
+            element_unknowns,
             // Of the problem, or counted anew by `take_away`.
             rules: _,
             step_scale: _,
             local: _,
             left: _,
+            places: _,
             stand_in: _,
             edge: _,
         } = self;
@@ -42,7 +43,7 @@ impl Erosion {
         if archive.loading() {
             deletions.gone = deleted.iter().map(|&block| block as i64).collect();
             deletions.to_come.retain(|one| deletions.gone.binary_search(&one.block).is_err());
-            *keeps = deletions.keeps(element_nodes, keeps.len());
+            *keeps = deletions.keeps(element_unknowns, keeps.len());
         }
         let groups = blocks.iter().flat_map(|block| block.groups());
         let mut dead: Vec<f64> = groups
@@ -74,7 +75,7 @@ impl Erosion {
             }
         }
         for &element in dead {
-            for &node in &self.element_nodes[element as usize] {
+            for &node in &self.element_unknowns[element as usize] {
                 let here = self.local[node as usize];
                 if here != ABSENT {
                     self.left[here as usize] -= 1;

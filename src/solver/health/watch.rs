@@ -78,7 +78,8 @@ impl Watch {
         let block =
             |(block, mass): (&crate::mesh::Block, f64)| BlockFacts { id: block.id, mass, elements: block.len() };
         let facts = Facts {
-            node_id: share.nodes.iter().map(|&node| mesh.node_ids[node as usize]).collect(),
+            // Rotations have no numbers of their own.
+            node_id: share.nodes.iter().map_while(|&node| mesh.node_ids.get(node as usize).copied()).collect(),
             blocks: mesh.blocks.iter().zip(masses).map(block).collect(),
             energy_floor: energy::energy_floor(body, model),
             stored_energy: energy::stored_energy(body, model),

@@ -1,10 +1,10 @@
-//! PRESCRIBED FORCE: on the nodes of node sets.
+//! PRESCRIBED FORCE and PRESCRIBED MOMENT: on the nodes of node sets.
 
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn, function_number};
-use crate::model::{Function, Model, PrescribedForce};
+use crate::model::{Function, Model, PrescribedForce, Unknown};
 use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
-use crate::solver::domain::nodes_of_set;
+use crate::solver::domain::unknowns_of_set;
 use crate::solver::nodes::Nodes;
 
 pub(super) static ENTRY: LoadEntry =
@@ -13,6 +13,7 @@ pub(super) static ENTRY: LoadEntry =
 fn echo(model: &Model) -> (&'static str, &'static str, Vec<String>) {
     let line = |f: &PrescribedForce| {
         let axis = ["X", "Y", "Z"][f.direction.axis()];
+        let axis = if f.of == Unknown::Rotation { format!("ABOUT {axis}") } else { axis.to_string() };
         format!("{:>13}{axis:>11}{:>10}{:>13}", f.node_set, function_number(model, f.function), number(f.scale))
     };
     let columns = "     NODE SET  DIRECTION  FUNCTION        SCALE";
@@ -23,7 +24,9 @@ fn make(setting: &Setting) -> Option<Box<dyn Load>> {
     let mut forces = Vec::new();
     for load in &setting.model.prescribed_forces {
         // A node that its set names twice gets the force once.
-        let mut nodes: Vec<u32> = nodes_of_set(setting.mesh, load.node_set, setting.local).collect();
+        let rotations = &setting.body.rotations;
+        let mut nodes: Vec<u32> =
+            unknowns_of_set(setting.mesh, load.node_set, load.of, rotations, setting.local).collect();
         nodes.sort_unstable();
         nodes.dedup();
         let (axis, function, scale) = (load.direction.axis(), load.function, load.scale);
@@ -38,9 +41,9 @@ struct NodeForces(Vec<NodeForce>);
 /// A force on one node of this rank.
 #[derive(Debug, Clone)]
 struct NodeForce {
-    /// Local node.
+    /// Local node, or its rotation.
     pub node: u32,
-    /// Axis of the force.
+    /// Axis of the force or moment.
     pub axis: usize,
     /// Function of time.
     pub function: usize,

@@ -51,7 +51,7 @@ impl Load for BodyForce {
             let factor = gravity.function.map_or(1.0, |f| functions[f].value(step.time));
             add(sum, scaled(gravity.acceleration, factor))
         });
-        for (force, row) in nodes.forces.iter_mut().zip(&nodes.rows) {
+        for (force, row) in nodes.forces.iter_mut().zip(&nodes.rows[..nodes.places]) {
             for i in 0..3 {
                 force.0[i] += row.0[3] * self.acceleration[i];
             }
@@ -60,7 +60,7 @@ impl Load for BodyForce {
 
     /// Books half the step's work with the present velocities.
     fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        for (work, row) in self.work.iter_mut().zip(&nodes.rows) {
+        for (work, row) in self.work.iter_mut().zip(&nodes.rows[..nodes.places]) {
             let v = [row.0[4], row.0[5], row.0[6]];
             *work += half_step * row.0[3] * dot(self.acceleration, v);
         }
@@ -68,7 +68,7 @@ impl Load for BodyForce {
 
     fn accounts(&mut self, places: &Places, visit: &mut dyn FnMut(Account)) {
         let BodyForce { gravities: _, acceleration: _, work } = self;
-        for (node, work) in (0..).zip(work) {
+        for (node, work) in (0..).zip(work).take(places.nodes.places) {
             visit(Account { key: [places.node(node), 0.0, 0.0, 0.0], own: places.owns(node), work });
         }
     }

@@ -5,11 +5,12 @@ use crate::restart::Archive;
 use crate::solver::elements::{ElementBlock, Group};
 
 /// Visits the rows of all elements by their names: `rows` are the names of all that the model's elements store, `law_states`
-/// those that its laws store, and `count` is the number of local elements.
+/// those that its laws store, `points` those of points of integration, and `count` is the number of local elements.
 pub(super) fn visit(
     archive: &mut dyn Archive,
     blocks: &mut [ElementBlock],
     [rows, law_states]: [&[&str]; 2],
+    points: &[String],
     count: usize,
 ) {
     for name in rows {
@@ -17,10 +18,24 @@ pub(super) fn visit(
         visit_row(archive, blocks, name, count, place);
     }
     for name in law_states {
-        let place = |block: &ElementBlock| block.state_names.iter().position(|known| known == name);
-        let first = ElementBlock::first_of_law;
-        visit_row(archive, blocks, name, count, |block| place(block).map(|place| first(block) + place));
+        let place = |block: &ElementBlock| {
+            let place = block.state_names.iter().position(|known| known == name)?;
+            block.element.entry().points.is_none().then(|| block.first_of_law(0) + place)
+        };
+        visit_row(archive, blocks, name, count, place);
     }
+    for name in points {
+        visit_row(archive, blocks, name, count, |block| point_row(block, name));
+    }
+}
+
+/// Place among the stored numbers of a block's elements of what a point of integration stores under a name.
+fn point_row(block: &ElementBlock, name: &str) -> Option<usize> {
+    let (name, number) = name.rsplit_once('.')?;
+    let point = number.parse::<usize>().ok()?.checked_sub(1)?;
+    let entry = block.element.entry().points.as_ref().filter(|_| point < block.element.points())?;
+    let mut names = entry.rows.iter().map(|row| row.name).chain(block.state_names.iter().copied());
+    names.position(|known| known == name).map(|place| block.first_of_point(point) + place)
 }
 
 /// Visits one row of each block, `None` where a block has none.
@@ -56,7 +71,7 @@ impl Group {
     fn set_row(&mut self, row: usize, values: &[f64]) {
         // Places, nodes and masses are of the problem and its cut; which are gone has been put back before,
         // and steps are put back by who wants them.
-        let Group { places, mass, state, stride, corners: _, connectivity: _, gone: _, steps: _ } = self;
+        let Group { places, mass, state, stride, corners: _, unknowns: _, connectivity: _, gone: _, steps: _ } = self;
         let Some(&last) = places.last() else { return };
         // Lanes that fill up the last chunk copy its last element.
         for slot in 0..mass.len() * CHUNK {

@@ -86,7 +86,9 @@ pub(super) static ENTRY: Entry = Entry {
     name: "HEXAHEDRON",
     summary: "Eight nodes, one point of integration; also as wedge or pyramid, with repeated nodes.",
     shape: Shape::Hexahedron,
+    rotations: false,
     rows: &ROWS,
+    points: None,
     energies: Energies {
         internal: rows::INTERNAL_ENERGY,
         hourglass: Some(rows::HOURGLASS_ENERGY),

@@ -73,7 +73,9 @@ pub(super) static ENTRY: Entry = Entry {
     name: "QUADRILATERAL",
     summary: "Four nodes in the plane, one point of integration, in plane strain or axisymmetric; also as triangle.",
     shape: Shape::Plane,
+    rotations: false,
     rows: &ROWS,
+    points: None,
     energies: Energies {
         internal: rows::INTERNAL_ENERGY,
         hourglass: Some(rows::HOURGLASS_ENERGY),

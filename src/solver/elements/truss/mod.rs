@@ -4,11 +4,9 @@
 //! the strain across, A = A₀ exp(2ε_t), and the force at the ends is N = σA along the present line. Work is that of the end
 //! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
-mod uniaxial;
-
 use super::{
     Energies, Entry, Formulation, Group, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample, StepKernel,
-    StoredRow, Unfit,
+    StoredRow, Unfit, uniaxial,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
@@ -49,7 +47,9 @@ pub(super) static ENTRY: Entry = Entry {
     name: "TRUSS",
     summary: "Two nodes; carries tension and compression along itself.",
     shape: Shape::Bar,
+    rotations: false,
     rows: &ROWS,
+    points: None,
     energies: Energies { internal: rows::INTERNAL_ENERGY, hourglass: None, viscous: None },
     viscous_stress: None,
 };
@@ -204,7 +204,9 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         let wide = exp(lateral);
         let old_force = old_stress * area * wide * wide;
         let motion = [along, length / start, wide];
-        let answer = uniaxial::update(&self.law, self.moduli, motion, self.times, state, part);
+        let old = [old_stress, V::load(&state[rows::ACROSS], part)];
+        let of_law = &mut state[rows::LAW..];
+        let answer = uniaxial::update(&self.law, self.moduli, motion, old, self.times, of_law, part);
         let lateral = lateral + answer.lateral;
         answer.along.store(&mut state[rows::STRESS], part);
         answer.across.store(&mut state[rows::ACROSS], part);

@@ -274,6 +274,7 @@ impl Stage {
             rows: (0..count).map(row).collect(),
             forces: vec![Force::default(); count],
             initial: self.body.positions.to_vec(),
+            places: count,
             file: (0..count as u32).collect(),
             owned: vec![true; count],
         }

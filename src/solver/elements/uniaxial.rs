@@ -1,6 +1,5 @@
 //! Any three-dimensional law in uniaxial stress: the strain across is found such that the stress across vanishes.
 
-use super::rows;
 use crate::lanes::{Lanes, Row, Sym3};
 use crate::material::{Kernel, Moduli, Response, Step};
 
@@ -23,20 +22,20 @@ pub struct Answer<V> {
     pub response: Response<V>,
 }
 
-/// Advances the law by a strain increment `along` with the stress across held at zero. `stretches` are those along the bar at
-/// the end of the step and across it before, `time` and time step are of the step.
+/// Advances the law by a strain increment `along` with the stress across held at zero, from the stress `old` along and what is left
+/// across. The stretches are those along the bar at the end of the step and across it before, `time` and time step are of the step,
+/// `law_state` begins with the law's own rows.
 #[inline(always)]
 pub fn update<V: Lanes, K: Kernel>(
     law: &K,
     moduli: Moduli,
     [along, stretch_along, stretch_across]: [V; 3],
+    old: [V; 2],
     [time, time_step]: [f64; 2],
-    state: &mut [Row],
+    law_state: &mut [Row],
     part: usize,
 ) -> Answer<V> {
     let (zero, two) = (V::splat(0.0), V::splat(2.0));
-    let (own, law_state) = state.split_at_mut(rows::LAW);
-    let old = [V::load(&own[rows::STRESS], part), V::load(&own[rows::ACROSS], part)];
     let mut saved = [zero; MOST];
     for (saved, row) in saved.iter_mut().zip(law_state.iter()) {
         *saved = V::load(row, part);

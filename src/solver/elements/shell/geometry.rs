@@ -1,0 +1,337 @@
+//! Geometry of a four-node shell with one point in its plane, and its rates of strain.
+//!
+//! Fibres stand at the corners along pseudo-normals p_I = unit[(x_{I+1} − x_I) × (x_{I−1} − x_I)], which are found from the
+//! positions at every step, so that no rotation is accumulated. Their rate is q_I = ω_I × p_I: a rotation about p_I drops out.
+//! The rates of membrane strain and curvature are those of x + z p with bilinear x and p, taken at the centre; transverse shear
+//! is measured along the four edges. What is left are the hourglass fields, made orthogonal to rigid motion also of a warped
+//! element by X and P, and the rotation about the normal (drill). Forces are the transpose of the rates, so that the power is the
+//! same to the last bit of rounding, and rigid motion does no work. In this form the twisted beam is passed, which plain
+//! one-point shells (Belytschko, Lin and Tsay 1984) fail; it is equivalent in purpose to Belytschko, Wong and Chiang (1992).
+
+use crate::lanes::{Lanes, Matrix3, array};
+
+/// Corners at the ends of the edges 12, 23, 43, 14.
+const ENDS: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
+
+/// A vector per corner.
+pub type Corners<V> = [[V; 3]; 4];
+
+/// The three patterns of a corner field: ξ, η and hourglass; a quarter of the sum with the signs of the pattern.
+type Pattern<V> = [[V; 3]; 3];
+
+/// An element as it lies.
+pub struct Geometry<V> {
+    /// Axes: e₁ along ξ, e₃ normal to the plane of ξ and η. Each a vector.
+    pub e: [[V; 3]; 3],
+    /// ∂x_a/∂ξ_α: (1,ξ), (1,η), (2,η); (2,ξ) is zero.
+    jacobian: [V; 3],
+    /// ∂ξ_α/∂x_a: (ξ,1), (ξ,2), (η,2); (η,1) is zero.
+    inverse: [V; 3],
+    /// Area.
+    pub area: V,
+    /// Fibres.
+    p: Corners<V>,
+    /// Their derivatives in the plane.
+    slope: [[V; 3]; 2],
+    /// Curvature b_ac = p,a · e_c.
+    curvature: [[V; 2]; 2],
+    /// ¼ h · x along e₁ and e₂.
+    skew: [V; 2],
+    /// Hourglass parts of positions and fibres.
+    hourglass: [[V; 3]; 2],
+    /// Edges 12, 23, 43, 14.
+    edges: [[V; 3]; 4],
+}
+
+/// Rates of everything that resists, per time.
+pub struct Rates<V> {
+    /// Membrane strain 11, 22, 12 in the axes of the element.
+    pub strain: [V; 3],
+    /// Curvature 11, 22, 12.
+    pub curvature: [V; 3],
+    /// Transverse shear (twice the tensor component) 1, 2.
+    pub shear: [V; 2],
+    /// Membrane hourglass 1, 2.
+    pub membrane: [V; 2],
+    /// Bending hourglass 1, 2.
+    pub bending: [V; 2],
+    /// Differences of shear between opposite edges, ξ and η.
+    pub twist: [V; 2],
+    /// Rotation about the fibre against that of the surface, per corner.
+    pub drill: [V; 4],
+    /// Rate at which the element warps: the hourglass part of the velocity along e₃.
+    pub warping: V,
+}
+
+/// What resists: all that is conjugate to [`Rates`], with the area in it.
+pub struct Resultants<V> {
+    /// Membrane force 11, 22, 12 times the area.
+    pub force: [V; 3],
+    /// Moment 11, 22, 12 times the area.
+    pub moment: [V; 3],
+    /// Shear force 1, 2 times the area.
+    pub shear: [V; 2],
+    /// Membrane hourglass.
+    pub membrane: [V; 2],
+    /// Bending hourglass.
+    pub bending: [V; 2],
+    /// Differences of shear between edges.
+    pub twist: [V; 2],
+    /// Couples along the fibres.
+    pub drill: [V; 4],
+}
+
+#[inline(always)]
+pub fn dot<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> V {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub fn cross<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn minus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+    array![i in 3 => a[i] - b[i]]
+}
+
+#[inline(always)]
+fn plus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+    array![i in 3 => a[i] + b[i]]
+}
+
+#[inline(always)]
+fn times<V: Lanes>(a: &[V; 3], factor: V) -> [V; 3] {
+    array![i in 3 => a[i] * factor]
+}
+
+/// Unit vector; zero for zero.
+#[inline(always)]
+fn unit<V: Lanes>(a: &[V; 3]) -> [V; 3] {
+    let length = dot(a, a).max(V::splat(f64::MIN_POSITIVE)).sqrt();
+    times(a, V::splat(1.0) / length)
+}
+
+#[inline(always)]
+fn patterns<V: Lanes>(f: &Corners<V>) -> Pattern<V> {
+    let quarter = V::splat(0.25);
+    let (a, b) = (minus(&f[2], &f[0]), minus(&f[1], &f[3]));
+    let (c, d) = (plus(&f[0], &f[2]), plus(&f[1], &f[3]));
+    [times(&plus(&a, &b), quarter), times(&minus(&a, &b), quarter), times(&minus(&c, &d), quarter)]
+}
+
+impl<V: Lanes> Geometry<V> {
+    /// From the positions of the corners.
+    #[inline(always)]
+    pub fn new(x: &Corners<V>) -> Geometry<V> {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
+        let [g1, g2, gh] = patterns(x);
+        let e1 = unit(&g1);
+        let e3 = unit(&cross(&g1, &g2));
+        let e = [e1, cross(&e3, &e1), e3];
+        let jacobian = [dot(&g1, &e[0]), dot(&g2, &e[0]), dot(&g2, &e[1])];
+        let determinant = jacobian[0] * jacobian[2];
+        let inverse = [one / jacobian[0], zero - jacobian[1] / determinant, one / jacobian[2]];
+        let edges = [minus(&x[1], &x[0]), minus(&x[2], &x[1]), minus(&x[2], &x[3]), minus(&x[3], &x[0])];
+        // Corner by corner, the edge that leads away times the one that comes in.
+        let p = [
+            unit(&cross(&edges[0], &edges[3])),
+            unit(&cross(&edges[0], &edges[1])),
+            unit(&cross(&edges[2], &edges[1])),
+            unit(&cross(&edges[2], &edges[3])),
+        ];
+        let [p_xi, p_eta, p_h] = patterns(&p);
+        let slope = [times(&p_xi, inverse[0]), plus(&times(&p_xi, inverse[1]), &times(&p_eta, inverse[2]))];
+        let skew = [dot(&gh, &e[0]), dot(&gh, &e[1])];
+        let hourglass =
+            [times(&e[2], dot(&gh, &e[2])), array![i in 3 => p_h[i] - skew[0] * slope[0][i] - skew[1] * slope[1][i]]];
+        let curvature =
+            [[dot(&slope[0], &e[0]), dot(&slope[0], &e[1])], [dot(&slope[1], &e[0]), dot(&slope[1], &e[1])]];
+        let area = V::splat(4.0) * determinant;
+        Geometry { e, jacobian, inverse, area, p, slope, curvature, skew, hourglass, edges }
+    }
+
+    /// Derivatives of a field in the plane along e₁ and e₂, and its hourglass part.
+    #[inline(always)]
+    fn derivatives(&self, f: &Corners<V>) -> Pattern<V> {
+        let [xi, eta, h] = patterns(f);
+        let d1 = times(&xi, self.inverse[0]);
+        let d2: [V; 3] = array![i in 3 => xi[i] * self.inverse[1] + eta[i] * self.inverse[2]];
+        let rest = array![i in 3 => h[i] - self.skew[0] * d1[i] - self.skew[1] * d2[i]];
+        [d1, d2, rest]
+    }
+
+    /// Rates of fibres with these rotation rates.
+    #[inline(always)]
+    fn fibre_rates(&self, omega: &Corners<V>) -> Corners<V> {
+        array![corner in 4 => cross(&omega[corner], &self.p[corner])]
+    }
+
+    /// Rates of strain of velocities and rotation rates of the corners.
+    #[inline(always)]
+    pub fn rates(&self, v: &Corners<V>, omega: &Corners<V>) -> Rates<V> {
+        let (half, two) = (V::splat(0.5), V::splat(2.0));
+        let q = self.fibre_rates(omega);
+        let [v1, v2, vh] = self.derivatives(v);
+        let [q1, q2, qh] = self.derivatives(&q);
+        let [e1, e2, e3] = &self.e;
+        let [p1, p2] = &self.slope;
+        let strain = [dot(e1, &v1), dot(e2, &v2), half * (dot(e1, &v2) + dot(e2, &v1))];
+        let b = &self.curvature;
+        let curvature = [
+            dot(e1, &q1) + dot(p1, &v1) - two * (b[0][0] * strain[0] + b[0][1] * strain[2]),
+            dot(e2, &q2) + dot(p2, &v2) - two * (b[1][0] * strain[2] + b[1][1] * strain[1]),
+            half * (dot(e1, &q2) + dot(e2, &q1) + dot(p1, &v2) + dot(p2, &v1))
+                - (b[0][0] * strain[2] + b[0][1] * strain[1])
+                - (b[1][0] * strain[0] + b[1][1] * strain[2]),
+        ];
+        let [s12, s23, s43, s14] = self.edge_shears(v, &q);
+        let quarter = V::splat(0.25);
+        let (xi, eta) = (quarter * (s12 + s43), quarter * (s23 + s14));
+        let shear = [self.inverse[0] * xi, self.inverse[1] * xi + self.inverse[2] * eta];
+        let [big_x, big_p] = &self.hourglass;
+        let spin: [V; 3] = {
+            let normal = half * (dot(e2, &v1) - dot(e1, &v2));
+            let (s1, s2) = (dot(e3, &v2), dot(e3, &v1));
+            array![i in 3 => s1 * e1[i] - s2 * e2[i] + normal * e3[i]]
+        };
+        Rates {
+            strain,
+            curvature,
+            shear,
+            membrane: [dot(e1, &vh) + dot(big_x, &v1), dot(e2, &vh) + dot(big_x, &v2)],
+            bending: [dot(e1, &qh) + dot(big_p, &v1), dot(e2, &qh) + dot(big_p, &v2)],
+            twist: [quarter * (s43 - s12), quarter * (s23 - s14)],
+            drill: array![corner in 4 => dot(&self.p[corner], &minus(&omega[corner], &spin))],
+            warping: dot(e3, &vh),
+        }
+    }
+
+    /// Shear along the edges 12, 23, 43, 14: change of the angle between the edge and the fibres at its ends, times its length.
+    #[inline(always)]
+    fn edge_shears(&self, v: &Corners<V>, q: &Corners<V>) -> [V; 4] {
+        let half = V::splat(0.5);
+        array![edge in 4 => {
+            let [i, j] = ENDS[edge];
+            let fibre = plus(&self.p[i], &self.p[j]);
+            half * (dot(&fibre, &minus(&v[j], &v[i])) + dot(&self.edges[edge], &plus(&q[i], &q[j])))
+        }]
+    }
+
+    /// Forces and moments of the corners that have the power of the resultants, `[force, moment]`.
+    #[inline(always)]
+    pub fn forces(&self, s: &Resultants<V>) -> [Corners<V>; 2] {
+        let (half, two) = (V::splat(0.5), V::splat(2.0));
+        let [e1, e2, e3] = &self.e;
+        let [p1, p2] = &self.slope;
+        let b = &self.curvature;
+        let ([m11, m22, m12], [n11, n22, n12]) = (s.moment, s.force);
+        // Membrane force without what the curvature takes for itself.
+        let n11 = n11 - two * (b[0][0] * m11 + b[1][0] * m12);
+        let n22 = n22 - two * (b[1][1] * m22 + b[0][1] * m12);
+        let n12 = n12 - (b[0][1] * m11 + b[1][1] * m12 + b[1][0] * m22 + b[0][0] * m12);
+        let couple: [V; 3] = array![i in 3 => {
+            let p = &self.p;
+            (p[0][i] * s.drill[0] + p[1][i] * s.drill[1]) + (p[2][i] * s.drill[2] + p[3][i] * s.drill[3])
+        }];
+        let (c1, c2, c3) = (dot(&couple, e1), dot(&couple, e2), half * dot(&couple, e3));
+        let [big_x, big_p] = &self.hourglass;
+        // What multiplies the derivatives of the velocity, and its hourglass part.
+        let t1: [V; 3] = array![i in 3 => {
+            let own = n11 * e1[i] + n12 * e2[i] + m11 * p1[i] + m12 * p2[i];
+            own + s.membrane[0] * big_x[i] + s.bending[0] * big_p[i] + c2 * e3[i] - c3 * e2[i]
+        }];
+        let t2: [V; 3] = array![i in 3 => {
+            let own = n12 * e1[i] + n22 * e2[i] + m12 * p1[i] + m22 * p2[i];
+            own + s.membrane[1] * big_x[i] + s.bending[1] * big_p[i] - c1 * e3[i] + c3 * e1[i]
+        }];
+        let th: [V; 3] = array![i in 3 => s.membrane[0] * e1[i] + s.membrane[1] * e2[i]];
+        let r1: [V; 3] = array![i in 3 => m11 * e1[i] + m12 * e2[i]];
+        let r2: [V; 3] = array![i in 3 => m12 * e1[i] + m22 * e2[i]];
+        let rh: [V; 3] = array![i in 3 => s.bending[0] * e1[i] + s.bending[1] * e2[i]];
+        let mut force = self.transposed(&t1, &t2, &th);
+        let mut fibre = self.transposed(&r1, &r2, &rh);
+        self.add_edges(s, &mut force, &mut fibre);
+        let moment = array![corner in 4 => {
+            let m = cross(&self.p[corner], &fibre[corner]);
+            array![i in 3 => m[i] + s.drill[corner] * self.p[corner][i]]
+        }];
+        [force, moment]
+    }
+
+    /// Adds the forces of edge shears to those of corners and fibres.
+    #[inline(always)]
+    fn add_edges(&self, s: &Resultants<V>, force: &mut Corners<V>, fibre: &mut Corners<V>) {
+        let quarter = V::splat(0.25);
+        let xi = self.inverse[0] * s.shear[0] + self.inverse[1] * s.shear[1];
+        let eta = self.inverse[2] * s.shear[1];
+        let weights = [xi - s.twist[0], eta + s.twist[1], xi + s.twist[0], eta - s.twist[1]];
+        for edge in 0..4 {
+            let [i, j] = ENDS[edge];
+            let half = quarter * V::splat(0.5) * weights[edge];
+            for k in 0..3 {
+                let along = half * (self.p[i][k] + self.p[j][k]);
+                force[j][k] = force[j][k] + along;
+                force[i][k] = force[i][k] - along;
+                let turn = half * self.edges[edge][k];
+                fibre[i][k] = fibre[i][k] + turn;
+                fibre[j][k] = fibre[j][k] + turn;
+            }
+        }
+    }
+
+    /// Transpose of [`Geometry::derivatives`].
+    #[inline(always)]
+    fn transposed(&self, t1: &[V; 3], t2: &[V; 3], th: &[V; 3]) -> Corners<V> {
+        let quarter = V::splat(0.25);
+        let mut corners = [[V::splat(0.0); 3]; 4];
+        for i in 0..3 {
+            let (t1, t2) = (t1[i] - self.skew[0] * th[i], t2[i] - self.skew[1] * th[i]);
+            let xi = quarter * (self.inverse[0] * t1 + self.inverse[1] * t2);
+            let eta = quarter * (self.inverse[2] * t2);
+            let h = quarter * th[i];
+            corners[0][i] = h - xi - eta;
+            corners[1][i] = xi - eta - h;
+            corners[2][i] = xi + eta + h;
+            corners[3][i] = eta - xi - h;
+        }
+        corners
+    }
+
+    /// The reference that [`Geometry::turn`] wants: ∂ξ_α/∂x_a of the element at the start.
+    pub fn reference(&self) -> [V; 3] {
+        self.inverse
+    }
+
+    /// Cosine and sine of the angle from e₁ to the material axis that was e₁ at the start, by the polar decomposition of the
+    /// motion in the plane; and the stretch in these material axes: 11, 22, 12.
+    #[inline(always)]
+    pub fn turn(&self, reference: &[V; 3]) -> ([V; 2], [V; 3]) {
+        let [j11, j12, j22] = self.jacobian;
+        let [r11, r12, r22] = *reference;
+        // F_ab = ∂x_a/∂ξ_α ∂ξ_α/∂X_b
+        let (f11, f12) = (j11 * r11, j11 * r12 + j12 * r22);
+        let (f21, f22) = (V::splat(0.0), j22 * r22);
+        let (a, b) = (f11 + f22, f21 - f12);
+        let length = (a * a + b * b).max(V::splat(f64::MIN_POSITIVE)).sqrt();
+        let (c, s) = (a / length, b / length);
+        ([c, s], [c * f11 + s * f21, c * f22 - s * f12, c * f12 + s * f22])
+    }
+
+    /// Metric that hourglass fields are measured with: H₁₁, H₂₂, H₁₂ = A/3 ∂ξ_α/∂x_a ∂ξ_α/∂x_b; and A/3 times the squares of
+    /// the gradients of ξ and η.
+    #[inline(always)]
+    pub fn hourglass_metric(&self) -> ([V; 3], [V; 2]) {
+        let third = self.area * V::splat(1.0 / 3.0);
+        let [a, b, d] = self.inverse;
+        ([third * a * a, third * (b * b + d * d), third * a * b], [third * (a * a + b * b), third * d * d])
+    }
+
+    /// Material axes in space, as columns.
+    #[inline(always)]
+    pub fn material_axes(&self, [c, s]: [V; 2]) -> Matrix3<V> {
+        let [e1, e2, e3] = &self.e;
+        array![i in 3 => [c * e1[i] + s * e2[i], c * e2[i] - s * e1[i], e3[i]]]
+    }
+}

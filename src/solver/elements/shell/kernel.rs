@@ -1,0 +1,451 @@
+//! One step of a chunk of shells.
+
+use super::geometry::{Corners, Geometry, Rates, Resultants};
+use super::plane_stress;
+use super::rule::MOST_POINTS;
+use super::stable_step::{self, CHANGE, Stiffness};
+use super::{point_rows, rows};
+use crate::lanes::{CHUNK, Lanes, Row, Sym3, array};
+use crate::material::{Kernel, Moduli};
+use crate::model::BulkViscosity;
+use crate::solver::elements::pass::{Outcome, StepKernel};
+
+/// What holds for all shells of a block in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct ShellStep<K> {
+    /// The law.
+    pub law: K,
+    /// Its elastic constants.
+    pub moduli: Moduli,
+    /// Time of the present positions, and the step that led there.
+    pub times: [f64; 2],
+    /// Bulk viscosity, of the membrane.
+    pub viscosity: BulkViscosity,
+    /// Number of points through the thickness.
+    pub points: usize,
+    /// Their places and weights, of which there are as many.
+    pub rule: [[f64; 2]; MOST_POINTS],
+    /// What the stable step is found from.
+    pub stiffness: Stiffness,
+}
+
+impl<K: Kernel> StepKernel<8> for ShellStep<K> {
+    const ROTATIONS: usize = 4;
+
+    #[inline(always)]
+    fn step<V: Lanes>(
+        &self,
+        positions: &[[V; 8]; 3],
+        velocities: &[[V; 8]; 3],
+        state: &mut [Row],
+        part: usize,
+        mass: V,
+    ) -> Outcome<V, 8> {
+        let half_step = V::splat(0.5 * self.times[1]);
+        let x: Corners<V> = array![c in 4 => array![i in 3 => positions[i][c]]];
+        let v: Corners<V> = array![c in 4 => array![i in 3 => velocities[i][c]]];
+        let omega: Corners<V> = array![c in 4 => array![i in 3 => velocities[i][c + 4]]];
+        // (i) rates at mid-step
+        let middle: Corners<V> = array![c in 4 => array![i in 3 => x[c][i] - half_step * v[c][i]]];
+        let before = Geometry::new(&middle);
+        let rates = before.rates(&v, &omega);
+        let reference: [V; 3] = array![i in 3 => V::load(&state[rows::REFERENCE + i], part)];
+        let (turn, _) = before.turn(&reference);
+        // (ii) stress at the points, in the axes of the material
+        let motion = turned_rates(&rates, turn);
+        let found = self.points(&motion, before.area, state, part);
+        // (iii) hourglass and drill resistance, and bulk viscosity
+        let resistance = self.resist(&rates, &before, &found, state, part);
+        let viscous = self.viscous(&rates, before.area, &found, state, part);
+        // (iv) forces in the new configuration
+        let now = Geometry::new(&x);
+        let (turn, _) = now.turn(&reference);
+        let resultants = resultants(&found, &resistance, viscous, turn, now.area);
+        let [force, moment] = now.forces(&resultants);
+        // (v) stable step
+        let stable_step = self.stable_step(&x, &rates, &found, state, part, mass);
+        let stable_step = V::select_less(V::splat(0.0), now.area, stable_step, V::splat(0.0));
+        Outcome {
+            force: array![i in 3 => [
+                force[0][i], force[1][i], force[2][i], force[3][i],
+                moment[0][i], moment[1][i], moment[2][i], moment[3][i]
+            ]],
+            stable_step,
+        }
+    }
+}
+
+/// What the points have answered.
+struct Found<V> {
+    /// Membrane force 11, 22, 12 per length, in the axes of the material.
+    force: [V; 3],
+    /// Moment.
+    moment: [V; 3],
+    /// Shear force 1, 2.
+    shear: [V; 2],
+    /// Thickness at the end of the step.
+    thickness: V,
+    /// Part that plastic return has left of the stress: mean over the thickness, and mean as bending sees it.
+    returned: [V; 2],
+    /// Largest stiffness over the elastic one of the points.
+    stiffest: V,
+}
+
+/// Hourglass and drill resistance.
+struct Resistance<V> {
+    membrane: [V; 2],
+    bending: [V; 2],
+    twist: [V; 2],
+    drill: [V; 4],
+}
+
+/// Strain, curvature and shear rates in the axes of the material.
+struct Motion<V> {
+    strain: [V; 3],
+    curvature: [V; 3],
+    shear: [V; 2],
+}
+
+#[inline(always)]
+fn turned<V: Lanes>([xx, yy, xy]: [V; 3], [c, s]: [V; 2]) -> [V; 3] {
+    let (cc, ss, cs) = (c * c, s * s, c * s);
+    let twice = cs * (xy + xy);
+    [cc * xx + twice + ss * yy, ss * xx - twice + cc * yy, (cc - ss) * xy + cs * (yy - xx)]
+}
+
+#[inline(always)]
+fn turned_rates<V: Lanes>(rates: &Rates<V>, turn: [V; 2]) -> Motion<V> {
+    let [c, s] = turn;
+    let [g1, g2] = rates.shear;
+    Motion {
+        strain: turned(rates.strain, turn),
+        curvature: turned(rates.curvature, turn),
+        shear: [c * g1 + s * g2, c * g2 - s * g1],
+    }
+}
+
+impl<K: Kernel> ShellStep<K> {
+    /// Advances all points and books their energy; stores thickness and resultants.
+    #[inline(always)]
+    fn points<V: Lanes>(&self, motion: &Motion<V>, area: V, state: &mut [Row], part: usize) -> Found<V> {
+        let (zero, one, half) = (V::splat(0.0), V::splat(1.0), V::splat(0.5));
+        let [time, step] = self.times;
+        let step_lanes = V::splat(step);
+        let old_thickness = V::load(&state[rows::THICKNESS], part);
+        let (own, points) = state.split_at_mut(rows::POINTS);
+        let stride = point_rows::LAW + K::STATE.len();
+        let [mut n11, mut n22, mut n12, mut m11, mut m22, mut m12, mut q1, mut q2] = [zero; 8];
+        let [mut work, mut thinning, mut mean, mut bent, mut stiffest] = [zero, zero, zero, zero, one];
+        let membrane = self.points == 1;
+        let of_bending = if membrane { 0.0 } else { 1.5 / self.stiffness.bending };
+        for (point, [place, weight]) in points.chunks_exact_mut(stride).zip(self.rule).take(self.points) {
+            let (point_own, law_state) = point.split_at_mut(point_rows::LAW);
+            let z = half * old_thickness * V::splat(place);
+            let [xx, yy, xy] = array![i in 3 => (motion.strain[i] + z * motion.curvature[i]) * step_lanes];
+            let shear = if membrane { zero } else { half * step_lanes };
+            let strain = Sym3 { xx, yy, zz: zero, xy, yz: motion.shear[1] * shear, zx: motion.shear[0] * shear };
+            let old = Sym3 {
+                xx: V::load(&point_own[point_rows::XX], part),
+                yy: V::load(&point_own[point_rows::YY], part),
+                zz: V::load(&point_own[point_rows::LEFT], part),
+                xy: V::load(&point_own[point_rows::XY], part),
+                yz: V::load(&point_own[point_rows::YZ], part),
+                zx: V::load(&point_own[point_rows::ZX], part),
+            };
+            let answer = plane_stress::update(&self.law, self.moduli, strain, old, [time, step], law_state, part);
+            // A point that is lost carries nothing.
+            let carries = one - V::load(&point_own[point_rows::LOST], part);
+            let stress = Sym3 {
+                xx: answer.stress.xx * carries,
+                yy: answer.stress.yy * carries,
+                zz: answer.stress.zz * carries,
+                xy: answer.stress.xy * carries,
+                yz: answer.stress.yz * carries,
+                zx: answer.stress.zx * carries,
+            };
+            stress.xx.store(&mut point_own[point_rows::XX], part);
+            stress.yy.store(&mut point_own[point_rows::YY], part);
+            stress.zz.store(&mut point_own[point_rows::LEFT], part);
+            stress.xy.store(&mut point_own[point_rows::XY], part);
+            stress.yz.store(&mut point_own[point_rows::YZ], part);
+            stress.zx.store(&mut point_own[point_rows::ZX], part);
+            let share = V::splat(0.5 * weight);
+            let lever = V::splat(0.25 * weight * place);
+            n11 = n11 + share * stress.xx;
+            n22 = n22 + share * stress.yy;
+            n12 = n12 + share * stress.xy;
+            q1 = q1 + share * stress.zx;
+            q2 = q2 + share * stress.yz;
+            m11 = m11 + lever * stress.xx;
+            m22 = m22 + lever * stress.yy;
+            m12 = m12 + lever * stress.xy;
+            let twice = (old.xy + stress.xy) * strain.xy;
+            // Shear counts with its correction, and twice as all shears do.
+            let across = (old.yz + stress.yz) * strain.yz + (old.zx + stress.zx) * strain.zx;
+            let along = (old.xx + stress.xx) * strain.xx + (old.yy + stress.yy) * strain.yy + (twice + twice);
+            work = work + share * (along + V::splat(2.0 * self.stiffness.shear_correction) * across);
+            thinning = thinning + share * answer.normal * carries;
+            let kept = answer.response.returned * carries;
+            mean = mean + share * kept;
+            bent = bent + V::splat(of_bending * weight * place * place) * kept;
+            if K::STIFFNESS {
+                let over = V::splat(1.0 / self.moduli.dilatational());
+                stiffest = stiffest.max(answer.response.stiffness.dilatational * over);
+            }
+        }
+        let thickness = old_thickness * (one + thinning);
+        thickness.store(&mut own[rows::THICKNESS], part);
+        let corrected = thickness * V::splat(self.stiffness.shear_correction);
+        let square = thickness * thickness;
+        let found = Found {
+            force: [n11 * thickness, n22 * thickness, n12 * thickness],
+            moment: [m11 * square, m22 * square, m12 * square],
+            shear: [q1 * corrected, q2 * corrected],
+            thickness,
+            returned: [mean, bent],
+            stiffest,
+        };
+        let volume = area * half * (old_thickness + thickness);
+        add(half * work * volume, &mut own[rows::INTERNAL_ENERGY], part);
+        found.store(own, part);
+        found
+    }
+
+    /// Advances hourglass and drill resistance, and books their energy.
+    #[inline(always)]
+    fn resist<V: Lanes>(
+        &self,
+        rates: &Rates<V>,
+        geometry: &Geometry<V>,
+        found: &Found<V>,
+        state: &mut [Row],
+        part: usize,
+    ) -> Resistance<V> {
+        let step = V::splat(self.times[1]);
+        let (mu, nu) = (0.5 * self.moduli.two_mu, self.moduli.poisson());
+        let young = V::splat(2.0 * mu * (1.0 + nu));
+        let t = found.thickness;
+        let ([h11, h22, h12], gradients) = geometry.hourglass_metric();
+        let mixed = V::splat(nu) * h12;
+        let [kept, kept_bending] = found.returned;
+        let stiffness = young * t;
+        let bending = stiffness * t * t * V::splat(self.stiffness.bending / 12.0);
+        let shear = V::splat(self.stiffness.shear_correction * mu) * t;
+        let [m1, m2] = rates.membrane;
+        let [b1, b2] = rates.bending;
+        let drill = drill_factor(found, young, mu) * V::splat(0.25 * mu) * t * geometry.area;
+        let rises = [
+            stiffness * (h11 * m1 - mixed * m2),
+            stiffness * (h22 * m2 - mixed * m1),
+            bending * (h11 * b1 - mixed * b2),
+            bending * (h22 * b2 - mixed * b1),
+            shear * gradients[0] * rates.twist[0],
+            shear * gradients[1] * rates.twist[1],
+            drill * rates.drill[0],
+            drill * rates.drill[1],
+            drill * rates.drill[2],
+            drill * rates.drill[3],
+        ];
+        let conjugate = [
+            rates.membrane[0],
+            rates.membrane[1],
+            rates.bending[0],
+            rates.bending[1],
+            rates.twist[0],
+            rates.twist[1],
+            rates.drill[0],
+            rates.drill[1],
+            rates.drill[2],
+            rates.drill[3],
+        ];
+        // The damping of the highest mode that bulk viscosity has, of these fields: a resistance that follows rates gives a little
+        // energy back where strains are large, of the second order, which would add up in what swings for long.
+        let damping = V::splat(self.viscosity.linear) * V::load(&state[rows::STEP], part);
+        let mut work = V::splat(0.0);
+        let mut now = [V::splat(0.0); 10];
+        for i in 0..10 {
+            let row = &mut state[rows::RESISTANCE + i];
+            let old = V::load(row, part);
+            // Plastic flow takes as much off the resistance as off the stress.
+            let factor = if i == 2 || i == 3 { kept_bending } else { kept };
+            let elastic = (old + rises[i] * step) * factor;
+            elastic.store(row, part);
+            let viscous = rises[i] * damping;
+            let row = &mut state[rows::DAMPING + i];
+            let last = V::load(row, part);
+            viscous.store(row, part);
+            now[i] = elastic + viscous;
+            work = work + (old + last + now[i]) * conjugate[i];
+        }
+        add(work * step * V::splat(0.5), &mut state[rows::HOURGLASS_ENERGY], part);
+        Resistance {
+            membrane: [now[0], now[1]],
+            bending: [now[2], now[3]],
+            twist: [now[4], now[5]],
+            drill: [now[6], now[7], now[8], now[9]],
+        }
+    }
+
+    /// Bulk viscosity of the membrane as a mean stress, with its energy booked.
+    #[inline(always)]
+    fn viscous<V: Lanes>(&self, rates: &Rates<V>, area: V, found: &Found<V>, state: &mut [Row], part: usize) -> V {
+        let rate = rates.strain[0] + rates.strain[1];
+        let bound = V::load(&state[rows::STEP], part);
+        let damping = self.damping(rate, bound);
+        let viscous = damping * V::splat(self.plane_modulus()) * bound * rate;
+        let last = V::load(&state[rows::VISCOUS_STRESS], part);
+        viscous.store(&mut state[rows::VISCOUS_STRESS], part);
+        let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;
+        add(work, &mut state[rows::VISCOUS_ENERGY], part);
+        viscous
+    }
+
+    /// b₁ − b₂² Δt min(0, tr d), the damping ratio of the highest mode.
+    #[inline(always)]
+    fn damping<V: Lanes>(&self, rate: V, bound: V) -> V {
+        let quadratic = V::splat(-self.viscosity.quadratic * self.viscosity.quadratic);
+        V::splat(self.viscosity.linear) + quadratic * bound * rate.min(V::splat(0.0))
+    }
+
+    /// E/(1 − ν²).
+    fn plane_modulus(&self) -> f64 {
+        let nu = self.moduli.poisson();
+        self.moduli.two_mu / (1.0 - nu)
+    }
+
+    /// The stable step by the bound that was found last, shortened by what has changed since; found again where that is much.
+    #[inline(always)]
+    fn stable_step<V: Lanes>(
+        &self,
+        x: &Corners<V>,
+        rates: &Rates<V>,
+        found: &Found<V>,
+        state: &mut [Row],
+        part: usize,
+        mass: V,
+    ) -> V {
+        let one = V::splat(1.0);
+        let [e11, e22, e12] = rates.strain;
+        let [k11, k22, k12] = rates.curvature;
+        let sum = magnitude(e11) + magnitude(e22) + magnitude(e12 + e12);
+        let bent = (magnitude(k11) + magnitude(k22) + magnitude(k12 + k12)) * found.thickness;
+        let side = (V::load(&state[rows::INERTIA], part) * V::splat(8.0)).sqrt();
+        let warped = magnitude(rates.warping) / side * V::splat(4.0);
+        let changed = V::load(&state[rows::CHANGED], part) + (sum + bent + warped) * V::splat(self.times[1]);
+        changed.store(&mut state[rows::CHANGED], part);
+        if V::any_less(V::splat(CHANGE), changed) {
+            self.find_again(x, found, state, part, mass);
+        }
+        let changed = V::load(&state[rows::CHANGED], part);
+        let bound = V::load(&state[rows::STEP], part) * (one - changed) / found.stiffest.sqrt();
+        let damping = self.damping(e11 + e22, bound);
+        bound * ((one + damping * damping).sqrt() - damping)
+    }
+
+    /// Finds the steps of those lanes again that have changed much.
+    #[inline(always)]
+    fn find_again<V: Lanes>(&self, x: &Corners<V>, found: &Found<V>, state: &mut [Row], part: usize, mass: V) {
+        let mut places = [[Row::default(); 3]; 4];
+        for corner in 0..4 {
+            for i in 0..3 {
+                x[corner][i].store(&mut places[corner][i], part);
+            }
+        }
+        let mut body = [Row::default(); 3];
+        let (mu, nu) = (0.5 * self.moduli.two_mu, self.moduli.poisson());
+        mass.store(&mut body[0], part);
+        found.thickness.store(&mut body[1], part);
+        drill_factor(found, V::splat(2.0 * mu * (1.0 + nu)), mu).store(&mut body[2], part);
+        let lanes = part * V::COUNT..(part + 1) * V::COUNT;
+        find_lanes(lanes, &places, &body, &self.stiffness, state);
+    }
+}
+
+/// See [`ShellStep::find_again`]: one lane after the other, so that nothing here is compiled for vectors.
+#[inline(never)]
+fn find_lanes(
+    lanes: std::ops::Range<usize>,
+    places: &[[Row; 3]; 4],
+    body: &[Row; 3],
+    stiffness: &Stiffness,
+    state: &mut [Row],
+) {
+    for lane in lanes.filter(|&lane| lane < CHUNK) {
+        let changed = state[rows::CHANGED].0[lane];
+        if changed.is_nan() || changed <= CHANGE {
+            continue;
+        }
+        let corners: Corners<f64> = [0, 1, 2, 3].map(|c: usize| [0, 1, 2].map(|i: usize| places[c][i].0[lane]));
+        let [mass, thickness, drill] = [0, 1, 2].map(|i: usize| body[i].0[lane]);
+        let inertia = state[rows::INERTIA].0[lane];
+        let body = stable_step::Body { mass, inertia, thickness, drill };
+        state[rows::STEP].0[lane] = stable_step::stable_step(&corners, stiffness, &body);
+        state[rows::CHANGED].0[lane] = 0.0;
+    }
+}
+
+impl<V: Lanes> Found<V> {
+    #[inline(always)]
+    fn store(&self, own: &mut [Row], part: usize) {
+        for i in 0..3 {
+            self.force[i].store(&mut own[rows::RESULTANTS + i], part);
+            self.moment[i].store(&mut own[rows::RESULTANTS + 3 + i], part);
+        }
+        self.shear[0].store(&mut own[rows::RESULTANTS + 6], part);
+        self.shear[1].store(&mut own[rows::RESULTANTS + 7], part);
+    }
+}
+
+#[inline(always)]
+fn magnitude<V: Lanes>(a: V) -> V {
+    a.max(V::splat(0.0) - a)
+}
+
+#[inline(always)]
+fn add<V: Lanes>(value: V, row: &mut Row, part: usize) {
+    (V::load(row, part) + value).store(row, part);
+}
+
+/// Drill resistance over G t A/4. Bending moments destabilise the drill of a strip that rolls up, so that it grows with them:
+/// 144 M:M/(E G t⁴), which is 4 E/G times the square of the strain at the surface while that is elastic.
+#[inline(always)]
+fn drill_factor<V: Lanes>(found: &Found<V>, young: V, mu: f64) -> V {
+    let [m11, m22, m12] = found.moment;
+    let square = m11 * m11 + m22 * m22 + (m12 * m12 + m12 * m12);
+    let t2 = found.thickness * found.thickness;
+    (V::splat(144.0 / mu) * square / (young * t2 * t2).max(V::splat(f64::MIN_POSITIVE))).max(V::splat(0.01))
+}
+
+/// Resultants in the axes of the element, times the area.
+#[inline(always)]
+fn resultants<V: Lanes>(
+    found: &Found<V>,
+    resistance: &Resistance<V>,
+    viscous: V,
+    [c, s]: [V; 2],
+    area: V,
+) -> Resultants<V> {
+    let back = [c, V::splat(0.0) - s];
+    let viscous = viscous * found.thickness;
+    let [n11, n22, n12] = turned(found.force, back);
+    let [m11, m22, m12] = turned(found.moment, back);
+    let [q1, q2] = found.shear;
+    Resultants {
+        force: [(n11 + viscous) * area, (n22 + viscous) * area, n12 * area],
+        moment: [m11 * area, m22 * area, m12 * area],
+        shear: [(c * q1 - s * q2) * area, (s * q1 + c * q2) * area],
+        membrane: resistance.membrane,
+        bending: resistance.bending,
+        twist: resistance.twist,
+        drill: resistance.drill,
+    }
+}
+
+/// Power of resultants in the axes of the material, per area.
+pub fn power(rates: &Rates<f64>, turn: [f64; 2], resultants: &[f64; 8]) -> f64 {
+    let motion = turned_rates(rates, turn);
+    let [n11, n22, n12, m11, m22, m12, q1, q2] = *resultants;
+    let plane = |[xx, yy, xy]: [f64; 3], [a, b, c]: [f64; 3]| xx * a + yy * b + 2.0 * xy * c;
+    let bent = plane(motion.curvature, [m11, m22, m12]);
+    plane(motion.strain, [n11, n22, n12]) + bent + motion.shear[0] * q1 + motion.shear[1] * q2
+}
