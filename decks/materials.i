@@ -3,7 +3,7 @@ $ Source      none: this deck shows the properties of all models and equations o
 $ Run         urto materials            less than a second
 $ Look        colour materials.e by PRESSURE or VONMISES, over the states
 $ Units       kg, m, s  -> N, Pa, J
-$ Mesh        meshes/materials.mesh: 13 cubes of 0.01 m in a row along x, blocks 1 to 13. Node sets: 1 all nodes,
+$ Mesh        meshes/materials.mesh: 14 cubes of 0.01 m in a row along x, blocks 1 to 14. Node sets: 1 all nodes,
 $             2 the bottoms, 3 the tops
 TITLE
  EVERY MATERIAL MODEL IN UNIAXIAL STRAIN
@@ -35,6 +35,12 @@ FUNCTION, 3              $ honeycomb: strength over 1 - V/V0
 END
 FUNCTION, 4              $ honeycomb, sideways and in shear
 0.,      0.5E6
+END
+
+FUNCTION, 5              $ sheet metal: yield stress over plastic strain
+0.,      200.E6
+0.05,    280.E6
+0.20,    350.E6
 END
 
 MATERIAL, 1, ELASTIC, 7850.                $ steel
@@ -166,5 +172,12 @@ MATERIAL, 13, MOONEY RIVLIN, 1100.         $ rubber
 C10 = 0.4E6
 C01 = 0.1E6
 BULK MODULUS = 200.E6
+END
+MATERIAL, 14, PIECEWISE PLASTIC, 7850.     $ sheet of mild steel
+YOUNGS MODULUS = 210.E9
+POISSONS RATIO = 0.3
+HARDENING FUNCTION = 5
+RATE COEFFICIENT = 40.4
+RATE EXPONENT = 5.
 END
 EXIT

@@ -90,11 +90,16 @@ pub fn search(words: &str, other: &'static Grammar, models: &[Models]) -> Option
         let line = text.lines().skip(1).find(|line| line.to_lowercase().contains(first)).or(text.lines().nth(1));
         wanted
             .iter()
-            .all(|word| lower.contains(word))
+            .all(|word| lower.split(|letter: char| !letter.is_alphanumeric()).any(|one| is_word(one, word)))
             .then(|| format!("   {:<28}{}\n", page.title, line.unwrap_or("").trim()))
     });
     let found: String = found.collect();
     (!found.is_empty() && !wanted.is_empty()).then_some(found)
+}
+
+/// Whether a word of a text is the one that is looked for, or its plural.
+fn is_word(one: &str, wanted: &str) -> bool {
+    one == wanted || one.strip_suffix('s') == Some(wanted)
 }
 
 /// As [`explain`], for the commands of another language, such as that of mesh recipes.
@@ -312,7 +317,7 @@ mod tests {
     #[test]
     fn beginnings_list_and_unknown_words_hint() {
         assert_eq!(explain("TIME STEP").map(|text| text.lines().count()), Ok(3));
-        assert!(explain("").expect("the list").contains(" * THICKNESS SCALE"));
+        assert!(explain("").expect("the list").contains(" * SPH"));
         assert_eq!(explain("PLOT TIEM").map_err(|e| e.near), Err(Some("PLOT TIME".into())));
         assert_eq!(explain("VELOCTY").map_err(|e| e.near), Err(Some("VELOCITY".into())));
         let message = explain("FROBNICATE").map_err(|e| e.to_string());

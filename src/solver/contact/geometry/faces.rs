@@ -30,7 +30,7 @@ pub struct Faces {
     /// Square root of the area at the start, a length.
     pub size: Vec<f64>,
     /// A point deeper than this behind a face did not come through it: half the element, as it is now where it has become
-    /// thinner, rounded down. A length.
+    /// thinner, to the nearest factor of √2. A length.
     pub depth: Vec<f64>,
     /// The same at the start.
     start_depth: Vec<f64>,
@@ -112,8 +112,8 @@ impl Faces {
             return now;
         }
         let exact = -2.0 * libm::log2(depth / start);
-        let next = exact.ceil().clamp(0.0, f64::from(THINNEST)) as u8;
-        if next > now || exact + 1.5 < f64::from(now) { next } else { now }
+        let next = (exact - 0.5).ceil().clamp(0.0, f64::from(THINNEST)) as u8;
+        if next > now || exact + 1.0 < f64::from(now) { next } else { now }
     }
 
     /// The outer faces of a face's element, itself included.
@@ -203,13 +203,13 @@ mod tests {
             faces.depth[0]
         };
         assert_eq!(at(1.3), 1.0);
-        assert_eq!(at(0.9), libm::exp2(-0.5));
+        assert_eq!(at(0.9), 1.0);
+        assert_eq!(at(0.8), libm::exp2(-0.5));
         assert_eq!(at(0.99), libm::exp2(-0.5));
         assert_eq!(at(0.5), 0.5);
-        assert_eq!(at(0.49), libm::exp2(-1.5));
-        assert_eq!(at(0.55), libm::exp2(-1.5));
-        assert_eq!(at(0.6), 0.5);
-        assert_eq!(at(0.9), libm::exp2(-0.5));
+        assert_eq!(at(0.4), libm::exp2(-1.5));
+        assert_eq!(at(0.45), libm::exp2(-1.5));
+        assert_eq!(at(0.6), libm::exp2(-0.5));
         assert_eq!(at(1e-9), libm::exp2(-7.5));
         assert_eq!(at(f64::NAN), libm::exp2(-7.5));
     }

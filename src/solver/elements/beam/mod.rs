@@ -2,7 +2,7 @@
 //!
 //! Its axes turn with the line between the nodes and with their mean rotation about it. Rates at mid-step:
 //!
-//!     ε = e₁·v₂₁/L    κ = (ω₂ − ω₁)/L in e₁, e₂, e₃    γ_y = e₂·v₂₁/L − e₃·ω̄    γ_z = e₃·v₂₁/L + e₂·ω̄
+//! ε = e₁·v₂₁/L, κ = (ω₂ − ω₁)/L in e₁, e₂, e₃, γ_y = e₂·v₂₁/L − e₃·ω̄, γ_z = e₃·v₂₁/L + e₂·ω̄.
 //!
 //! A fibre is strained by ε + z κ_y − y κ_z. Shear has the residual flexibility of bending, so that one element is exact under
 //! forces at its ends. Forces are the transpose of the rates, at the end of the step.

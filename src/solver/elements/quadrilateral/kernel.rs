@@ -157,12 +157,16 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let (measure, lengths) = (b_squared * inverse_area, lengths(&x, &frame));
         let gamma = hourglass_vector(&operator, &x, inverse_area);
         let mut square = frequency_square(*section, &operator, &inverse_corners, [elastic, mu]);
+        // Hourglass and strain modes are orthogonal only where corners weigh alike and the element is a parallelogram: near the
+        // axis the whole resistance counts, and in warped elements what the hourglass vector has across (1, −1, 1, −1).
+        let stiffness =
+            hourglass::stiffness(settings.control, mu, V::splat(settings.poisson), &lengths, measure) * thickness;
+        let across = (dot(&gamma, &gamma) - V::splat(4.0)).max(zero);
+        square = square + stiffness * (across + V::splat(2.0) * across.sqrt()) / lightest;
         if about_axis {
-            // Near the axis, where corners weigh differently, hourglass and strain modes are not orthogonal.
-            let stiffness = hourglass::stiffness(settings.control, mu, V::splat(settings.poisson), &lengths, measure);
             let uneven = ((one - V::splat(4.0) * lightest / mass) * V::splat(3.0)).min(one);
             let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
-            square = square + uneven * stiffness * thickness * dot(&squares, &inverse_corners);
+            square = square + uneven * stiffness * dot(&squares, &inverse_corners);
         }
         let modulus = if K::STIFFNESS { elastic } else { step_modulus(settings, &old, &stress, &strain) };
         let bound = (V::splat(4.0) * elastic / (square * modulus)).sqrt();
