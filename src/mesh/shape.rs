@@ -67,7 +67,7 @@ impl Shape {
             Shape::Hexahedron => &["HEX"],
             Shape::Quadrilateral => &["SHE", "QUA"],
             Shape::Plane => &["QUA"],
-            Shape::Bar => &["BAR", "TRU"],
+            Shape::Bar => &["BAR", "TRU", "BEA"],
         }
     }
 

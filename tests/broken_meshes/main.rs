@@ -117,9 +117,9 @@ const SPOILT: &[Case] = &[
     ("block_of_tetrahedra", |m| *m.integers("connect2") = vec![9, 10, 11, 11, 13, 13, 13, 13]),
     ("type_hex20", |m| m.other_type("HEX20", 20)),
     ("type_hex27", |m| m.other_type("HEX", 27)),
-    ("type_shell", |m| m.other_type("SHELL4", 4)),
-    ("type_quad", |m| m.other_type("QUAD", 4)),
-    ("type_beam", |m| m.other_type("BEAM", 2)),
+    ("type_shell", |m| m.other_type("SHELL9", 9)),
+    ("type_quad", |m| m.other_type("QUAD8", 8)),
+    ("type_beam", |m| m.other_type("BEAM3", 3)),
     ("type_sphere", |m| m.other_type("SPHERE", 1)),
     ("type_unknown_with_eight_nodes", |m| m.other_type("SHELL8", 8)),
     ("several_at_once", |m| {
