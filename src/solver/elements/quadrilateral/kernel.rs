@@ -338,7 +338,7 @@ fn hourglass_vector<V: Lanes>(operator: &Operator<V>, x: &[Corners<V>; 2], inver
     let [bx, by] = &operator.plane;
     let (hx, hy) = (mode(&x[0]) * inverse_area, mode(&x[1]) * inverse_area);
     array![i in 4 => {
-        let one = V::splat(if i % 2 == 0 { 1.0 } else { -1.0 });
+        let one = V::splat(if i.is_multiple_of(2) { 1.0 } else { -1.0 });
         one - (bx[i] * hx + by[i] * hy)
     }]
 }

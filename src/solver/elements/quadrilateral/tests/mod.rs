@@ -228,7 +228,7 @@ fn plane_strain_is_one_layer_of_hexahedra() {
             let [a, b, c] = [1.0, 2.0, 3.0].map(|k: f64| libm::sin(0.05 * k * f64::from(step)));
             let field = |node: usize, x: [f64; 3]| {
                 let corner = node % 4;
-                let mode = if corner % 2 == 0 { 1.0 } else { -1.0 };
+                let mode = if corner.is_multiple_of(2) { 1.0 } else { -1.0 };
                 [20.0 * a * x[0] + 30.0 * b * x[1] + 5.0 * c * mode, -60.0 * c * x[0] + 8.0 * mode * a, 0.0]
             };
             flat.step(time_step, field);
@@ -287,7 +287,7 @@ fn the_stable_step_is_a_bound() {
         corners.iter_mut().for_each(|corner| corner[1] *= slender);
         let poisson = [0.0, 0.3, 0.45][case / 11 % 3];
         let law = Law::Elastic(Elastic { poisson, ..STEEL });
-        let held = |dof: usize| about_axis && dof % 2 == 0 && corners[dof / 2][0] == 0.0;
+        let held = |dof: usize| about_axis && dof.is_multiple_of(2) && corners[dof / 2][0] == 0.0;
         let h = 1e-7 * slender.min(1.0);
         let force = |dof: usize, h: f64| {
             let mut rig = Rig::flat(&corners, law.clone(), ASSUMED, about_axis);

@@ -62,10 +62,8 @@ impl Rig {
     /// A step of one second with these velocities and rotation rates.
     pub fn step(&mut self, v: [[f64; 3]; 4], omega: [[f64; 3]; 4]) {
         for (row, rate) in self.nodes.iter_mut().zip(v.into_iter().chain(omega)) {
-            for i in 0..3 {
-                row.0[4 + i] = rate[i];
-                row.0[i] += rate[i];
-            }
+            row.0[4..7].copy_from_slice(&rate);
+            (0..3).for_each(|i| row.0[i] += rate[i]);
         }
         self.forces.fill(Force::default());
         self.settings.time_step = 1.0;
