@@ -204,7 +204,10 @@ fn every_material_on_any_number_of_ranks() {
     // Rates of strain vanish later, tearing comes later.
     for (before, resting) in [(400, "TEARING"), (800, "EQPSDOT")] {
         let whole = case.part(1, None, before + 100);
-        let idle = ["AXIS12", "AXIS13", "AXIS21", "AXIS23", "AXIS31", "AXIS32", "DECAY", resting];
+        // No corner of a fluid is bent so far here that it is pushed back.
+        let corners: Vec<String> = (1..=8).map(|corner| format!("CORNER{corner}")).collect();
+        let mut idle = vec!["AXIS12", "AXIS13", "AXIS21", "AXIS23", "AXIS31", "AXIS32", "DECAY", resting];
+        idle.extend(corners.iter().map(String::as_str));
         for writing in RANKS {
             let first = case.part(writing, None, before);
             let zero = |(_, values): &&(String, Vec<f64>)| values.iter().all(|value| *value == 0.0);

@@ -1,8 +1,8 @@
 //! `urto report`: a run as one page of HTML, for somebody else: what was modelled, how it went, what it looks like, its
 //! curves, its deck. Everything is in the one file.
 //!
-//! [`log`] reads the print log, [`pictures`] and [`curves`] draw from the results, [`extremes`] finds where variables are
-//! largest, [`page`] puts it together with [`html`].
+//! `log` reads the print log, `pictures` and `curves` draw from the results, `extremes` finds where variables are
+//! largest, `page` puts it together with `html`.
 
 mod curves;
 mod error;

@@ -1,7 +1,7 @@
 //! Studies: one deck with all combinations of some values, and what came out of each in one table.
 //!
-//! [`Axis`]es of values become [`Member`]s; each is run by itself, and leaves a [`record`] of how it went; [`results`] are
-//! read from what it wrote, and end in a [`table`] and in pictures.
+//! [`Axis`]es of values become [`Member`]s; each is run by itself, and leaves a [`record`] of how it went; `results` are
+//! read from what it wrote, and end in a `table` and in pictures.
 
 mod axis;
 mod picture;

@@ -200,7 +200,9 @@ impl Digest {
 
     /// Takes in a line of a part.
     fn take(&mut self, part: &str, text: &str) -> Option<()> {
-        let (variable, rest) = text.split_at_checked(VARIABLE)?;
+        // A longer name pushes its cells aside.
+        let end = (VARIABLE..text.len()).find(|&place| text.as_bytes()[place] == b' ')?;
+        let (variable, rest) = text.split_at_checked(end)?;
         let (variable, cells) = (variable.trim(), rest.split_whitespace());
         if part == FIELDS[0] {
             let cells: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>().ok()?;

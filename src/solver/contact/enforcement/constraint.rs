@@ -32,7 +32,7 @@ pub struct Constraint {
     pub share: f64,
     /// Coulomb friction.
     pub friction: Friction,
-    /// Forces of the last step, until [`Enforcer::solve`] finds the new ones: the normal force λ and the friction force on
+    /// Forces of the last step, until `Enforcer::solve` finds the new ones: the normal force λ and the friction force on
     /// the first member.
     pub carried: Carried,
     /// What has made it. Constraints are in the order of their origins.
