@@ -4,13 +4,13 @@
 //! Symonds, Brown University 1957).
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
-use super::plastic::{Flow, compose, radial_return};
+use super::plastic::{Flow, compose, radial_return, raised_by_rate};
 use super::property::Curve;
 use super::soil::interpolate;
 use super::{
     Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 parameters! {
     /// A tabulated curve and its rate.
@@ -73,9 +73,6 @@ fn checked(law: PiecewisePlastic) -> Result<PiecewisePlastic, Refusal> {
     Ok(law)
 }
 
-/// Increments of plastic strain are taken for no smaller than this in the power law.
-const SMALLEST: f64 = 1e-30;
-
 impl PiecewisePlastic {
     pub(super) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
@@ -100,17 +97,13 @@ struct Hardening<'a, V> {
 impl<V: Lanes> Flow<V> for Hardening<'_, V> {
     #[inline(always)]
     fn stress(&self, increment: V) -> (V, V) {
-        let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let strain = self.eqps + increment;
         let base = interpolate(&self.law.curve.points, strain);
         let rise = slope(&self.law.curve.points, strain);
         if self.over == 0.0 {
             return (base, rise);
         }
-        let small = increment.max(V::splat(SMALLEST));
-        let faster = power(small * V::splat(self.over), 1.0 / self.law.exponent);
-        let faster = V::select_less(zero, increment, faster, zero);
-        (base * (one + faster), rise * (one + faster) + base * faster / (small * V::splat(self.law.exponent)))
+        raised_by_rate([base, rise], increment, V::splat(self.over), self.law.exponent)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What plastic laws share: radial return to a yield stress that is any function of the plastic strain increment, and
 //! the loss of strength of a point that has failed.
 
-use crate::lanes::{Lanes, Sym3};
+use crate::lanes::{Lanes, Sym3, power};
 
 /// Yield stress within one step.
 pub(super) trait Flow<V> {
@@ -59,6 +59,21 @@ pub(super) fn radial_return<V: Lanes, F: Flow<V>>(deviator: &Sym3<V>, three_mu: 
     }
     let factor = one - stiffness * x / trial.max(V::splat(f64::MIN_POSITIVE));
     Returned { increment: x, factor: factor.max(zero) }
+}
+
+/// Increments of plastic strain are taken for no smaller than this in the power of a rate.
+const SMALLEST: f64 = 1e-30;
+
+/// The stress Y (1 + (Δ r)^(1/p)) at which an increment Δ flows and its derivative with respect to Δ, given the stress Y at rest
+/// with its slope, force/length², and r, one over the length of the step times the reference rate (Perzyna 1966; Cowper
+/// and Symonds 1957).
+#[inline(always)]
+pub(super) fn raised_by_rate<V: Lanes>([rest, slope]: [V; 2], increment: V, rate: V, exponent: f64) -> (V, V) {
+    let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    let small = increment.max(V::splat(SMALLEST));
+    let over = power(small * rate, 1.0 / exponent);
+    let over = V::select_less(zero, increment, over, zero);
+    (rest * (one + over), slope * (one + over) + rest * over / (small * V::splat(exponent)))
 }
 
 /// Largest eigenvalue of a deviator: 2√(J₂/3) cos θ with cos 3θ = c = (3√3/2) J₃/J₂^(3/2).

@@ -4,9 +4,9 @@
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::elastic_plastic::{HARDENING_MODULUS, YIELD_STRESS};
-use super::plastic::{Flow, compose, radial_return};
+use super::plastic::{Flow, compose, radial_return, raised_by_rate};
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
+use crate::lanes::{Lanes, Matrix3, Row, Sym3};
 
 parameters! {
     /// ε̄̇ᵖ = γ ⟨σ̄/Y − 1⟩ᵖ with Y = Y₀ + H ε̄ᵖ.
@@ -73,20 +73,12 @@ struct Overstress<'a, V> {
     rate: V,
 }
 
-/// Increments below this are none.
-const SMALLEST: f64 = 1e-30;
-
 impl<V: Lanes> Flow<V> for Overstress<'_, V> {
     #[inline(always)]
     fn stress(&self, increment: V) -> (V, V) {
-        let (law, one) = (self.law, V::splat(1.0));
-        let hardening = V::splat(law.hardening);
-        let rest = V::splat(law.yield_stress) + hardening * (self.eqps + increment);
-        let small = increment.max(V::splat(SMALLEST));
-        let over = power(small * self.rate, 1.0 / law.exponent);
-        let over = V::select_less(V::splat(0.0), increment, over, V::splat(0.0));
-        let slope = rest * over / (small * V::splat(law.exponent));
-        (rest * (one + over), hardening * (one + over) + slope)
+        let hardening = V::splat(self.law.hardening);
+        let rest = V::splat(self.law.yield_stress) + hardening * (self.eqps + increment);
+        raised_by_rate([rest, hardening], increment, self.rate, self.law.exponent)
     }
 }
 

@@ -4,8 +4,7 @@
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
 use super::check::edge_edge::{EdgeCheck, EdgeContact, EdgeVerdict};
-use super::check::node_face;
-use super::check::node_face::{DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
+use super::check::node_face::{self, DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
 use super::enforcement::carried::Carried;
 use super::enforcement::certificate::Bank;
@@ -284,10 +283,10 @@ impl LocalProblem {
                 let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[contact.face as usize]);
-                let tolerated = remaining * contact.tolerated;
-                let contact =
-                    &DetectedContact { tolerated, growth: (tolerated - contact.tolerated) / drift, ..*contact };
+                let before_growth = contact.tolerated;
+                let contact = &DetectedContact { tolerated: remaining * before_growth, ..*contact };
                 if let Some(mut constraint) = node_face::constraint(faces, pairing, point, contact) {
+                    constraint.growth = (contact.tolerated - before_growth) / drift;
                     constraint.carried = carried_before(faces, &before, contacts, contact);
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);

@@ -295,7 +295,7 @@ impl Contact {
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, .. } = self;
-        let remaining = PressFit::remaining(*press_fit, step);
+        let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining };
         match remote {
             Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),

@@ -28,10 +28,12 @@ impl PressFit {
         Some(PressFit { duration: duration.unwrap_or_else(|| TRANSITS * transit(mesh, model, body)) })
     }
 
-    /// The part of a tolerated overlap that is left after a step: 1 when all is done, or where nothing is to be done.
-    pub fn remaining(fit: Option<PressFit>, step: &StepTimes) -> f64 {
-        let Some(PressFit { duration }) = fit.filter(|fit| step.time < fit.duration) else { return 1.0 };
-        let part = |time: f64| 0.5 * (1.0 + libm::cos(std::f64::consts::PI * (time / duration).clamp(0.0, 1.0)));
+    /// The part of a tolerated overlap that is left after a step; 1 when all is done.
+    pub fn remaining(&self, step: &StepTimes) -> f64 {
+        if step.time >= self.duration {
+            return 1.0;
+        }
+        let part = |time: f64| 0.5 * (1.0 + libm::cos(std::f64::consts::PI * (time / self.duration).clamp(0.0, 1.0)));
         let now = part(step.time);
         if now > 0.0 { part(step.time + step.drift) / now } else { 0.0 }
     }
@@ -57,16 +59,14 @@ mod tests {
 
     #[test]
     fn what_is_left_falls_from_all_to_nothing() {
-        let fit = Some(PressFit { duration: 2.0 });
-        let left = (0..25).fold(1.0, |left, i| {
-            left * PressFit::remaining(fit, &StepTimes { time: 0.1 * f64::from(i), kick: 0.1, drift: 0.1 })
-        });
+        let fit = PressFit { duration: 2.0 };
+        let left = (0..25)
+            .fold(1.0, |left, i| left * fit.remaining(&StepTimes { time: 0.1 * f64::from(i), kick: 0.1, drift: 0.1 }));
         assert!(left.abs() < 1e-15, "{left}");
-        let half = (0..10).fold(1.0, |left, i| {
-            left * PressFit::remaining(fit, &StepTimes { time: 0.1 * f64::from(i), kick: 0.1, drift: 0.1 })
-        });
+        let half = (0..10)
+            .fold(1.0, |left, i| left * fit.remaining(&StepTimes { time: 0.1 * f64::from(i), kick: 0.1, drift: 0.1 }));
         // ½ (1 + cos π/2).
         assert!((half - 0.5).abs() < 1e-14, "{half}");
-        assert_eq!(PressFit::remaining(None, &StepTimes { time: 0.0, kick: 0.1, drift: 0.1 }), 1.0);
+        assert_eq!(fit.remaining(&StepTimes { time: 2.0, kick: 0.1, drift: 0.1 }), 1.0);
     }
 }

@@ -10,6 +10,7 @@ pub mod hexahedron;
 mod pass;
 pub mod quadrilateral;
 pub mod shell;
+mod step_modulus;
 pub mod truss;
 mod uniaxial;
 

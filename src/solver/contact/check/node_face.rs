@@ -70,8 +70,6 @@ pub struct DetectedContact {
     pub projection: Projection,
     /// Overlap that stays, a length of at most 0, see [`FaceContact`].
     pub tolerated: f64,
-    /// Velocity with which what stays becomes less: that of a surface that grows, see `press_fit`.
-    pub growth: f64,
 }
 
 /// How far in front of a face a node that has left it is still held by it, a length.
@@ -258,7 +256,6 @@ impl NodeFaceCheck<'_> {
             time: -1.0,
             opposition: 0.0,
             tolerated: tolerated.max(projection.gap.min(0.0)),
-            growth: 0.0,
             projection,
         }
     }
@@ -276,8 +273,7 @@ impl NodeFaceCheck<'_> {
         let end = projection::project(&self.faces.end(face, self.motion), self.motion.end(point))
             .filter(|projection| projection.gap < 0.0)?;
         let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point))?;
-        let contact =
-            |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated, growth: 0.0 };
+        let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         if start.gap >= 0.0 {
             let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
             let time = projection::first_crossing(&corners, self.motion.path(point))?;
@@ -405,7 +401,7 @@ pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, contact: &Detecte
         count: MEMBERS,
         normal: contact.projection.normal,
         gap: contact.projection.gap - contact.tolerated,
-        growth: contact.growth,
+        growth: 0.0,
         persists: contact.time < 0.0,
         size: faces.size[face],
         share,

@@ -9,6 +9,7 @@ use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::solver::elements::pass::{Outcome, StepKernel};
+use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
 #[derive(Debug, Clone, Copy)]
@@ -146,7 +147,11 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let inverse = V::splat(1.0) / gradient.volume192;
     let b_squared = gradient.square4608();
     let stiffness = response.stiffness;
-    let modulus = if K::STIFFNESS { stiffness.dilatational } else { step_modulus(settings, &old, &stress, &strain) };
+    let modulus = if K::STIFFNESS {
+        stiffness.dilatational
+    } else {
+        step_modulus([settings.dilatational, settings.mu], settings.effective_moduli, [&old, &stress], &strain)
+    };
     let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
     let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
@@ -278,25 +283,6 @@ fn lengths<V: Lanes>(x: &[geometry::Modes<V>; 3], r: &Matrix3<V>, stiffness_meas
 fn quadratic_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
     let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity);
     quadratic * bound * rate.min(V::splat(0.0))
-}
-
-/// Dilatational modulus for the stable step: elastic, or PRONTO's estimate from the last increment,
-/// M̂ = K + ⅔ 2μ̂ with the elastic bulk modulus and 2μ̂ = Δs:Δe/Δe:Δe, kept between a tenth and the whole of the
-/// elastic one.
-#[inline(always)]
-fn step_modulus<V: Lanes>(settings: &Settings, old: &Sym3<V>, new: &Sym3<V>, strain: &Sym3<V>) -> V {
-    let elastic = V::splat(settings.dilatational);
-    if !settings.effective_moduli {
-        return elastic;
-    }
-    let change = new.zip(*old, |a, b| a - b).deviator();
-    let e = strain.deviator();
-    let square = e.contract(e);
-    let two_mu = V::splat(2.0 * settings.mu);
-    let floor = V::splat(1e-24);
-    let shear = V::select_less(floor, square, change.contract(e) / square.max(floor), two_mu).min(two_mu);
-    let bulk = elastic - two_mu * V::splat(2.0 / 3.0);
-    (bulk + shear * V::splat(2.0 / 3.0)).min(elastic).max(elastic * V::splat(0.1))
 }
 
 /// f_iI = T_ij B_jI + Q_iα γ_αI at the end of the step. The part of γ that makes it orthogonal to linear fields

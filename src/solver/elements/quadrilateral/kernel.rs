@@ -8,6 +8,7 @@ use crate::lanes::{Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::Hourglass;
 use crate::solver::elements::pass::{Outcome, StepKernel};
+use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
 #[derive(Debug, Clone, Copy)]
@@ -168,7 +169,11 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
             square = square + uneven * stiffness * dot(&squares, &inverse_corners);
         }
-        let modulus = if K::STIFFNESS { elastic } else { step_modulus(settings, &old, &stress, &strain) };
+        let modulus = if K::STIFFNESS {
+            elastic
+        } else {
+            step_modulus([settings.dilatational, settings.mu], settings.effective_moduli, [&old, &stress], &strain)
+        };
         let bound = (V::splat(4.0) * elastic / (square * modulus)).sqrt();
         let rate = gradient[0][0] + gradient[1][1] + hoop;
         let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity) * bound * rate.min(zero);
@@ -256,23 +261,6 @@ fn frequency_square<V: Lanes>(
         lambda * (whole * whole + axial2) + two_mu * ((radial[i] * radial[i] + hoop[i] * hoop[i]) + axial2)
     }];
     dot(&terms, inverse_mass) * V::splat(section.turn()) / *volume
-}
-
-/// Dilatational modulus for the stable step: elastic, or PRONTO's estimate from the last increment as in the hexahedron.
-#[inline(always)]
-fn step_modulus<V: Lanes>(settings: &Settings, old: &Sym3<V>, new: &Sym3<V>, strain: &Sym3<V>) -> V {
-    let elastic = V::splat(settings.dilatational);
-    if !settings.effective_moduli {
-        return elastic;
-    }
-    let change = new.zip(*old, |a, b| a - b).deviator();
-    let e = strain.deviator();
-    let square = e.contract(e);
-    let two_mu = V::splat(2.0 * settings.mu);
-    let floor = V::splat(1e-24);
-    let shear = V::select_less(floor, square, change.contract(e) / square.max(floor), two_mu).min(two_mu);
-    let bulk = elastic - two_mu * V::splat(2.0 / 3.0);
-    (bulk + shear * V::splat(2.0 / 3.0)).min(elastic).max(elastic * V::splat(0.1))
 }
 
 /// Λ₁ · x with Λ₁ = (−1, 1, 1, −1).
