@@ -165,10 +165,10 @@ impl InstructionSet {
         all.into_iter().filter(|set| *set <= InstructionSet::widest())
     }
 
-    /// The widest set that this processor has.
+    /// The widest set that this processor has and that the kernels were compiled for.
     pub fn widest() -> InstructionSet {
         #[cfg(target_arch = "x86_64")]
-        {
+        if !cfg!(one_width) {
             let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512dq")
                 && is_x86_feature_detected!("avx512vl");
