@@ -81,6 +81,16 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific((modulus / material.density).sqrt(), 4)
         );
     }
+    for added in &body.added_mass.blocks {
+        out += &format!(
+            "  block {}: MASS SCALING adds {}, {} of its mass, to {} elements; one of them has {} times its mass\n",
+            added.block,
+            scientific(added.added, 4),
+            scientific(added.share(), 4),
+            added.elements,
+            scientific(added.most, 4)
+        );
+    }
     let parts = print::features(model, mesh).into_iter().map(|part| format!("  {:<44}{}\n", part.what, part.asked_by));
     out + "what is modelled, and which command asked for it\n" + &parts.collect::<String>()
 }

@@ -79,10 +79,13 @@ impl Given {
     ///
     /// # Errors
     ///
-    /// Bodies overlap in the mesh and cannot be moved apart, or an element cannot be computed.
+    /// Bodies overlap in the mesh and cannot be moved apart, an element cannot be computed, or MASS SCALING adds more than it may.
     pub fn body(&self) -> Result<Body, Failure> {
         let model = &self.problem.model;
         let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
+        if let Some(refusal) = body.added_mass.refusal() {
+            return Err(Failure::input(refusal));
+        }
         match body.overlap.refusal(&self.mesh) {
             Some(refusal) if model.contact.control.overlap.refuses() => Err(Failure::input(refusal)),
             _ => Ok(body),

@@ -1,7 +1,7 @@
 //! Title, times, time step, hourglass control, bulk viscosity.
 
 use super::{
-    Analysis, BulkViscosity, Hourglass, StepModuli,
+    Analysis, BulkViscosity, Hourglass, MassScaling, ScaleMass, StepModuli,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, language};
@@ -14,6 +14,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TIME STEP SCALE", time_step_scale),
     ("TIME STEP GROWTH", time_step_growth),
     ("TIME STEP MODULI", time_step_moduli),
+    ("MASS SCALING", mass_scaling),
     ("HOURGLASS STIFFENING", hourglass),
     ("HOURGLASS CONTROL", hourglass),
     ("BULK VISCOSITY", bulk_viscosity),
@@ -61,6 +62,23 @@ fn time_step_growth(card: &Card, draft: &mut Draft) {
 fn time_step_moduli(card: &Card, draft: &mut Draft) {
     draft.model.time_step.moduli =
         if card.text("moduli") == "EFFECTIVE" { StepModuli::Effective } else { StepModuli::Elastic };
+}
+
+fn mass_scaling(card: &Card, draft: &mut Draft) {
+    let value = card.number("value");
+    let scale = if card.text("way") == "FACTOR" { ScaleMass::Factor(value) } else { ScaleMass::Step(value) };
+    if matches!(scale, ScaleMass::Factor(factor) if factor < 1.0) {
+        return draft.report(
+            Diagnostic::error("MASS SCALING: a factor below 1 would take mass away")
+                .at(card.place("value"), "the factor on the mass is at least 1")
+                .help("a lighter block has a smaller density in its MATERIAL"),
+        );
+    }
+    draft.model.mass_scalings.push(MassScaling {
+        block: card.maybe_integer("block"),
+        scale,
+        limit: card.number("limit"),
+    });
 }
 
 fn bulk_viscosity(card: &Card, draft: &mut Draft) {

@@ -48,6 +48,8 @@ pub struct Model {
     pub plot: PlotSchedule,
     /// How the time step follows from the stable one.
     pub time_step: TimeStepControl,
+    /// Masses added so that the run may take longer steps.
+    pub mass_scalings: Vec<MassScaling>,
     /// Bulk viscosity coefficients.
     pub bulk_viscosity: BulkViscosity,
     /// How hourglass modes are resisted.
@@ -203,6 +205,26 @@ pub enum StepModuli {
     Elastic,
     /// PRONTO's effective moduli of the last increment: larger steps in plastic flow, no longer a bound.
     Effective,
+}
+
+/// MASS SCALING: mass that is added to the elements of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassScaling {
+    /// Number of the block; `None` for all blocks.
+    pub block: Option<i64>,
+    /// How much.
+    pub scale: ScaleMass,
+    /// Largest added mass of a block over the mass of its material.
+    pub limit: f64,
+}
+
+/// How much mass is added to an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScaleMass {
+    /// As much as it needs for a time step of this length, if it needs any.
+    Step(f64),
+    /// Its mass times this factor, which is at least 1, less its mass.
+    Factor(f64),
 }
 
 /// BULK VISCOSITY.

@@ -129,6 +129,7 @@ impl Default for Model {
                 growth: f64::NAN,
                 moduli: StepModuli::default(),
             },
+            mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
             hourglass: DEFAULT_HOURGLASS,
             functions: Vec::new(),

@@ -10,7 +10,7 @@ use crate::solver::nodes::Nodes;
 use crate::solver::{Solver, Totals};
 
 /// Global variables of the plot file with their meaning.
-pub const GLOBAL_VARIABLES: [(&str, &str); 15] = [
+pub const GLOBAL_VARIABLES: [(&str, &str); 17] = [
     ("KE", "kinetic energy"),
     ("IE", "internal energy since the start: work of stresses, without INITIAL ENERGY of materials"),
     ("HGE", "hourglass energy"),
@@ -26,11 +26,22 @@ pub const GLOBAL_VARIABLES: [(&str, &str); 15] = [
     ("ZMOM", "momentum in z"),
     ("NSTEPS", "steps taken"),
     ("TMSTEP", "time step"),
+    ("ADDMASS", "mass that MASS SCALING has added; only with it"),
+    ("ADDKE", "kinetic energy of what MASS SCALING has added; only with it"),
 ];
 
-/// Names of the global variables of files of this dimension.
-pub fn global_names(dimension: Dimension) -> impl Iterator<Item = &'static str> {
-    GLOBAL_VARIABLES.iter().map(|(name, _)| *name).filter(move |name| plane::is_in(dimension, name))
+/// The last of them, which only models with MASS SCALING have.
+const OF_ADDED_MASS: usize = 2;
+
+/// Names of the global variables of a model's files.
+pub fn global_names(model: &Model) -> impl Iterator<Item = &'static str> + use<> {
+    let (dimension, count) = (model.analysis.dimension(), global_count(!model.mass_scalings.is_empty()));
+    GLOBAL_VARIABLES[..count].iter().map(|(name, _)| *name).filter(move |name| plane::is_in(dimension, name))
+}
+
+/// How many global variables there are in three dimensions.
+fn global_count(scaled: bool) -> usize {
+    GLOBAL_VARIABLES.len() - if scaled { 0 } else { OF_ADDED_MASS }
 }
 
 /// Values of these variables at the present state.
@@ -52,8 +63,10 @@ pub fn global_values(solver: &Solver, totals: &Totals, dimension: Dimension) -> 
         z,
         solver.step as f64,
         solver.time_step,
+        solver.domain.mass_added.unwrap_or_default(),
+        totals.added_kinetic,
     ];
-    let named = GLOBAL_VARIABLES.iter().zip(all);
+    let named = GLOBAL_VARIABLES[..global_count(solver.domain.mass_added.is_some())].iter().zip(all);
     named.filter(|((name, _), _)| plane::is_in(dimension, name)).map(|(_, value)| value).collect()
 }
 

@@ -1,11 +1,11 @@
 //! What a restart is a state of, and whether a deck and a mesh are still the same problem.
 //!
 //! A continued run may change its times, outputs, loads, constraints and the numbers of its laws. What gives the stored
-//! state its meaning must stay: the mesh, laws and densities of the blocks, hourglass control, and what is in contact.
+//! state its meaning must stay: the mesh, laws, densities and added masses of the blocks, hourglass control, and what is in contact.
 
 use crate::exodus::Restart;
 use crate::mesh::{Block, Mesh};
-use crate::model::{Analysis, ContactMaterials, Hourglass, Model};
+use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model};
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
@@ -32,6 +32,11 @@ pub fn identity(model: &Model) -> String {
         Hourglass::AssumedStrain { .. } => "ASSUMED STRAIN",
     };
     lines.push(("HOURGLASS CONTROL".into(), hourglass.into()));
+    // Masses are of the start; the same commands find the same ones.
+    for MassScaling { block, scale, .. } in &model.mass_scalings {
+        let of = block.map_or("ALL".to_string(), |block| block.to_string());
+        lines.push((format!("MASS SCALING {of}"), format!("{scale:?}")));
+    }
     let materials = match &model.contact.materials {
         None => "none".to_string(),
         Some(ContactMaterials::All) => "all blocks".to_string(),
@@ -129,7 +134,9 @@ fn masses(restart: &Restart, mesh: &Mesh, body: &Body) -> Option<String> {
     // A node that has been dropped has no mass.
     let differ = then.iter().zip(&body.node_mass).position(|(then, now)| *then != 0.0 && then != now)?;
     let node = mesh.node_ids[differ];
-    Some(format!("node {node} had another mass: CONTACT DATA takes overlaps out of the mesh in another way now"))
+    Some(format!(
+        "node {node} had another mass: CONTACT DATA takes overlaps out of the mesh in another way now, or masses are added in another way"
+    ))
 }
 
 /// The differences as a list of lines, not all when there are many.

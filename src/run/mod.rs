@@ -246,7 +246,7 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
         let fields = FieldList::new(job.model, solver);
-        let mut globals: Vec<String> = global_names(job.mesh.dimension).map(String::from).collect();
+        let mut globals: Vec<String> = global_names(job.model).map(String::from).collect();
         if job.model.plot_requests.block_energies {
             globals.extend(block_energy_names(job.mesh));
         }
@@ -300,6 +300,7 @@ impl<'a> Writer<'a> {
             mesh: job.mesh,
             overlap: job.body.overlap,
             masses: &job.body.block_masses(job.mesh.blocks.len()),
+            added: &job.body.added_mass.blocks,
             variables: [&self.names[0], &self.names[1], &self.names[2]],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),

@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
 use crate::solver::contact::{self, Overlap};
 use crate::solver::elements::{Element, Sample};
+use crate::solver::mass_scaling::AddedMass;
 use crate::solver::rotations::Rotations;
 use crate::vector::add;
 use std::sync::Arc;
@@ -24,8 +25,10 @@ pub struct Body {
     pub element_unknowns: Arc<Connectivity>,
     /// Rotations of the nodes that can turn.
     pub rotations: Rotations,
-    /// Element masses, in canonical order.
+    /// Masses of the elements' material, in canonical order.
     pub element_mass: Vec<f64>,
+    /// What MASS SCALING has added to elements and nodes.
+    pub added_mass: AddedMass,
     /// What computes the elements of each mesh block.
     pub elements: Vec<Element>,
     /// File position of the first element of each mesh block.
@@ -123,6 +126,7 @@ impl Body {
             element_unknowns: Arc::default(),
             rotations: Rotations::default(),
             element_mass: Vec::with_capacity(mesh.element_count()),
+            added_mass: AddedMass::default(),
             elements: Vec::new(),
             first: Vec::new(),
             node_mass: vec![0.0; mesh.coordinates.len()],
@@ -217,7 +221,33 @@ impl Body {
                 self.node_mass[node as usize] += mass * share;
             }
         }
+        self.scale_masses(mesh, model);
         self.add_point_masses(mesh, model);
+    }
+
+    /// Adds what MASS SCALING asks for, to each corner by its share.
+    fn scale_masses(&mut self, mesh: &Mesh, model: &Model) {
+        let mut added = AddedMass::of(mesh, model, self);
+        let mut shares = Vec::new();
+        for element in 0..added.elements() {
+            let mass = added.of_element(element);
+            if mass == 0.0 {
+                continue;
+            }
+            let unknowns = &self.element_unknowns[element];
+            shares.resize(unknowns.len(), 0.0);
+            let block = self.element_block[element] as usize;
+            let corners: Vec<_> =
+                self.element_nodes[element].iter().map(|&node| self.positions[node as usize]).collect();
+            let attributes = mesh.blocks[block].attributes_of(self.place_in_block(element));
+            let sample = Sample { nodes: &self.element_nodes[element], corners: &corners, attributes };
+            self.elements[block].weigh(&sample, 1.0, &mut shares);
+            for (&node, share) in unknowns.iter().zip(&shares) {
+                self.node_mass[node as usize] += mass * share;
+                added.add_to_node(node, mass * share, self.rotations.unknowns());
+            }
+        }
+        self.added_mass = added;
     }
 
     /// Adds the masses that the deck gives nodes. One that belongs to no element has no part in the motion, with or without.

@@ -51,6 +51,10 @@ pub struct Domain {
     pub contact: Option<Contact>,
     /// Elements that are taken away, when the deck asks for it.
     pub erosion: Option<Erosion>,
+    /// What of each local node's mass MASS SCALING has added; empty without it.
+    pub added_mass: Vec<f64>,
+    /// What it has added to the whole body; `None` without it.
+    pub mass_added: Option<f64>,
     /// Sums over nodes shared with other ranks.
     pub exchange: Exchange,
 }
@@ -137,6 +141,8 @@ impl Domain {
             carried_work: Vec::new(),
             contact: None,
             erosion: None,
+            added_mass: body.added_mass.of_nodes(&share.nodes),
+            mass_added: (!model.mass_scalings.is_empty()).then(|| body.added_mass.total()),
             exchange: Exchange::new(share),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
@@ -346,6 +352,7 @@ fn new_element(place: u32, block: &Block, body: &Body, share: &Share, local: &[u
         nodes: body.element_unknowns[element].iter().map(|&n| local[n as usize]).collect(),
         corners: nodes.iter().map(|&n| body.positions[n as usize]).collect(),
         mass: body.element_mass[element],
+        added: body.added_mass.of_element(element),
         attributes: block.attributes_of(body.place_in_block(element)).to_vec(),
     }
 }

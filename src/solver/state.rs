@@ -87,6 +87,8 @@ impl Domain {
             element_id: _,
             rotations: _,
             layered: _,
+            added_mass: _,
+            mass_added: _,
             exchange: _,
         } = self;
         nodes.visit_state(archive);

@@ -36,11 +36,13 @@ pub struct Totals {
     pub press_fit: f64,
     /// Linear momentum.
     pub momentum: [f64; 3],
+    /// Kinetic energy of what MASS SCALING has added. It is a part of `kinetic`.
+    pub added_kinetic: f64,
 }
 
 impl Totals {
     /// Number of sums.
-    const COUNT: usize = 11;
+    const COUNT: usize = 12;
 
     fn from_array(s: [f64; Self::COUNT]) -> Totals {
         Totals {
@@ -55,6 +57,7 @@ impl Totals {
             press_fit: 0.0,
             momentum: [s[7], s[8], s[9]],
             eroded: s[10],
+            added_kinetic: s[11],
         }
     }
 
@@ -136,6 +139,7 @@ pub fn contact_gain(domain: &mut Domain, comm: &mut dyn Communicator) -> f64 {
 
 fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
     let nodes = &domain.nodes;
+    let added = |i: usize| domain.added_mass.get(i).copied();
     for (i, ((row, force), owned)) in nodes.rows.iter().zip(&nodes.forces).zip(&nodes.owned).enumerate() {
         if !owned {
             continue;
@@ -150,6 +154,10 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
             }
         }
         sums[0].add(0.5 * r[3] * product);
+        // What has been dropped with the last element of a node has no mass of either kind.
+        if let Some(mass) = added(i).filter(|_| r[3] > 0.0) {
+            sums[11].add(0.5 * mass * product);
+        }
     }
 }
 

@@ -111,7 +111,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
     let mut sums = [0.0; SUMS];
     let (shares, inertias) = shares.split_at(group.corners);
     for (&node, share) in own.iter().zip(shares) {
-        let mass = share * group.element_mass(i);
+        let mass = share * group.moving_mass(i);
         let (x, velocity) = (nodes.position(node), solver.velocity_now(node));
         let momentum = scaled(velocity, mass);
         let moved = scaled(subtract(x, nodes.initial[node as usize]), mass);
@@ -128,7 +128,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
         sums[19] += 0.5 * mass * (0..3).map(|a| before[a] * after[a]).sum::<f64>();
     }
     for (&rotation, share) in rotations.iter().zip(inertias) {
-        let inertia = share * group.element_mass(i);
+        let inertia = share * group.moving_mass(i);
         let [before, after] = solver.velocities_around(rotation);
         let rate = scaled(add(before, after), 0.5 * inertia);
         for a in 0..3 {

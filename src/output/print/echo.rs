@@ -3,6 +3,7 @@
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
+use crate::solver::BlockMass;
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
 use std::fmt::Write;
@@ -25,6 +26,8 @@ pub struct Echo<'a> {
     pub overlap: Overlap,
     /// Mass of each block, in mesh order.
     pub masses: &'a [f64],
+    /// What MASS SCALING has added to blocks.
+    pub added: &'a [BlockMass],
     /// Names of the nodal, element and global variables of the plot file.
     pub variables: [&'a [String]; 3],
     /// Seconds that the data input phase and the data initialization phase took.
@@ -238,12 +241,27 @@ fn conditions(model: &Model) -> String {
 fn masses(echo: &Echo) -> String {
     let lines = echo.mesh.blocks.iter().zip(echo.masses).map(|(b, m)| format!("{:>13}{:>16}", b.id, number(*m)));
     let table = table("TOTAL MASS OF EACH MATERIAL", "  MATERIAL ID            MASS", lines.collect());
+    let table = table + &added_masses(echo.added);
     let of = match echo.model.analysis {
         Analysis::Solid => return table,
         Analysis::PlaneStrain => "A UNIT OF THICKNESS",
         Analysis::Axisymmetric => "TWO PI RADIANS",
     };
     format!("{table}                ( ALL MASSES ARE FOR {of} )\n")
+}
+
+/// What MASS SCALING has added, a line for each block that it names.
+fn added_masses(added: &[BlockMass]) -> String {
+    let lines = added.iter().map(|block| {
+        let BlockMass { block: id, added, elements, most, limit, .. } = *block;
+        let share = number(block.share());
+        format!("{id:>13}{:>16}{share:>12}{elements:>10}{:>16}{:>12}", number(added), number(most), number(limit))
+    });
+    table(
+        "MASS ADDED BY MASS SCALING",
+        "  MATERIAL ID            MASS       SHARE  ELEMENTS  LARGEST FACTOR       LIMIT",
+        lines.collect(),
+    )
 }
 
 fn variables([nodal, element, global]: [&[String]; 3]) -> String {

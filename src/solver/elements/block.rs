@@ -41,8 +41,10 @@ pub struct Group {
     pub unknowns: usize,
     /// Local nodes of eight elements, then their rotations: `unknowns` such rows per chunk.
     pub connectivity: Vec<[u32; CHUNK]>,
-    /// Element masses, one row per chunk.
+    /// Masses of the elements' material, one row per chunk.
     pub mass: Vec<Row>,
+    /// The same with what MASS SCALING has added; empty where it has added nothing.
+    pub moving: Vec<Row>,
     /// What the elements store, `stride` rows per chunk: their own numbers, then those of their law.
     pub state: Vec<Row>,
     /// Rows per chunk.
@@ -62,8 +64,10 @@ pub struct NewElement {
     pub nodes: Vec<u32>,
     /// Corner positions, lengths.
     pub corners: Vec<[f64; 3]>,
-    /// Mass.
+    /// Mass of the material.
     pub mass: f64,
+    /// Mass that MASS SCALING has added to it.
+    pub added: f64,
     /// Attributes in the mesh, if any.
     pub attributes: Vec<f64>,
 }
@@ -84,6 +88,7 @@ impl Group {
             unknowns,
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
             mass: vec![Row::default(); chunks],
+            moving: Vec::new(),
             state: vec![Row::default(); chunks * stride],
             stride,
             gone: Vec::new(),
@@ -96,6 +101,12 @@ impl Group {
             start(element, &mut numbers);
             group.set(slot, &element.nodes, element.mass, &numbers);
         }
+        if elements.iter().any(|element| element.added > 0.0) {
+            group.moving = group.mass.clone();
+            for slot in 0..chunks * CHUNK {
+                group.moving[slot / CHUNK].0[slot % CHUNK] += elements[slot.min(elements.len() - 1)].added;
+            }
+        }
         group
     }
 
@@ -106,6 +117,9 @@ impl Group {
             row[lane] = *node;
         }
         self.mass[chunk].0[lane] = mass;
+        if let Some(moving) = self.moving.get_mut(chunk) {
+            moving.0[lane] = mass;
+        }
         for (row, number) in self.state[chunk * self.stride..].iter_mut().zip(numbers) {
             row.0[lane] = *number;
         }
@@ -193,9 +207,14 @@ impl Group {
         self.steps.get(i / CHUNK).map(|row| row.0[i % CHUNK])
     }
 
-    /// Mass of the `i`-th element.
+    /// Mass of the material of the `i`-th element.
     pub fn element_mass(&self, i: usize) -> f64 {
         self.mass[i / CHUNK].0[i % CHUNK]
+    }
+
+    /// The same with what MASS SCALING has added to it.
+    pub fn moving_mass(&self, i: usize) -> f64 {
+        self.moving.get(i / CHUNK).map_or(self.element_mass(i), |row| row.0[i % CHUNK])
     }
 }
 

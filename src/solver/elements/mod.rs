@@ -22,7 +22,7 @@ use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
 pub use formulation::{Energies, Entry, Formulation, PointEntry, Sample, StoredRow, Unfit};
-pub use pass::{Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
+pub use pass::{Masses, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 
 macro_rules! elements {
     ($($module:ident :: $element:ident),+ $(,)?) => {

@@ -84,8 +84,17 @@ pub trait StepKernel<const N: usize> {
         velocities: &[[V; N]; 3],
         state: &mut [Row],
         part: usize,
-        mass: V,
+        mass: Masses<V>,
     ) -> Outcome<V, N>;
+}
+
+/// The masses of the elements of one part of a chunk.
+#[derive(Debug, Clone, Copy)]
+pub struct Masses<V> {
+    /// Mass of the material: over its density, the volume at the start.
+    pub material: V,
+    /// What the corners have to move: the same, and what MASS SCALING has added.
+    pub moving: V,
 }
 
 /// What a part of a chunk hands back.
@@ -230,7 +239,9 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         for part in 0..CHUNK / V::COUNT {
             let places = N - S::ROTATIONS;
             let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis(), places);
-            let mass = V::load(&group.mass[chunk], part);
+            let material = V::load(&group.mass[chunk], part);
+            let moving = group.moving.get(chunk).map_or(material, |row| V::load(row, part));
+            let mass = Masses { material, moving };
             let outcome = kernel.step(&x, &v, state, part, mass);
             for corner in 0..N {
                 let force = [outcome.force[0][corner], outcome.force[1][corner], outcome.force[2][corner]];

@@ -55,6 +55,7 @@ const SOUND: Totals = Totals {
     contact_gain: 0.0,
     press_fit: 0.0,
     momentum: [0.0; 3],
+    added_kinetic: 0.0,
 };
 
 #[test]

@@ -71,7 +71,18 @@ impl Group {
     fn set_row(&mut self, row: usize, values: &[f64]) {
         // Places, nodes and masses are of the problem and its cut; which are gone has been put back before,
         // and steps are put back by who wants them.
-        let Group { places, mass, state, stride, corners: _, unknowns: _, connectivity: _, gone: _, steps: _ } = self;
+        let Group {
+            places,
+            mass,
+            state,
+            stride,
+            moving: _,
+            corners: _,
+            unknowns: _,
+            connectivity: _,
+            gone: _,
+            steps: _,
+        } = self;
         let Some(&last) = places.last() else { return };
         // Lanes that fill up the last chunk copy its last element.
         for slot in 0..mass.len() * CHUNK {

@@ -8,7 +8,7 @@ use super::kinematics::{self, Motion};
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
-use crate::solver::elements::pass::{Outcome, StepKernel};
+use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
@@ -71,7 +71,7 @@ impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
         velocities: &[Corners<V>; 3],
         state: &mut [Row],
         part: usize,
-        mass: V,
+        mass: Masses<V>,
     ) -> Outcome<V, 8> {
         step(positions, velocities, state, part, mass, self)
     }
@@ -85,7 +85,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     velocities: &[Corners<V>; 3],
     state: &mut [Row],
     part: usize,
-    mass: V,
+    mass: Masses<V>,
     Physics { settings, law, control }: &Physics<K, H>,
 ) -> Outcome<V, 8> {
     let time_step = V::splat(settings.time_step);
@@ -118,7 +118,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mut stress = old;
     let (own, law_state) = state.split_at_mut(rows::LAW);
     let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
-    let inverse_volume = V::splat(settings.density) / mass;
+    let inverse_volume = V::splat(settings.density) / mass.material;
     let (energy, swept) = match &start {
         Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
         None => (zero, zero),
@@ -142,7 +142,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
-    let light = mass * V::splat(settings.least_share);
+    let light = mass.moving * V::splat(settings.least_share);
     let gradient = gradient(&x);
     let inverse = V::splat(1.0) / gradient.volume192;
     let b_squared = gradient.square4608();
@@ -168,7 +168,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
     let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
     let hourglass_state = hourglass::State {
-        lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [mass; 3] },
+        lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [light; 3] },
         stiffness_measure,
         mass: light,
         mu,

@@ -7,7 +7,7 @@ use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::Hourglass;
-use crate::solver::elements::pass::{Outcome, StepKernel};
+use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
@@ -96,7 +96,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         velocities: &[Corners<V>; 3],
         state: &mut [Row],
         part: usize,
-        mass: V,
+        mass: Masses<V>,
     ) -> Outcome<V, 4> {
         let Physics { settings, law, section } = self;
         let (about_axis, turn) = (section.about_axis(), section.turn());
@@ -129,7 +129,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let operator = section.operator(&x);
         let volume = operator.volume * V::splat(turn);
         let (own, law_state) = state.split_at_mut(rows::LAW);
-        let inverse_volume = V::splat(settings.density) / mass;
+        let inverse_volume = V::splat(settings.density) / mass.material;
         let motion = Step {
             strain,
             stretch: solid(stretch),
@@ -165,7 +165,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let across = (dot(&gamma, &gamma) - V::splat(4.0)).max(zero);
         square = square + stiffness * (across + V::splat(2.0) * across.sqrt()) / lightest;
         if about_axis {
-            let uneven = ((one - V::splat(4.0) * lightest / mass) * V::splat(3.0)).min(one);
+            let uneven = ((one - V::splat(4.0) * lightest / mass.moving) * V::splat(3.0)).min(one);
             let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
             square = square + uneven * stiffness * dot(&squares, &inverse_corners);
         }

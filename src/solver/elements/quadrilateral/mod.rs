@@ -130,7 +130,7 @@ impl Formulation for Quadrilateral {
         let nodes: [u32; 4] = element.nodes[..].try_into().unwrap_or_default();
         let frame = own_axis(&corners);
         let shares = plane::mass_shares(&nodes, &corners, self.section.about_axis());
-        unstressed(frame, &shares.map(|share| share * element.mass), own);
+        unstressed(frame, &shares.map(|share| share * (element.mass + element.added)), own);
         Start { centre: centroid(&corners), volume: self.whole(&corners), frame: matrix(frame) }
     }
 

@@ -8,7 +8,7 @@ use super::{point_rows, rows};
 use crate::lanes::{CHUNK, Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
-use crate::solver::elements::pass::{Outcome, StepKernel};
+use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 
 /// What holds for all shells of a block in a step.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ impl<K: Kernel> StepKernel<8> for ShellStep<K> {
         velocities: &[[V; 8]; 3],
         state: &mut [Row],
         part: usize,
-        mass: V,
+        mass: Masses<V>,
     ) -> Outcome<V, 8> {
         let half_step = V::splat(0.5 * self.times[1]);
         let x: Corners<V> = array![c in 4 => array![i in 3 => positions[i][c]]];
@@ -63,7 +63,7 @@ impl<K: Kernel> StepKernel<8> for ShellStep<K> {
         let resultants = resultants(&found, &resistance, viscous, turn, now.area);
         let [force, moment] = now.forces(&resultants);
         // (v) stable step
-        let stable_step = self.stable_step(&x, &rates, &found, state, part, mass);
+        let stable_step = self.stable_step(&x, &rates, &found, state, part, mass.moving);
         let stable_step = V::select_less(V::splat(0.0), now.area, stable_step, V::splat(0.0));
         Outcome {
             force: array![i in 3 => [

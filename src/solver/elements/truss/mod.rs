@@ -5,8 +5,8 @@
 //! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
 use super::{
-    Energies, Entry, Formulation, Group, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample, StepKernel,
-    StoredRow, Unfit, uniaxial,
+    Energies, Entry, Formulation, Group, Masses, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
+    StepKernel, StoredRow, Unfit, uniaxial,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
@@ -188,7 +188,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         velocities: &[[V; 2]; 3],
         state: &mut [Row],
         part: usize,
-        mass: V,
+        mass: Masses<V>,
     ) -> Outcome<V, 2> {
         let half = V::splat(0.5);
         // (i) strain increment at mid-step
@@ -222,7 +222,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         energy.store(&mut state[rows::INTERNAL_ENERGY], part);
         // (iv) √(M/k), k the larger of the stiffness along, E A/L, and across, N/L
         let stiffest = self.modulus(&answer.response, answer.along);
-        let stable_step = (mass * length / (stiffest * section)).sqrt();
+        let stable_step = (mass.moving * length / (stiffest * section)).sqrt();
         let zero = V::splat(0.0);
         // A truss that has no length any more has failed.
         let stable_step = V::select_less(zero, length, stable_step, zero);

@@ -29,6 +29,7 @@ impl Rig {
             nodes: vec![0, 1],
             corners: ends.to_vec(),
             mass: DENSITY * AREA * length,
+            added: 0.0,
             attributes: Vec::new(),
         };
         let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);

@@ -123,6 +123,7 @@ impl Rig {
                     nodes: nodes.to_vec(),
                     corners: corners.to_vec(),
                     mass: DENSITY * volume(&corners),
+                    added: 0.0,
                     attributes: Vec::new(),
                 }
             })

@@ -69,7 +69,7 @@ struct Rig {
 impl Rig {
     fn new(points: &[[f64; 3]], nodes: &[u32], element: Element, law: Law, mass: f64) -> Rig {
         let corners: Vec<[f64; 3]> = nodes.iter().map(|&n| points[n as usize]).collect();
-        let new = [NewElement { place: 0, nodes: nodes.to_vec(), corners, mass, attributes: Vec::new() }];
+        let new = [NewElement { place: 0, nodes: nodes.to_vec(), corners, mass, added: 0.0, attributes: Vec::new() }];
         Rig {
             block: ElementBlock {
                 index: 0,

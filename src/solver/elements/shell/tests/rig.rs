@@ -32,6 +32,7 @@ impl Rig {
             nodes: (0..8).collect(),
             corners: corners.to_vec(),
             mass: DENSITY * thickness,
+            added: 0.0,
             attributes: Vec::new(),
         };
         let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
