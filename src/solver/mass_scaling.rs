@@ -122,7 +122,7 @@ impl AddedMass {
         let over: Vec<String> = self
             .blocks
             .iter()
-            .filter(|block| !(block.share() <= block.limit))
+            .filter(|block| block.share() > block.limit * ROUND_OFF || block.share().is_nan())
             .map(|block| {
                 format!(
                     "error: MASS SCALING: block {} would gain {:.3} of its mass, in {} of its elements, and {:.3} is the most\n\
@@ -155,6 +155,9 @@ impl MassScaling {
         }
     }
 }
+
+/// A sum of masses may be above the limit by what rounding makes of it.
+const ROUND_OFF: f64 = 1.0 + 1e-9;
 
 /// Elements whose steps are found together.
 const BATCH: usize = 1024;
