@@ -105,7 +105,7 @@ impl Default for ContactControl {
             search: ContactSearch::Grid,
             reach: 150.0,
             margin: 0.1,
-            edges: ContactEdges::Sharp,
+            edges: ContactEdges::All,
             overlap: ContactOverlap::Refuse,
             energy_limit: 0.05,
             decomposition: ContactDecomposition::Bisection,

@@ -120,7 +120,7 @@ impl Builder {
             self.line(&format!("CONTACT PASSES, {passes}"));
         }
         if self.dice.chance(0.15) {
-            self.line("CONTACT EDGES, ALL");
+            self.line("CONTACT EDGES, ON");
         }
         friction
     }

@@ -3,7 +3,7 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
-use super::check::edge_edge::{EdgeCheck, EdgeContact, EdgeVerdict};
+use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict};
 use super::check::node_face::{self, DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
 use super::enforcement::carried::Carried;
@@ -65,6 +65,8 @@ pub struct LocalProblem {
     places: Vec<u32>,
     faces: Arc<Faces>,
     edges: Vec<Edge>,
+    /// How far around itself each edge looks for others, a length.
+    edge_reaches: Vec<f64>,
     point_block: Vec<u32>,
     rules: Vec<Rule>,
     history: Vec<[FaceContact; MAX_FACES]>,
@@ -79,6 +81,7 @@ pub struct LocalProblem {
     pub loaded: Vec<u32>,
     near: Vec<Candidate>,
     near_faces: Vec<u32>,
+    pair_places: Vec<u32>,
     strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
 }
@@ -95,6 +98,8 @@ pub struct StepInput<'a> {
     pub limits: Limits,
     /// Part of the tolerated overlaps that is left after the step.
     pub remaining: f64,
+    /// Whether edges look for lines of faces in this step, see [`EdgeCheck`].
+    pub lines: bool,
 }
 
 impl LocalProblem {
@@ -141,6 +146,7 @@ impl LocalProblem {
         LocalProblem {
             locator: Locator::new(found, depth, &values, &faces, &edges),
             motion: values,
+            edge_reaches: edges.iter().map(|edge| edge_edge::reach(&faces, edge)).collect(),
             edges,
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
@@ -223,7 +229,7 @@ impl LocalProblem {
         if !self.rules.is_empty() {
             self.locator.step(&self.motion, &self.faces);
             self.check(setting.pairings, setting.remaining, step.drift);
-            self.check_edges(setting.pairings);
+            self.check_edges(setting.pairings, setting.lines);
         }
         let always = !self.rules.is_empty();
         for plane_node in &mut self.planes {
@@ -296,14 +302,17 @@ impl LocalProblem {
         }
     }
 
-    /// The check of every pair of edges that may cross.
-    fn check_edges(&mut self, pairings: &Pairings) {
-        let LocalProblem { motion, faces, locator, edges, edge_history, constraints, .. } = self;
-        let check = EdgeCheck { motion, faces, edges };
+    /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due.
+    fn check_edges(&mut self, pairings: &Pairings, lines: bool) {
+        let LocalProblem {
+            motion, faces, locator, edges, edge_reaches, edge_history, pair_places, constraints, ..
+        } = self;
+        let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
+        locator.pairs_to_check(lines, before.iter().map(|past| &past.pair), pair_places);
         let mut past = before.iter().peekable();
-        for place in 0..locator.edge_pairs().len() {
+        for place in pair_places.iter().map(|&place| place as usize) {
             if !locator.is_pair_due(place) {
                 continue;
             }

@@ -50,6 +50,9 @@ pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{DeepOverlap, Overlap, remove as remove_overlap};
 pub use report::{Report, Tally, Work};
 
+/// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
+const LINES_EVERY: u64 = 4;
+
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.
 pub struct Contact {
     layout: Layout,
@@ -294,9 +297,10 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
-        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, .. } = self;
+        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
-        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining };
+        let lines = age.is_multiple_of(LINES_EVERY);
+        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining, lines };
         match remote {
             Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),
             None => problem.step(&setting, step, bank, &mut NoOtherRanks),

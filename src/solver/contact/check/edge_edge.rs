@@ -125,6 +125,8 @@ pub struct EdgeCheck<'a> {
     pub faces: &'a Faces,
     /// Edges.
     pub edges: &'a [Edge],
+    /// How far around itself each edge looks for others, see [`reach`].
+    pub reaches: &'a [f64],
 }
 
 impl EdgeCheck<'_> {
@@ -146,7 +148,7 @@ impl EdgeCheck<'_> {
 
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
     fn apart(&self, pair: [u32; 2]) -> f64 {
-        let margins = pair.map(|edge| keep(self.faces, &self.edges[edge as usize]));
+        let margins = pair.map(|edge| self.reaches[edge as usize]);
         let bounds = |edge: u32, margin: f64| {
             let [a, b] = self.edges[edge as usize].ends.map(|end| &self.motion.swept_boxes[end as usize]);
             SweptBox::joined([a, b, a, b], margin as f32)
@@ -184,7 +186,7 @@ impl EdgeCheck<'_> {
         past: Option<&EdgeContact>,
         pairing: Pairing,
     ) -> Option<(EdgeContact, Constraint)> {
-        let margin = past.map_or(0.0, |_| keep(self.faces, &self.edges[pair[0] as usize]));
+        let margin = past.map_or(0.0, |_| self.reaches[pair[0] as usize]);
         if !self.swept_box(pair[0]).grown(margin).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
@@ -347,8 +349,8 @@ impl EdgeCheck<'_> {
     }
 }
 
-/// How far around itself an edge looks for others.
-pub fn keep(faces: &Faces, edge: &Edge) -> f64 {
+/// How far around itself an edge looks for others, a length.
+pub fn reach(faces: &Faces, edge: &Edge) -> f64 {
     if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
 }
 

@@ -63,6 +63,8 @@ pub struct Locator {
     /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
+    /// Places in that list of the pairs whose edges both stand out, ascending.
+    sharp_pairs: Vec<u32>,
     sleep: Vec<SleepState>,
     /// How far things must have gone in all until a slave node may have anything near at all.
     quiet_until: Vec<f64>,
@@ -157,6 +159,10 @@ impl Locator {
             first: found.first,
             candidates: found.candidates,
             pairs_due: vec![0.0; found.pairs.len()],
+            sharp_pairs: (0..)
+                .zip(&found.pairs)
+                .filter_map(|(place, pair)| edges[pair[1] as usize].stands_out().then_some(place))
+                .collect(),
             edge_pairs: found.pairs,
             fresh: true,
             ..Default::default()
@@ -250,6 +256,25 @@ impl Locator {
     /// Pairs of edges that may cross, ascending.
     pub fn edge_pairs(&self) -> &[[u32; 2]] {
         &self.edge_pairs
+    }
+
+    /// Places in the list of pairs that are to be looked at, ascending: all, or without `lines` those whose edges both stand out
+    /// and those of `touching` pairs, which are ascending.
+    pub fn pairs_to_check<'a>(&self, lines: bool, touching: impl Iterator<Item = &'a [u32; 2]>, places: &mut Vec<u32>) {
+        places.clear();
+        if lines {
+            places.extend(0..self.edge_pairs.len() as u32);
+            return;
+        }
+        let mut sharp = self.sharp_pairs.iter().copied().peekable();
+        for place in touching.filter_map(|pair| self.edge_pairs.binary_search(pair).ok()) {
+            while let Some(before) = sharp.next_if(|&sharp| sharp < place as u32) {
+                places.push(before);
+            }
+            sharp.next_if_eq(&(place as u32));
+            places.push(place as u32);
+        }
+        places.extend(sharp);
     }
 
     /// Whether the `i`-th pair of edges may be near in this step.
