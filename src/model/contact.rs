@@ -222,6 +222,13 @@ fn contact_overlap(card: &Card, draft: &mut Draft) {
         "STRESS" => ContactOverlap::Stress(card.maybe_number("time")),
         _ => ContactOverlap::Remove,
     };
+    if card.given("time") && card.text("treatment") != "STRESS" {
+        draft.report(
+            Diagnostic::error("CONTACT OVERLAP: the time belongs to STRESS only")
+                .at(card.place("time"), "nothing is done slowly here")
+                .help("STRESS pushes the bodies apart slowly and leaves the stress of a press fit; REMOVE moves nodes before the run begins"),
+        );
+    }
 }
 
 fn contact_decomposition(card: &Card, draft: &mut Draft) {
