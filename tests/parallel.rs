@@ -90,13 +90,15 @@ fn reference(desk: &Desk) {
 fn physics(desk: &Desk, base: &str) -> Vec<String> {
     let log = desk.text(&format!("{base}.o"));
     let head = log.lines().position(|line| line.contains("TIME DILATATION")).expect("column heads");
-    let end = log.lines().position(|line| line.contains("W H E R E")).expect("the closing table");
+    let end = log.lines().position(|line| line.contains("W H E R E") || line.contains("S C E N E"));
+    let end = end.expect("the closing table");
     let lines = log.lines().skip(head + 2).take(end - head - 2);
     lines
         .map(|line| {
             let mut cells: Vec<&str> = line.split_whitespace().collect();
-            if cells.len() >= 17 && cells[0].parse::<u64>().is_ok() {
-                for timed in [16, 4, 3] {
+            if cells.len() >= 10 && cells[0].parse::<u64>().is_ok() {
+                // Seconds to go are the last but one of a log without STEP LOG.
+                for timed in [if cells.len() == 10 { 8 } else { 16 }, 4, 3] {
                     cells.remove(timed);
                 }
             }

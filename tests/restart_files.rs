@@ -59,7 +59,8 @@ fn assert_tail(whole: &Path, continued: &Path) {
 fn physics(desk: &Desk, log: &str) -> Vec<String> {
     let text = desk.text(log);
     let head = text.lines().position(|line| line.contains("TIME DILATATION")).expect("column heads");
-    let end = text.lines().position(|line| line.contains("W H E R E")).expect("the closing table");
+    let end = text.lines().position(|line| line.contains("W H E R E") || line.contains("S C E N E"));
+    let end = end.expect("the closing table");
     let lines = text.lines().skip(head + 2).take(end - head - 2);
     let own = ["RESTART FILE WRITTEN", "SEARCH", "PAIRS OF THEM", "PLOT STATES"];
     let lines = lines.filter(|line| own.iter().all(|word| !line.contains(word)));
@@ -141,7 +142,8 @@ fn plot_files_and_histories_that_are_there_are_left_alone() {
     let [whole, part] = ["whole.e", "case.e-s0003"].map(|name| desk.results(name));
     let [end, last] = [&whole, &part].map(|results| results.times().len() - 1);
     assert!(bits(&whole, end) == bits(&part, last));
-    assert!(part.times()[0] > 50e-6, "{:?}", part.times());
+    // What goes on begins before the steps that the first run made shorter for its end.
+    assert!(part.times()[0] > 40e-6, "{:?}", part.times());
 }
 
 /// Restart files stay whole when plot states are in pieces, and pieces that are there are left alone like whole files.
@@ -398,7 +400,10 @@ fn a_time_that_has_no_state_is_refused() {
     let with = |line: &str| desk.put("case.i", &deck.replace("EXIT", &format!("{line}\nEXIT")));
     with("READ RESTART, 5.E-6");
     let message = refused(&desk, &["--restart", "case.rsout"]);
-    assert!(message.contains("there is no state at 5.000000e-06") && message.contains("5.05"), "{message}");
+    assert!(
+        message.contains("there is no state at 5.000000e-06") && message.contains("beside it have 4."),
+        "{message}"
+    );
     // Half an interval away is near enough: this is the state at 40 microseconds.
     with("READ RESTART, 31.E-6");
     run(&desk, "case.i", &["--restart", "case.rsout", "-o", "near"]).with(0);

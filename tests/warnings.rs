@@ -175,13 +175,16 @@ fn quiet_runs_warn_and_strict_ones_fail() {
     );
     assert!(desk.text("case.o").contains("THE RUN IS COMPLETE, WITH 1 WARNING"), "strict runs are whole");
     // Warnings of the deck count, too, and are not kept back.
-    desk.put("bar.i", &program::bar_deck(1e-6, "TIME STEP SCALE, 1.01\n"));
+    desk.put("bar.i", &program::bar_deck(1e-5, "TIME STEP SCALE, 1.01\n"));
     desk.put_mesh("bar.g", &program::box_mesh([1, 1, 2], [0.01, 0.01, 0.04], false));
     let of_deck = desk.urto(&["bar.i", "-q", "--strict"]).with(1);
     of_deck.says(&["TIME STEP SCALE: the factor is above 1", "with 1 warning: of the deck or the mesh"]);
-    desk.put("bar.i", &program::bar_deck(1e-6, ""));
+    desk.put("bar.i", &program::bar_deck(1e-5, ""));
     let sound: Left = desk.urto(&["bar.i", "-q", "--strict"]).with(0);
     assert_eq!((sound.out.as_str(), sound.err.as_str()), ("", ""));
+    desk.put("bar.i", &program::bar_deck(1e-8, ""));
+    let brief = desk.urto(&["bar.i", "-q"]).with(0);
+    assert!(brief.err.contains("the run is one step, made shorter to end there"), "{}", brief.err);
 }
 
 /// What has been warned of before a restart is not told again, but counts.

@@ -5,6 +5,7 @@ use super::terminal::{complain, say};
 use super::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::mesh::{Dimension, plane};
+use crate::needs;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::elements::Element;
@@ -111,6 +112,8 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         let place = format!("set by element {} of block {}", place.element, place.block);
         return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
     }
+    let foretold: String =
+        needs::foretold(mesh, model, &solver).iter().map(|line| format!("foretold: {line}\n")).collect();
     let begun = Instant::now();
     for _ in 0..TRIAL_STEPS {
         solver.advance();
@@ -128,7 +131,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          about {} of memory, {:.0} bytes per element\n\
-         deck and mesh are sound",
+         {foretold}deck and mesh are sound",
         scientific(first, 4),
         place.element,
         place.block,

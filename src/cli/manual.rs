@@ -89,7 +89,7 @@ fn written() -> String {
         list.iter().map(|(name, meaning)| format!(".TP\n.B {name}\n{meaning}\n")).collect()
     };
     format!(
-        ".SH \"THE PRINT LOG\"\nThe log has one line per OUTPUT TIME. STEP LOG chooses its columns, usually\n{}\
+        ".SH \"THE PRINT LOG\"\nThe log has one line per OUTPUT TIME. STEP LOG chooses its columns. Without it they are\nPRONTO's five, the time step and its element, the seconds to go and the energy error; there are\n{}\
          .SH \"GLOBAL VARIABLES\"\nEvery state of the plot file has these numbers of the whole body:\n{}",
         terms(&COLUMNS),
         terms(&GLOBAL_VARIABLES)

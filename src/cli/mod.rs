@@ -17,6 +17,7 @@ mod signals;
 mod summary;
 mod sweep;
 mod terminal;
+mod trade;
 mod verbs;
 mod view;
 
@@ -140,6 +141,7 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         Verb::Explain(options) => verbs::explain(&options),
         Verb::Mesh(options) => verbs::mesh(&options),
         Verb::Sweep(options) => sweep::sweep(&options),
+        Verb::Trade(options) => trade::trade(&options),
         Verb::Refine(options) => verbs::refine(&options),
         Verb::View(options) => view::view(&options),
         Verb::Plot(options) => plot::plot(&options),

@@ -43,6 +43,7 @@ pub enum Verb {
     Check(Check),
     Explain(Explain),
     Sweep(Sweep),
+    Trade(Trade),
     Mesh(Mesh),
     Refine(Refine),
     View(View),
@@ -154,6 +155,50 @@ pub struct Sweep {
     /// How long a second is in the deck's units of time, for the filter
     #[arg(long, value_name = "T", default_value_t = 1.0)]
     pub second: f64,
+}
+
+/// Measures what the knobs of a deck cost and gain
+///
+/// Runs the deck in variants, one at a time: as it is, with a perturbation of the size of round-off, on finer meshes, and with each
+/// knob that the scene has turned by itself. Each is measured: processor time, steps, memory, and the error of what you care for,
+/// against the finest mesh and what its convergence says lies behind it. The table, the front of time over error and what
+/// refinement does come into a folder, as text, CSV and PNG, with the cheapest variant that is good enough in words. What was run
+/// before is not run again: it can be stopped and continued, with a larger budget, too.
+#[derive(Debug, Args)]
+pub struct Trade {
+    /// The deck, x.i; the suffix may be left out
+    pub deck: PathBuf,
+    /// The mesh, or a recipe of one; else as for `run`
+    #[arg(short, long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Gives a name in the expressions of deck and recipe this value
+    #[arg(short = 'D', long, value_name = "NAME=VALUE")]
+    pub define: Vec<String>,
+    /// Folder of the study; else the deck's name with _trade, here
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// What you care for, with commas between: a global variable or one of a history, or DISPLACEMENT, the largest of all nodes; each
+    /// with :peak behind it, or :last; else what the deck watches
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub quantity: Vec<String>,
+    /// Error that is good enough, in per cent
+    #[arg(long, value_name = "PERCENT", default_value_t = 1.0)]
+    pub within: f64,
+    /// Time for all runs: 90s, 10m, 2h; what would not fit is not run
+    #[arg(long, value_name = "TIME", default_value = "10m")]
+    pub budget: String,
+    /// Another termination time, to save time
+    #[arg(long, value_name = "T")]
+    pub end: Option<f64>,
+    /// How many times finer the finer meshes are; a mesh that no recipe makes is divided: 2,4
+    #[arg(long, value_name = "N,N", value_delimiter = ',', default_value = "2,4")]
+    pub levels: Vec<u32>,
+    /// Ranks of each run
+    #[arg(short, long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub ranks: u32,
+    /// Writes the cheapest variant that is good enough as a deck
+    #[arg(long, value_name = "FILE")]
+    pub write: Option<PathBuf>,
 }
 
 /// Reads deck and mesh and says what would be modelled; runs nothing

@@ -6,7 +6,7 @@ use super::signals::Wishes;
 use super::terminal::{complain, say};
 use super::{DONE, FAILED, Failure, date, display, options, restart, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
-use crate::output::print::{scientific, with_warnings};
+use crate::output::print::{scientific, sentence, with_warnings};
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
@@ -335,6 +335,12 @@ fn report(prepared: &Prepared, quiet: bool, strict: bool, ended: Option<&Ended>)
             ));
         } else {
             say(format_args!("{} plot states: {plot}   log: {print}", ended.states));
+        }
+        if !ended.advice.is_empty() {
+            let first = &ended.advice[0].0;
+            let more =
+                if ended.advice.len() > 1 { format!(", and {} more", ended.advice.len() - 1) } else { String::new() };
+            say(format_args!("advice: {}{more}: see the end of {print}", sentence(first)));
         }
         if ended.restart {
             say(format_args!("to go on from here: {}", prepared.files.restart.display()));

@@ -35,6 +35,8 @@ struct Summary {
     /// Energy accounted for minus energy supplied, over the largest account.
     energy_error: Option<f64>,
     warnings: Vec<Warning>,
+    /// What the scene did not need, and what it lacked.
+    advice: Vec<Advised>,
     /// Global variables of the plot file over its states: energies among them.
     globals: BTreeMap<String, Reached>,
     /// Variables of the histories.
@@ -54,6 +56,21 @@ struct Warning {
     words: Option<String>,
 }
 
+/// Something that the scene did not need, or lacked.
+#[derive(Debug, Serialize)]
+struct Advised {
+    /// `spare` or `lacked`.
+    kind: &'static str,
+    /// What was seen.
+    words: String,
+    /// The command that would say so, or what else to do.
+    instead: String,
+    /// What stays the same then: `the same bits`, `the same digits`, or nothing.
+    keeps: &'static str,
+    /// The part of the time that this is about.
+    share: Option<f64>,
+}
+
 /// What a variable has reached.
 #[derive(Debug, Serialize)]
 struct Reached {
@@ -71,6 +88,8 @@ struct Seconds {
     all: f64,
     /// Of the steps.
     steps: Option<f64>,
+    /// Of the processor, in all threads; null where the system does not tell.
+    processor: Option<f64>,
     /// For an element and a step.
     per_element_step: Option<f64>,
     sections: BTreeMap<String, f64>,
@@ -130,17 +149,30 @@ fn summary(options: &options::Run, prepared: &Prepared, outcome: Result<&Ended, 
         states: ended.map(|ended| ended.states),
         energy_error: ended.map(|ended| ended.energy_error),
         warnings: warnings(prepared, outcome),
+        advice: ended.map(advised).unwrap_or_default(),
         globals: extremes(&files.plot),
         histories: if files.history.exists() { extremes(&files.history) } else { BTreeMap::new() },
         seconds: Seconds {
             all: prepared.clock[0].elapsed().as_secs_f64(),
             steps: ended.map(|ended| ended.wall),
+            processor: crate::run::processor(),
             per_element_step: ended.map(|ended| ended.grind),
             sections: ended.map(|ended| ended.sections.iter().cloned().collect()).unwrap_or_default(),
         },
         memory_bytes: ended.and_then(|ended| ended.memory),
         files: written(files, ended),
     }
+}
+
+fn advised(ended: &Ended) -> Vec<Advised> {
+    let told = |(advice, share): &(crate::needs::Advice, Option<f64>)| Advised {
+        kind: if advice.lacked { "lacked" } else { "spare" },
+        words: advice.words.clone(),
+        instead: advice.instead.clone(),
+        keeps: advice.kept(),
+        share: *share,
+    };
+    ended.advice.iter().map(told).collect()
 }
 
 /// What options -D give, as texts.

@@ -491,6 +491,8 @@ pub enum StepColumns {
     TimeStep,
     /// The energy accounts and their balance.
     Energy,
+    /// The error of the energy balance alone.
+    EnergyError,
     /// The momentum of the body.
     Momentum,
     /// Seconds to the termination time.
@@ -499,9 +501,10 @@ pub enum StepColumns {
 
 impl StepColumns {
     /// All of them.
-    pub const ALL: [StepColumns; 5] = [Self::Pronto, Self::TimeStep, Self::Energy, Self::Momentum, Self::ToGo];
-    /// What a log has when the deck does not say.
-    pub const USUAL: [StepColumns; 3] = [Self::TimeStep, Self::Energy, Self::ToGo];
+    pub const ALL: [StepColumns; 6] =
+        [Self::Pronto, Self::TimeStep, Self::Energy, Self::EnergyError, Self::Momentum, Self::ToGo];
+    /// What a log has when the deck does not say: PRONTO's 132 columns hold it.
+    pub const USUAL: [StepColumns; 3] = [Self::TimeStep, Self::ToGo, Self::EnergyError];
 
     /// The word that STEP LOG knows.
     pub fn keyword(self) -> &'static str {
@@ -509,6 +512,7 @@ impl StepColumns {
             Self::Pronto => "PRONTO",
             Self::TimeStep => "TIME STEP",
             Self::Energy => "ENERGY",
+            Self::EnergyError => "ENERGY ERROR",
             Self::Momentum => "MOMENTUM",
             Self::ToGo => "TO GO",
         }

@@ -21,6 +21,7 @@ pub fn compose(material: &Material) -> String {
         ("curves", "Curves", curves(material)),
         ("extremes", "Extremes of the last state", extremes(material)),
         ("contact", "Contact", contact(material.log.as_ref())),
+        ("needs", "What the scene did not need, and what it lacked", needs(material.log.as_ref())),
         ("cost", "Where the time went", cost(material.log.as_ref())),
         ("deck", "The deck", deck(material)),
     ];
@@ -164,6 +165,16 @@ fn contact(log: Option<&Log>) -> String {
     let leaders = log.and_then(|log| log.section(CONTACT)).map(Section::leaders).unwrap_or_default();
     let rows: Vec<Vec<String>> = leaders.into_iter().map(|(name, value)| vec![sentence(&name), value]).collect();
     if rows.is_empty() { String::new() } else { table(&[], &rows, &[1]) }
+}
+
+fn needs(log: Option<&Log>) -> String {
+    let sections = ["WHAT THE SCENE DID NOT NEED", "WHAT THE SCENE LACKED"];
+    let found = sections.into_iter().filter_map(|heading| log?.section(heading));
+    found
+        .map(|section| {
+            format!("<h3>{}</h3>\n{}", sentence(&section.heading), element("pre", "", &escaped(&section.block())))
+        })
+        .collect()
 }
 
 fn cost(log: Option<&Log>) -> String {

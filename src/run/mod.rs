@@ -12,6 +12,7 @@ mod table;
 pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, other_form, told};
+pub use memory::processor;
 pub use report::{Display, Quiet};
 pub use restart::{Continuation, states_beside};
 
@@ -19,9 +20,11 @@ use crate::comm::{Communicator, Counted};
 use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::model::{Model, StepColumns};
+use crate::needs::{self, Advice, Scene};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, HistoryPlan, Schedule, block_energy_names, global_names};
 use crate::partition::{Decomposition, Share};
+use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::{Body, Finding, Request, Section, Solver, Stop};
 use plots::Plots;
@@ -88,6 +91,8 @@ pub struct Ended {
     pub sections: Vec<(String, f64)>,
     /// Most memory held by this process, in bytes, where the system tells.
     pub memory: Option<f64>,
+    /// What the scene did not need, and what it lacked, each with the part of the time that it is about.
+    pub advice: Vec<(Advice, Option<f64>)>,
 }
 
 /// Why a run failed.
@@ -145,7 +150,7 @@ pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) ->
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
     display.finish();
-    writer.finish(&mut solver, comm, begun, outcome)
+    writer.finish(job, &mut solver, comm, begun, outcome)
 }
 
 /// The step loop. Ends with what stopped the run, or with the reason why it cannot go on.
@@ -166,7 +171,9 @@ fn steps(
         lines.pass(solver.previous_time, solver.time_step);
         histories.pass(solver.previous_time, solver.time_step);
     }
+    solver.end_at(model.termination_time);
     loop {
+        let before = writer.before_the_end(solver, comm);
         let agreed = match solver.prepare((job.wish)(), comm) {
             Ok(agreed) => agreed,
             Err(stop) => return give_up(stop, solver, writer, comm, display),
@@ -176,8 +183,10 @@ fn steps(
         {
             return Err(endless.into());
         }
-        // The last state is the one nearest to the termination time.
-        let last = agreed != Request::Continue || solver.time + 0.5 * solver.time_step >= model.termination_time;
+        let last = agreed != Request::Continue || solver.is_at_end();
+        if solver.is_ending() && !writer.restarts_closed {
+            writer.last_whole_state(before, solver, comm)?;
+        }
         let plot_due = plots.due(solver.time, solver.time_step);
         let line_due = lines.due(solver.time, solver.time_step) || last || solver.step == 0;
         if (line_due || plot_due)
@@ -201,7 +210,8 @@ fn steps(
             return Ok(agreed);
         }
         solver.advance();
-        if writer.restarts.as_mut().is_some_and(|restarts| restarts.due(solver)) {
+        let due = !writer.restarts_closed && writer.restarts.as_mut().is_some_and(|restarts| restarts.due(solver));
+        if due {
             writer.restart(solver, comm)?;
         }
     }
@@ -236,9 +246,14 @@ struct Writer<'a> {
     elements: usize,
     first_step: u64,
     last_restart: Option<u64>,
+    /// The last state of whole steps has been written; those after it are of no use to go on from.
+    restarts_closed: bool,
     termination_time: f64,
     last_line: (Instant, u64, f64),
     last_state: Option<u64>,
+    /// Time and kinetic energy of each line, and times of the plot states.
+    lines: Vec<[f64; 2]>,
+    states: Vec<f64>,
     /// Number of warnings from reading deck and mesh.
     told_before: usize,
 }
@@ -264,9 +279,12 @@ impl<'a> Writer<'a> {
             elements: job.mesh.element_count(),
             first_step: solver.step,
             last_restart: None,
+            restarts_closed: false,
             termination_time: job.model.termination_time,
             last_line: (Instant::now(), solver.step, solver.time),
             last_state: None,
+            lines: Vec::new(),
+            states: Vec::new(),
             told_before: job.warnings.len(),
         }
     }
@@ -361,6 +379,7 @@ impl<'a> Writer<'a> {
         if self.last_state.replace(solver.step) == Some(solver.step) {
             return Ok(());
         }
+        self.states.push(solver.time);
         solver.clock.start();
         let totals = solver.totals(comm);
         let outcome = self.plots.write(solver, &self.fields, &totals, comm);
@@ -396,6 +415,7 @@ impl<'a> Writer<'a> {
     ) -> Result<(), RunError> {
         solver.clock.start();
         let totals = solver.totals(comm);
+        self.lines.push([solver.time, totals.kinetic]);
         let controlling = solver.controlling_element(comm);
         let (since, step, time) = std::mem::replace(&mut self.last_line, (Instant::now(), solver.step, solver.time));
         let seconds = since.elapsed().as_secs_f64();
@@ -419,10 +439,48 @@ impl<'a> Writer<'a> {
         outcome
     }
 
+    /// The present state between two steps, where it may be the last one from which a run can go on to another end as if
+    /// there had never been this one. All ranks call it.
+    fn before_the_end(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Option<Snapshot> {
+        let may_be = self.restarts.is_some() && !self.restarts_closed && solver.nears_end();
+        if !may_be {
+            return None;
+        }
+        solver.clock.start();
+        let snapshot = self.plots.snapshot(solver, comm);
+        solver.clock.stop(Section::Output);
+        snapshot
+    }
+
+    /// Writes the last state that steps of their whole length have led to, unless it is on the disk.
+    fn last_whole_state(
+        &mut self,
+        snapshot: Option<Snapshot>,
+        solver: &mut Solver,
+        comm: &mut dyn Communicator,
+    ) -> Result<(), RunError> {
+        self.restarts_closed = true;
+        if self.restarts.is_none() || self.last_restart == Some(solver.step) {
+            return Ok(());
+        }
+        self.write_restart(snapshot, solver, comm)
+    }
+
     /// Writes the state between two steps.
     fn restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
         solver.clock.start();
         let snapshot = self.plots.snapshot(solver, comm);
+        solver.clock.stop(Section::Output);
+        self.write_restart(snapshot, solver, comm)
+    }
+
+    fn write_restart(
+        &mut self,
+        snapshot: Option<Snapshot>,
+        solver: &mut Solver,
+        comm: &mut dyn Communicator,
+    ) -> Result<(), RunError> {
+        solver.clock.start();
         let outcome = match (&mut self.restarts, snapshot) {
             (Some(restarts), Some(snapshot)) => restarts.write(snapshot).map_err(RunError::from),
             _ => Ok(()),
@@ -436,7 +494,7 @@ impl<'a> Writer<'a> {
     /// Leaves the state to go on from at the end of a run, unless it has just been written: that after the step that
     /// follows.
     fn last_restart(&mut self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
-        if self.restarts.is_none() || self.last_restart == Some(solver.step) {
+        if self.restarts.is_none() || self.restarts_closed || self.last_restart == Some(solver.step) {
             return Ok(());
         }
         solver.advance();
@@ -446,12 +504,24 @@ impl<'a> Writer<'a> {
     /// Closes the log and says how the run ended.
     fn finish(
         mut self,
+        job: &Job,
         solver: &mut Solver,
         comm: &mut Counted,
         begun: Instant,
         outcome: Result<Request, RunError>,
     ) -> Result<Ended, RunError> {
         let (step, time, time_step, totals) = (solver.step, solver.time, solver.time_step, solver.totals(comm));
+        // What a run saw that came to no end says nothing of the whole.
+        let scene = Scene {
+            mesh: job.mesh,
+            model: job.model,
+            solver,
+            lines: &self.lines,
+            states: &self.states,
+            continued: job.continuation.is_some(),
+        };
+        let complete = matches!(outcome, Ok(Request::Continue));
+        let advice = if complete { needs::advice(&scene, comm) } else { Vec::new() };
         let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
         let wall = begun.elapsed().as_secs_f64();
         let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
@@ -468,6 +538,7 @@ impl<'a> Writer<'a> {
             stored_energy: solver.stored_energy(),
             contact: solver.domain.contact.as_ref().and_then(Contact::report),
             gone: solver.domain.erosion.as_ref().map(|erosion| erosion.gone),
+            advice: &advice,
         };
         let printed = self.print(&print::closing(&table, &ending));
         let by = outcome?;
@@ -485,6 +556,7 @@ impl<'a> Writer<'a> {
             findings: solver.findings().to_vec(),
             sections: table.sections.iter().map(|part| (part.name.clone(), part.spread.mean)).collect(),
             memory: table.memory,
+            advice: advice.iter().map(|advice| (advice.clone(), print::share(advice, &table))).collect(),
         })
     }
 }

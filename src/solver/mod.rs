@@ -18,6 +18,7 @@ mod mass_scaling;
 pub mod nodes;
 mod remembered;
 mod rotations;
+mod slivers;
 mod state;
 mod stop;
 mod totals;
@@ -29,18 +30,25 @@ pub use health::{Evidence, Finding, Spot};
 pub use mass_scaling::{AddedMass, BlockMass};
 pub use remembered::Remembered;
 pub use rotations::Rotations;
+pub use slivers::Slivers;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
 
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
 use crate::mesh::{Mesh, Shape};
-use crate::model::{ContactMaterials, Function, Model, TimeStepControl, Unknown};
+use crate::model::{ContactMaterials, Function, Model, MotionKind, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
 use health::Watch;
 use std::collections::BTreeSet;
+
+/// Part of a step within which a time counts as reached.
+const REACHED: f64 = 1e-6;
+
+/// So many steps at the end are made alike, and shorter by a twentieth at most, so that the last one reaches the end.
+const LAST_STEPS: f64 = 20.0;
 
 /// One rank's solver.
 pub struct Solver {
@@ -56,12 +64,16 @@ pub struct Solver {
     pub previous_time: f64,
     /// Step that leads from the present state to the next, a time.
     pub time_step: f64,
+    /// The same, had the end of the run not made it shorter.
+    pub whole_step: f64,
     /// Largest stable step of the present state, a time.
     pub stable_step: f64,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
     /// What histories compare the present state with.
     pub remembered: Remembered,
+    /// What the first state says of the elements that set the step; `None` in a run that goes on from another.
+    pub slivers: Option<Slivers>,
     /// Energies and momenta when they were last summed, and the step at which that was.
     last_totals: Option<(u64, Totals)>,
     kick: f64,
@@ -70,8 +82,14 @@ pub struct Solver {
     watch: Watch,
     local: PassOutcome,
     control: TimeStepControl,
+    /// Time that the last step shall reach, where there is one.
+    end: Option<f64>,
+    /// Whether steps have been made shorter for it.
+    ending: bool,
     pass: PassSettings,
     functions: Vec<Function>,
+    /// Velocities that are prescribed at the start: local node, axis and value, ascending.
+    prescribed: Vec<(u32, usize, f64)>,
 }
 
 /// Something that all ranks agree on at every step; the largest request of any rank wins.
@@ -144,12 +162,23 @@ pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
     all.collect::<BTreeSet<i64>>().iter().filter(idle).copied().collect()
 }
 
+fn prescribed_at_start(domain: &Domain, functions: &[Function]) -> Vec<(u32, usize, f64)> {
+    let start = |constraint: &constraints::Constraint| {
+        let motion = constraint.motion.filter(|motion| motion.kind == MotionKind::Velocity)?;
+        Some((constraint.node, constraint.axis, motion.scale * functions[motion.function].value(0.0)))
+    };
+    let mut all: Vec<_> = domain.constraints.iter().filter_map(start).collect();
+    all.sort_by_key(|(node, axis, _)| (*node, *axis));
+    all
+}
+
 impl Solver {
     /// One rank's share of the problem in its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Solver {
         let domain = Domain::new(mesh, model, body, share, comm);
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
+            prescribed: prescribed_at_start(&domain, &model.functions),
             watch: Watch::new(mesh, model, body, share, initial_energy),
             domain,
             clock: Clock::default(),
@@ -157,14 +186,18 @@ impl Solver {
             time: 0.0,
             previous_time: 0.0,
             time_step: 0.0,
+            whole_step: 0.0,
             stable_step: 0.0,
             initial_energy,
             remembered: Remembered::default(),
+            slivers: None,
             last_totals: None,
             kick: 0.0,
             first_stable_step: None,
             local: PassOutcome::NOTHING,
             control: model.time_step,
+            end: None,
+            ending: false,
             pass: PassSettings {
                 time: 0.0,
                 time_step: 0.0,
@@ -182,6 +215,34 @@ impl Solver {
         self.pass.instructions = instructions;
     }
 
+    /// Lets the last steps be shorter, so that they reach this time. Without it, steps are as long as they can be.
+    pub fn end_at(&mut self, time: f64) {
+        self.end = Some(time);
+    }
+
+    /// Whether the present, prepared state is the one at the end.
+    pub fn is_at_end(&self) -> bool {
+        self.end.is_some_and(|end| end - self.time <= REACHED * self.whole_step)
+    }
+
+    /// Whether the step from the present, prepared state, or one before it, is shorter than it could be, so that the run ends
+    /// where it shall.
+    pub fn is_ending(&self) -> bool {
+        self.ending
+    }
+
+    /// Whether the next step may be shorter than it could be: what is left is no more than so many of the largest that may
+    /// follow.
+    pub fn nears_end(&self) -> bool {
+        let longest = if self.step == 0 { f64::INFINITY } else { self.control.growth * self.time_step };
+        self.end.is_some_and(|end| end - self.time <= LAST_STEPS * longest)
+    }
+
+    /// How often what is left until the end would fit into the step that could be taken, where it is there to be reached.
+    pub(in crate::solver) fn steps_too_long(&self) -> Option<f64> {
+        self.end.map(|end| self.whole_step / (end - self.time)).filter(|ratio| *ratio > 0.0)
+    }
+
     /// Finds the forces of the present state and the step to the next one; `request` is this rank's wish, the
     /// answer what all ranks agreed on. After an error the state can still be looked at, but not advanced.
     ///
@@ -192,6 +253,7 @@ impl Solver {
         comm.enter(Traffic::Erosion);
         self.erode(comm);
         comm.enter(Traffic::Elements);
+        let kept = (self.step == 0).then(|| self.keep_steps());
         self.internal_forces(comm);
         comm.enter(Traffic::Step);
         let agreed = match self.agree(request, comm) {
@@ -207,6 +269,9 @@ impl Solver {
         self.external_forces(comm);
         // Until the next step, all that is said is for sums, log and files.
         comm.enter(Traffic::Output);
+        if let Some(kept) = kept {
+            self.weigh_steps(&kept, comm);
+        }
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
             self.last_totals = Some((0, totals::totals(&mut self.domain, [0.0; 2], comm)));
@@ -224,6 +289,11 @@ impl Solver {
         self.book_work();
         self.previous_time = self.time;
         self.time += self.time_step;
+        if self.ending {
+            // The end is met to the bit.
+            let end = self.end.filter(|end| (end - self.time).abs() <= REACHED * self.whole_step);
+            self.time = end.unwrap_or(self.time);
+        }
         self.step += 1;
     }
 
@@ -240,10 +310,18 @@ impl Solver {
     }
 
     /// Velocity of a local node at the time of the present state: the mean of those half a step before and after.
+    /// At the start it is the initial one, or that which is prescribed: the work of reaching it is done in the first step.
     pub fn velocity_now(&self, node: u32) -> [f64; 3] {
-        let (v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
-        let behind = if self.step == 0 { 0.0 } else { 0.5 * self.kick };
-        nodes::add(v, nodes::scaled(a, behind))
+        let (mut v, a) = (self.domain.nodes.velocity(node), self.domain.nodes.acceleration(node));
+        if self.step > 0 {
+            return nodes::add(v, nodes::scaled(a, 0.5 * self.kick));
+        }
+        let first = self.prescribed.partition_point(|(other, ..)| *other < node);
+        self.prescribed[first..]
+            .iter()
+            .take_while(|(other, ..)| *other == node)
+            .for_each(|(_, i, value)| v[*i] = *value);
+        v
     }
 
     /// Velocities of a local node half a step before and after the present state; both are the initial one at the start.
@@ -372,9 +450,33 @@ impl Solver {
         self.check_step(comm)?;
         let last = self.time_step;
         let wanted = self.control.scale * stable_step;
-        self.time_step = if self.step == 0 { wanted } else { wanted.min(self.control.growth * last) };
+        self.whole_step = if self.step == 0 { wanted } else { wanted.min(self.control.growth * self.whole_step) };
+        let agreed = Request::from_number(-wish);
+        // A run that is stopped before its end goes on with the step that it would have taken.
+        self.time_step = if agreed == Request::Continue { self.up_to_the_end(last) } else { self.whole_step };
+        self.ending |= self.time_step < self.whole_step;
         self.kick = 0.5 * (if self.step == 0 { 0.0 } else { last } + self.time_step);
-        Ok(Request::from_number(-wish))
+        Ok(agreed)
+    }
+
+    /// The step that is taken after one of length `last`. The last ones share what is left: the error of the energy balance,
+    /// prescribed displacements and contact all feel a step that suddenly is another.
+    fn up_to_the_end(&self, last: f64) -> f64 {
+        let Some(end) = self.end else { return self.whole_step };
+        let left = end - self.time;
+        match (left / self.whole_step - REACHED).ceil() {
+            // Nothing follows; energies are those of steps that are alike.
+            steps if steps < 1.0 => {
+                if self.ending {
+                    last
+                } else {
+                    self.whole_step
+                }
+            }
+            steps if steps > LAST_STEPS => self.whole_step,
+            // What whole steps bring within reach is of the run without an end, to the bit.
+            steps => (left / steps).min(self.whole_step),
+        }
     }
 
     /// Forces from outside, from constraints, and from contact on what the constraints leave free.

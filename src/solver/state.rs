@@ -29,6 +29,8 @@ impl Solver {
             watch,
             last_totals,
             remembered,
+            // Nothing is written once the end has made steps shorter.
+            whole_step,
             // Of the step: found anew by `prepare`.
             stable_step: _,
             local: _,
@@ -36,12 +38,20 @@ impl Solver {
             // Of the problem.
             clock: _,
             control: _,
+            // Of the first state.
+            slivers: _,
+            end: _,
+            ending: _,
             functions: _,
+            prescribed: _,
         } = self;
         archive.count("NSTEPS", step);
         archive.number(TIME, time);
         archive.number("LASTTIME", previous_time);
         archive.number("TMSTEP", time_step);
+        if archive.loading() {
+            *whole_step = *time_step;
+        }
         archive.number("KICK", kick);
         archive.number("INITIALE", initial_energy);
         let mut first = first_stable_step.unwrap_or(f64::INFINITY);

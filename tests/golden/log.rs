@@ -1,10 +1,12 @@
 //! A print log without what depends on machine and day, and the lines in which two of them differ.
 
-/// Columns of step lines that time the machine: where they begin and end.
-const TIMED: [(usize, usize); 2] = [(39, 71), (204, 214)];
+/// Columns of step lines that time the machine, where they begin and end; and the width of SECONDS TO GO, wherever it stands.
+const TIMED: (usize, usize) = (39, 71);
+const TO_GO: usize = 10;
 
 /// Words of lines that depend on the machine, or on the number of ranks.
-const PASSING: [&str; 7] = [
+const PASSING: [&str; 8] = [
+    " % of the time went there",
     "SECONDS PER ELEMENT CYCLE",
     "ELEMENT CYCLES PER SECOND",
     "LARGEST MEMORY",
@@ -30,6 +32,7 @@ const SHOWN: usize = 12;
 pub fn lasting(log: &str) -> String {
     let mut out = String::new();
     let [mut skipped, mut steps] = [false; 2];
+    let mut timed = vec![TIMED];
     for line in log.lines().skip(BANNER) {
         let packed: String = line.chars().filter(|c| !c.is_whitespace()).collect();
         if is_head(line) {
@@ -37,10 +40,14 @@ pub fn lasting(log: &str) -> String {
         }
         // What follows the time table without a head of its own begins with the number of ranks.
         skipped &= !line.contains("NUMBER OF RANKS");
-        steps |= line.contains("TIME DILATATION");
+        if line.contains("TIME DILATATION") {
+            steps = true;
+            let end = line.rfind("SECONDS").map(|begin| begin + "SECONDS".len()).filter(|end| *end > TIMED.1);
+            timed.extend(end.map(|end| (end - TO_GO, end)));
+        }
         let is_warning = WARNINGS.iter().any(|words| line.starts_with(words));
         if steps && !packed.is_empty() && !line.contains("RESTART FILE") && !is_warning {
-            out += &untimed(line);
+            out += &untimed(line, &timed);
             out += "\n";
         } else if !skipped && !PASSING.iter().any(|words| line.contains(words)) {
             out += line.trim_end();
@@ -57,8 +64,8 @@ fn is_head(line: &str) -> bool {
 }
 
 /// A line of steps, or of their heads, without the columns that time the machine.
-fn untimed(line: &str) -> String {
-    let timed = |place: &usize| TIMED.iter().any(|(begin, end)| (begin..end).contains(&place));
+fn untimed(line: &str, timed: &[(usize, usize)]) -> String {
+    let timed = |place: &usize| timed.iter().any(|(begin, end)| (begin..end).contains(&place));
     let kept = line.chars().enumerate().filter(|(place, _)| !timed(place)).map(|(_, c)| c);
     kept.collect::<String>().trim_end().to_string()
 }

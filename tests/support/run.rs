@@ -149,7 +149,8 @@ struct Record {
     pairs: usize,
 }
 
-/// The program's own step loop (`urto::run`) without its files.
+/// The program's own step loop (`urto::run`) without its files, and without the shorter steps at its end: it ends with the state
+/// nearest to the termination time. Energies are measured with the step, and a change of it is seen in their balance.
 fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communicator) -> Record {
     let fields = FieldList::new(model, solver);
     let collector = Collector::new(solver, mesh.coordinates.len(), mesh.element_count(), comm);

@@ -1,6 +1,7 @@
 //! The print log: what was asked, what is being modelled, one line per OUTPUT TIME, and where the time went; in
 //! PRONTO's order, with PRONTO's columns first.
 
+mod advice;
 mod contact;
 mod echo;
 mod modelled;
@@ -10,6 +11,7 @@ mod summary;
 mod warnings;
 
 pub use crate::numbers::scientific;
+pub use advice::{sentence, share};
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};

@@ -53,6 +53,7 @@ fn columns(asked: StepColumns) -> &'static [Column] {
             ("ERODED", "ENERGY", 13),
             ("ENERGY", "ERROR", 11),
         ],
+        StepColumns::EnergyError => &[("ENERGY", "ERROR", 11)],
         StepColumns::Momentum => &[("MOMENTUM", "IN X", 13), ("MOMENTUM", "IN Y", 13), ("MOMENTUM", "IN Z", 13)],
         StepColumns::ToGo => &[("SECONDS", "TO GO", 10)],
     }
@@ -70,12 +71,17 @@ fn cells(asked: StepColumns, line: &StepLine) -> Vec<String> {
         StepColumns::Energy => {
             let accounts =
                 [t.internal, t.hourglass, t.bulk_viscosity, t.friction, t.external, t.contact, t.eroded].map(value);
-            let error = scientific(t.relative_error(line.initial_energy), 2);
-            accounts.into_iter().chain([error]).collect()
+            accounts.into_iter().chain([error(line)]).collect()
         }
+        StepColumns::EnergyError => vec![error(line)],
         StepColumns::Momentum => t.momentum.map(value).into(),
         StepColumns::ToGo => vec![scientific(line.to_go, 1)],
     }
+}
+
+/// The error of the energy balance.
+fn error(line: &StepLine) -> String {
+    scientific(line.totals.relative_error(line.initial_energy), 2)
 }
 
 /// Column heads.
@@ -124,12 +130,14 @@ mod tests {
         };
         let ends = |text: &str| text.lines().next_back().map(|last| last.len());
         let mut asked: Vec<Vec<StepColumns>> = StepColumns::ALL.iter().map(|one| vec![*one]).collect();
-        asked.push(StepColumns::ALL.to_vec());
+        asked.extend([StepColumns::ALL.to_vec(), StepColumns::USUAL.to_vec()]);
         for asked in asked {
             let (head, cells) = (step_header(&asked), step_line(&asked, &line));
             assert_eq!(ends(&head), ends(&cells), "{asked:?}");
             let columns = PRONTO.len() + asked.iter().map(|asked| columns(*asked).len()).sum::<usize>();
             assert_eq!(cells.split_whitespace().count(), columns, "{asked:?}");
+            // What a log has without STEP LOG fits PRONTO's page.
+            assert!(asked != StepColumns::USUAL || cells.trim_end().len() <= 132, "{cells}");
         }
     }
 }

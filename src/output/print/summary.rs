@@ -2,6 +2,7 @@
 
 use super::{heading, leader, number, scientific};
 use crate::comm::Spread;
+use crate::needs::Advice;
 use crate::solver::contact::Report;
 use crate::solver::{Finding, Totals};
 use std::fmt::Write;
@@ -57,6 +58,8 @@ pub struct Ending<'a> {
     pub contact: Option<Report>,
     /// Elements that were taken away, where that was asked for.
     pub gone: Option<u64>,
+    /// What the scene did not need, and what it lacked.
+    pub advice: &'a [Advice],
 }
 
 /// The closing part: the energies, where the time went, and how the run ended.
@@ -65,7 +68,9 @@ pub fn closing(table: &TimeTable, ending: &Ending) -> String {
     out += &ending.contact.as_ref().map_or(String::new(), |report| contact(report, ending.steps));
     out += &ending.gone.map_or(String::new(), |gone| leader("ELEMENTS TAKEN AWAY", &gone.to_string()));
     out += &super::warnings::table(ending.findings);
+    out += &super::advice::advice(ending.advice, table);
     out += &sections(table);
+    out += &super::advice::of_output(table);
     out += &balance_of_ranks(table);
     out += "\n";
     out += &leader("NUMBER OF RANKS", &table.ranks.to_string());

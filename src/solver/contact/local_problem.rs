@@ -21,6 +21,7 @@ use super::node_result::{Details, NodeResult, Status};
 use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Candidate, Locator, Rule};
 use super::search::neighbourhood::SearchResult;
+use super::seen::Seen;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;
@@ -372,6 +373,35 @@ impl LocalProblem {
                 if let Ok(plane_node) = self.planes.binary_search_by_key(&number, |plane_node| plane_node.number) {
                     self.planes[plane_node].carried = c.carried;
                 }
+            }
+        }
+    }
+
+    /// Lets `seen` learn what the contacts of this step have met; `when` is its time, and the number of steps before it.
+    pub fn teach(&self, seen: &mut Seen, when: (f64, u64)) {
+        let LocalProblem { faces, edges, history, numbering, planes, .. } = self;
+        let lacks_blocks = seen.lacks_blocks();
+        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
+            seen.touch(c, when);
+            match c.origin {
+                Origin::Face(_, place) if lacks_blocks => {
+                    let point = c.members[0];
+                    let touched = history.get(point as usize).map(|past| past[place as usize].face);
+                    let Some(face) = touched.filter(|face| *face != NONE) else { continue };
+                    let around = faces.around(point).iter().copied();
+                    around.chain([face]).for_each(|face| seen.meet(faces.block[face as usize]));
+                }
+                Origin::Edges(first, second) => {
+                    seen.edges = true;
+                    let here = [first, second].map(|edge| numbering.edges.binary_search(&edge));
+                    let of_edges = here.into_iter().flatten().flat_map(|edge| edges[edge].faces);
+                    of_edges.for_each(|face| seen.meet(faces.block[face as usize]));
+                }
+                Origin::Plane(number) => {
+                    let node = planes.binary_search_by_key(&number, |node| node.number);
+                    node.into_iter().for_each(|node| seen.push(planes[node].plane));
+                }
+                Origin::Face(..) => (),
             }
         }
     }

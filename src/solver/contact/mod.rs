@@ -17,6 +17,7 @@ mod ranks;
 mod report;
 mod reshape;
 pub mod search;
+mod seen;
 mod skin;
 mod state;
 
@@ -49,6 +50,7 @@ use skin::Skin;
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{DeepOverlap, Overlap, remove as remove_overlap};
 pub use report::{Report, Tally, Work};
+pub use seen::Seen;
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
 const LINES_EVERY: u64 = 4;
@@ -90,6 +92,8 @@ pub struct Contact {
     gain: Gain,
     /// What the log tells.
     pub tally: Tally,
+    /// What has been met so far.
+    seen: Seen,
     /// Number of searches so far.
     searches: u64,
     /// Number of steps so far.
@@ -134,6 +138,7 @@ impl Contact {
             bank: Bank::default(),
             gain: Gain::default(),
             tally: Tally::default(),
+            seen: Seen::nothing(mesh.blocks.len(), model.rigid_surfaces.len()),
             searches: 0,
             age: 0,
             counts: [0; 2],
@@ -209,6 +214,7 @@ impl Contact {
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
+        self.problem.teach(&mut self.seen, (step.time, self.age));
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
         self.bring_forces(comm);

@@ -2,8 +2,10 @@
 //! machines.
 
 use super::Contact;
+use super::Seen;
 use super::contact_nodes::ContactNodes;
 use super::node_result::{Details, NodeResult, Status};
+use crate::comm::Communicator;
 use crate::vector::add;
 
 /// Contact in numbers.
@@ -111,6 +113,21 @@ impl Contact {
             searches: self.searches,
             tally: self.tally,
         })
+    }
+
+    /// What contact has met so far, on all ranks; all ranks call it.
+    pub fn seen(&self, comm: &mut dyn Communicator) -> Seen {
+        self.seen.merged(comm)
+    }
+
+    /// Whether there are surfaces that touch surfaces, beside rigid planes.
+    pub fn has_surfaces(&self) -> bool {
+        !self.layout.interfaces.is_empty()
+    }
+
+    /// Whether edges may touch edges.
+    pub fn has_edges(&self) -> bool {
+        !self.layout.edges.is_empty()
     }
 
     /// What contact has asked of this rank.

@@ -36,6 +36,8 @@ impl Contact {
     /// ascending; the nodes have been loaded before.
     pub fn visit_state(&mut self, archive: &mut dyn Archive, dead: &[u32], erosion: Option<&Erosion>, nodes: &Nodes) {
         let Contact {
+            // Of this part of the run.
+            seen: _,
             // Visited below.
             problem: _,
             carried: _,

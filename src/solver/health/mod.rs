@@ -16,4 +16,5 @@ mod watch;
 
 pub(super) use finding::percent;
 pub use finding::{Evidence, Finding, Spot};
+pub(super) use place::elements;
 pub(super) use watch::Watch;

@@ -1,5 +1,6 @@
 //! What a run may suffer from, one file each: a measure, a threshold, words and advice.
 
+mod brief;
 pub mod contact_gain;
 mod corners;
 mod debris;
@@ -39,7 +40,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 11] = [
+pub static SYMPTOMS: [Symptom; 12] = [
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
     contact_gain::SYMPTOM,
@@ -51,6 +52,7 @@ pub static SYMPTOMS: [Symptom; 11] = [
     passes::SYMPTOM,
     sunk::SYMPTOM,
     debris::SYMPTOM,
+    brief::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

@@ -1,0 +1,31 @@
+//! A few elements that set the step of all.
+
+use super::{Advice, Promise, Scene};
+use crate::comm::Communicator;
+use crate::mesh::Mesh;
+use crate::solver::{Section, Slivers, Solver};
+
+/// How much longer steps must become for it to be worth words.
+const WORTH_WORDS: f64 = 1.2;
+
+pub fn advice(scene: &Scene, _: &mut dyn Communicator) -> Vec<Advice> {
+    let Some(words) = words(scene.mesh, scene.solver) else { return Vec::new() };
+    let gain = scene.solver.slivers.map_or(1.0, |slivers| slivers.gain);
+    let instead = "a better shape or a larger size there".to_string();
+    vec![Advice::spare(words, instead, Promise::Nothing, Some((Section::Elements, 1.0 - 1.0 / gain)))]
+}
+
+/// What the first state says of the elements that set the step, where that is worth words.
+pub fn words(mesh: &Mesh, solver: &Solver) -> Option<String> {
+    let slivers = solver.slivers.filter(|slivers| slivers.gain >= WORTH_WORDS)?;
+    let who = if slivers.count == 1 { "one element".to_string() } else { format!("{} elements", slivers.count) };
+    Some(format!(
+        "{who} of {} set the step at the start, element {} of block {} the shortest: {} % more mass there would make the steps \
+         {:.1} times as long",
+        mesh.element_count(),
+        slivers.place.element,
+        slivers.place.block,
+        100.0 * Slivers::ADDED,
+        slivers.gain
+    ))
+}

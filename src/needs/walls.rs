@@ -1,0 +1,69 @@
+//! Walls of one element that bend: one point of integration has no stiffness in bending but the hourglass resistance.
+
+use super::{Advice, Scene};
+use crate::comm::Communicator;
+use crate::mesh::exterior::{EXTERIOR, SIDES, across};
+use crate::mesh::{Mesh, Shape};
+use crate::output::block_energies;
+
+/// Hourglass energy over internal energy from which a wall bends.
+const BENDS: f64 = 0.02;
+/// Part of a block's elements that must reach through it.
+const MOST: f64 = 0.5;
+
+pub fn advice(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
+    let energies = block_energies(scene.mesh.blocks.len(), scene.solver, comm);
+    let share = |index: usize| energies[4 * index + 2] / energies[4 * index + 1].abs();
+    if (0..scene.mesh.blocks.len()).all(|index| share(index).is_nan() || share(index) < BENDS) {
+        return Vec::new();
+    }
+    let thin = thin_blocks(scene.mesh).into_iter().filter(|index| share(*index) >= BENDS);
+    let words = |index: usize| {
+        let (id, percent) = (scene.mesh.blocks[index].id, 100.0 * share(index));
+        format!(
+            "block {id} is a wall of one element that bends: its hourglass energy is {percent:.0} % of its internal energy"
+        )
+    };
+    thin.map(|index| Advice::lack(words(index), "two elements through the wall, or shells".into())).collect()
+}
+
+/// Indices of the blocks of hexahedra most of whose elements reach from one side of the body to the other, and are less thick
+/// than wide.
+pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
+    let across = across(mesh.shaped(), mesh.coordinates.len(), |_| true);
+    let mut first = 0;
+    let mut thin = Vec::new();
+    for (index, block) in mesh.blocks.iter().enumerate() {
+        let own = first..first + block.len();
+        first = own.end;
+        if block.shape != Shape::Hexahedron || block.is_empty() {
+            continue;
+        }
+        let faces = |element: usize| &across[SIDES * element..SIDES * (element + 1)];
+        let through =
+            own.clone().zip(block.hexahedra()).filter(|(element, nodes)| reaches(mesh, nodes, faces(*element)));
+        if through.count() as f64 > MOST * block.len() as f64 {
+            thin.push(index);
+        }
+    }
+    thin
+}
+
+/// Whether two faces that are opposite to each other are outside and nearer than the faces are wide.
+fn reaches(mesh: &Mesh, nodes: &[u32; 8], across: &[u32]) -> bool {
+    let outside = |side: usize| across[side] == EXTERIOR;
+    let centre = |face: [u32; 4]| -> [f64; 3] {
+        std::array::from_fn(|i| 0.25 * face.iter().map(|&node| mesh.coordinates[node as usize][i]).sum::<f64>())
+    };
+    let distance = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum::<f64>().sqrt();
+    let face = |side: usize| Shape::Hexahedron.face(nodes, side as u8);
+    let apart = |a: usize| -> Option<(usize, f64)> {
+        let own = face(a)?;
+        let b = (0..SIDES).find(|&b| face(b).is_some_and(|other| other.iter().all(|node| !own.contains(node))))?;
+        Some((b, distance(centre(own), centre(face(b)?))))
+    };
+    let lengths: Vec<(usize, usize, f64)> =
+        (0..SIDES).filter_map(|a| apart(a).map(|(b, length)| (a, b, length))).filter(|(a, b, _)| a < b).collect();
+    let others = |a: usize| lengths.iter().filter(move |(c, ..)| *c != a).map(|(.., length)| *length);
+    lengths.iter().any(|(a, b, length)| outside(*a) && outside(*b) && others(*a).all(|other| other > *length))
+}

@@ -1,0 +1,61 @@
+//! What the scene did not need, and what it lacked, at the end of the log and on the terminal.
+
+use super::heading;
+use crate::needs::Advice;
+use crate::output::print::TimeTable;
+use crate::solver::Section;
+use std::fmt::Write;
+
+/// Part of the time of a section below which nothing is said of it.
+const WORTH_WORDS: f64 = 0.01;
+/// Part of the time above which output is much.
+const MUCH_OUTPUT: f64 = 1.0 / 3.0;
+
+/// The part of a run's time that advice is about; `None` where it is about no section.
+pub fn share(advice: &Advice, table: &TimeTable) -> Option<f64> {
+    let (section, part) = advice.cost?;
+    Some(part * of_section(section, table))
+}
+
+fn of_section(section: Section, table: &TimeTable) -> f64 {
+    let name = Section::ALL.iter().find(|(known, _)| *known == section).map_or("", |(_, name)| name);
+    let seconds = table.sections.iter().find(|balance| balance.name == name).map_or(0.0, |balance| balance.spread.mean);
+    if table.wall > 0.0 { seconds / table.wall } else { 0.0 }
+}
+
+/// The parts of the log with all advice; nothing where there is none.
+pub(super) fn advice(list: &[Advice], table: &TimeTable) -> String {
+    let mut out = String::new();
+    for (lacked, title) in [(false, "WHAT THE SCENE DID NOT NEED"), (true, "WHAT THE SCENE LACKED")] {
+        let own: Vec<&Advice> = list.iter().filter(|advice| advice.lacked == lacked).collect();
+        if own.is_empty() {
+            continue;
+        }
+        out += &heading(title);
+        for advice in own {
+            let _ = writeln!(out, "  {}", sentence(advice));
+            if let Some(share) = share(advice, table).filter(|share| *share >= WORTH_WORDS) {
+                let _ = writeln!(out, "    {:.0} % of the time went there", 100.0 * share);
+            }
+        }
+    }
+    out
+}
+
+/// Advice in a line: what was seen, the command, and what it keeps.
+pub fn sentence(advice: &Advice) -> String {
+    let kept = if advice.kept().is_empty() { String::new() } else { format!(" gives {}", advice.kept()) };
+    format!("{}: {}{kept}", advice.words, advice.instead)
+}
+
+/// What to say of output that took much of the time, below the table of it.
+pub(super) fn of_output(table: &TimeTable) -> String {
+    let share = of_section(Section::Output, table);
+    if share < MUCH_OUTPUT {
+        return String::new();
+    }
+    format!(
+        "\n              output took {:.0} % of the time: PLOT TIME and OUTPUT TIME say how often, PLOT NODAL and PLOT ELEMENT what\n",
+        100.0 * share
+    )
+}

@@ -1,0 +1,184 @@
+//! What can be turned in a deck: only what the scene has.
+
+use super::edit::with_command;
+use crate::deck::Deck;
+use crate::mesh::{Dimension, Mesh, Shape};
+use crate::model::{ContactEdges, Hourglass, Model};
+
+/// Part by which round-off is imitated: it is far above that of a step and far below any error that is told.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Which knob a variant turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Knob {
+    /// None: the deck as it is.
+    None,
+    /// A perturbation of the size of round-off.
+    RoundOff,
+    /// The mesh.
+    Mesh,
+    /// The time step.
+    TimeStep,
+    /// Hourglass control.
+    Hourglass,
+    /// Bulk viscosity.
+    Viscosity,
+    /// How contact is enforced.
+    Contact,
+    /// Several together.
+    Several,
+}
+
+impl Knob {
+    /// The knob in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Knob::None => "the deck",
+            Knob::RoundOff => "round-off",
+            Knob::Mesh => "mesh",
+            Knob::TimeStep => "time step",
+            Knob::Hourglass => "hourglass control",
+            Knob::Viscosity => "bulk viscosity",
+            Knob::Contact => "contact",
+            Knob::Several => "several",
+        }
+    }
+}
+
+/// A deck that differs from the given one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variant {
+    /// Name of its folder.
+    pub name: String,
+    /// What is different.
+    pub knob: Knob,
+    /// The command that says so, or what else is done.
+    pub words: String,
+    /// The commands that are taken out and those that are put in.
+    pub change: (Vec<&'static str>, Vec<String>),
+    /// How many times finer than the given mesh its mesh is.
+    pub refine: u32,
+    /// How often the work of the given deck it is expected to be.
+    pub work: f64,
+}
+
+impl Variant {
+    fn of(knob: Knob, name: &str, without: &[&'static str], line: String, work: f64) -> Variant {
+        let lines = if line.is_empty() { Vec::new() } else { vec![line.clone()] };
+        let words = if line.is_empty() { "as it is".to_string() } else { line };
+        Variant { name: name.into(), knob, words, change: (without.to_vec(), lines), refine: 1, work }
+    }
+
+    /// Its deck. `more` lines and names belong to all variants.
+    pub fn deck(&self, deck: &Deck, (without, lines): &(Vec<&'static str>, Vec<String>)) -> String {
+        with_command(deck, &[&without[..], &self.change.0].concat(), &[&lines[..], &self.change.1].concat())
+    }
+}
+
+/// All variants but those of several knobs, the most telling first: `levels` are the refinements of the mesh.
+pub fn variants(model: &Model, mesh: &Mesh, levels: &[u32]) -> Vec<Variant> {
+    let scale = model.time_step.scale;
+    let mut all = vec![
+        Variant::of(Knob::None, "deck", &[], String::new(), 1.0),
+        Variant::of(
+            Knob::RoundOff,
+            "round-off",
+            &["TIME STEP SCALE"],
+            format!("TIME STEP SCALE, {:?}", scale * (1.0 - ROUND_OFF)),
+            1.0,
+        ),
+    ];
+    let finer = |&refine: &u32| {
+        let dimensions = if mesh.dimension == Dimension::Two { 2 } else { 3 };
+        let work = f64::from(refine).powi(dimensions + 1);
+        let words = format!("mesh {refine} times finer");
+        Variant { refine, words, ..Variant::of(Knob::Mesh, &format!("mesh-{refine}"), &[], String::new(), work) }
+    };
+    let mut meshes = levels.iter().map(finer);
+    all.extend(meshes.next());
+    all.push(Variant::of(
+        Knob::TimeStep,
+        "half-steps",
+        &["TIME STEP SCALE"],
+        format!("TIME STEP SCALE, {:?}", 0.5 * scale),
+        2.0,
+    ));
+    all.extend(hourglass(model, mesh));
+    all.extend(viscosity(model));
+    all.extend(contact(model, mesh));
+    all.extend(meshes);
+    all
+}
+
+fn hourglass(model: &Model, mesh: &Mesh) -> Option<Variant> {
+    let has =
+        mesh.blocks.iter().any(|block| matches!(block.shape, Shape::Hexahedron | Shape::Plane) && !block.is_empty());
+    let (name, line) = match model.hourglass {
+        Hourglass::AssumedStrain { .. } => ("flanagan-belytschko", "HOURGLASS CONTROL, FLANAGAN BELYTSCHKO"),
+        Hourglass::FlanaganBelytschko { .. } => ("assumed-strain", "HOURGLASS CONTROL, ASSUMED STRAIN"),
+    };
+    let without = &["HOURGLASS CONTROL", "HOURGLASS STIFFENING"];
+    has.then(|| Variant::of(Knob::Hourglass, name, without, line.into(), 1.0))
+}
+
+fn viscosity(model: &Model) -> Vec<Variant> {
+    let now = model.bulk_viscosity;
+    let command = |linear: f64, quadratic: f64| format!("BULK VISCOSITY, {linear:?}, {quadratic:?}");
+    let mut all = Vec::new();
+    if now.linear > 0.0 || now.quadratic > 0.0 {
+        let half = command(0.5 * now.linear, 0.5 * now.quadratic);
+        all.push(Variant::of(Knob::Viscosity, "half-viscosity", &["BULK VISCOSITY"], half, 1.0));
+    }
+    if now.linear > 0.0 {
+        // It shortens the step.
+        all.push(Variant::of(
+            Knob::Viscosity,
+            "no-linear-viscosity",
+            &["BULK VISCOSITY"],
+            command(0.0, now.quadratic),
+            1.0,
+        ));
+    }
+    all
+}
+
+fn contact(model: &Model, mesh: &Mesh) -> Vec<Variant> {
+    if !model.contact.is_some() {
+        return Vec::new();
+    }
+    let control = &model.contact.control;
+    let passes = |passes: u32, tolerance: f64| format!("CONTACT PASSES, {passes}, {tolerance:?}");
+    let without = &["CONTACT PASSES"];
+    let now = control.passes;
+    let mut all = vec![
+        Variant::of(Knob::Contact, "one-pass", without, passes(1, control.tolerance), 1.0),
+        Variant::of(Knob::Contact, "loose-contact", without, passes(now, 100.0 * control.tolerance.max(1e-12)), 1.0),
+        Variant::of(
+            Knob::Contact,
+            "tight-contact",
+            without,
+            passes((5 * now).min(1000), 0.01 * control.tolerance),
+            1.5,
+        ),
+    ];
+    if model.contact.materials.is_some() && mesh.dimension == Dimension::Three {
+        let other = |name: &str, word: &str| {
+            Variant::of(Knob::Contact, name, &["CONTACT EDGES"], format!("CONTACT EDGES, {word}"), 1.2)
+        };
+        if control.edges != ContactEdges::None {
+            all.push(other("no-edges", "OFF"));
+        }
+        if control.edges != ContactEdges::All {
+            all.push(other("all-edges", "ALL"));
+        }
+    }
+    all
+}
+
+/// A variant with what all of these turn.
+pub fn together(variants: &[&Variant]) -> Variant {
+    let without = variants.iter().flat_map(|variant| variant.change.0.clone()).collect();
+    let lines: Vec<String> = variants.iter().flat_map(|variant| variant.change.1.clone()).collect();
+    let words = lines.join("; ");
+    Variant { name: "together".into(), knob: Knob::Several, words, change: (without, lines), refine: 1, work: 1.0 }
+}

@@ -1,0 +1,205 @@
+//! What a run says at its end of what its scene did not need: each claim is held against a run of the advised deck.
+
+mod program;
+
+use program::Desk;
+use serde_json::Value;
+use std::path::Path;
+use urto::exodus::Results;
+
+const STEEL: &str = "YOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\n";
+
+/// Two steel bars, one of which strikes the other, and a third far away; the second is held at its end.
+fn deck(speed: f64, commands: &str, law: &str) -> String {
+    let material = |block: usize| {
+        let plastic =
+            if law == "ELASTIC" || block == 2 { "" } else { "YIELD STRESS = 500.E6\nHARDENING MODULUS = 1.E9\n" };
+        let law = if block == 2 { "ELASTIC" } else { law };
+        format!("MATERIAL, {block}, {law}, 7850.\n{STEEL}{plastic}END\n")
+    };
+    format!(
+        "TITLE\n BARS\nTERMINATION TIME, 40.E-6\nPLOT TIME, 4.E-6\nPLOT NODAL, VELOCITY, CONTACT\nPLOT ELEMENT, STRESS, ENERGY\n\
+         NO DISPLACEMENT, X, 2\nINITIAL VELOCITY MATERIAL, 1, {speed}, 0., 0.\n{commands}{}{}{}EXIT\n",
+        material(1),
+        material(2),
+        material(3)
+    )
+}
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.put(
+        "bars.mesh",
+        "TITLE\n BARS\nBOX, 1, 0., 0., 0., 0.04, 0.01, 0.01, 8, 2, 2\nBOX, 2, 0.0401, -0.002, -0.002, 0.04, 0.014, 0.014, 8, 2, 2\n\
+         BOX, 3, 0., 0.1, 0., 0.01, 0.01, 0.01, 2, 2, 2\nNODE SET FACE, 2, 2, RIGHT\nSIDE SET FACE, 100, 3, LEFT\n",
+    );
+    desk
+}
+
+/// Runs a deck and returns what it was advised.
+fn advised(desk: &Desk, name: &str, deck: &str, more: &[&str]) -> Vec<Value> {
+    desk.put(&format!("{name}.i"), deck);
+    let (input, summary) = (format!("{name}.i"), format!("{name}.json"));
+    let arguments = ["run", &input, "-m", "bars.mesh", "-q", "--summary", &summary];
+    desk.urto(&[&arguments[..], more].concat()).with(0);
+    let found: Value = serde_json::from_str(&desk.text(&summary)).expect("JSON");
+    found["advice"].as_array().expect("a list").clone()
+}
+
+fn about<'a>(advice: &'a [Value], words: &str) -> Option<&'a Value> {
+    advice.iter().find(|one| one["words"].as_str().is_some_and(|text| text.contains(words)))
+}
+
+/// Largest difference of any value of two files over the largest of that variable; also 0 for the same bits, NaN where the
+/// files cannot be compared.
+fn difference(a: &Path, b: &Path) -> (bool, f64) {
+    let [a, b] = [a, b].map(|path| Results::open(path).expect("results"));
+    assert_eq!(a.times(), b.times());
+    let (mut same, mut worst) = (true, 0.0f64);
+    for state in 0..a.times().len() {
+        let nodal = a.nodal_names().iter().map(|name| (a.nodal(name, state), b.nodal(name, state)));
+        let element = a.element_names().iter().map(|name| (a.element(name, state), b.element(name, state)));
+        for (one, other) in nodal.chain(element) {
+            let (one, other) = (one.expect("values"), other.expect("values"));
+            let largest = one.iter().fold(f64::MIN_POSITIVE, |most, value| value.abs().max(most));
+            for (x, y) in one.iter().zip(&other) {
+                same &= x.to_bits() == y.to_bits();
+                worst = worst.max((x - y).abs() / largest);
+            }
+        }
+    }
+    (same, worst)
+}
+
+#[test]
+fn what_a_slow_impact_did_not_need_changes_no_bit() {
+    let desk = desk();
+    let contact = "CONTACT MATERIAL\nCONTACT DATA, 1, 2, 0.3\nRIGID SURFACE, 100, -1., 0., 0., 1., 0., 0.\nDEATH, 1, EQPS, MAX, 0.5\n";
+    let whole = deck(5.0, contact, "ELASTIC PLASTIC");
+    let advice = advised(&desk, "whole", &whole, &[]);
+    for ranks in ["2", "3"] {
+        let again = advised(&desk, "again", &whole, &["--ranks", ranks]);
+        let words = |list: &[Value]| list.iter().map(|one| one["words"].clone()).collect::<Vec<_>>();
+        assert_eq!(words(&advice), words(&again));
+    }
+    let steps = [
+        ("block 1 never flowed", "MATERIAL, 1, ELASTIC"),
+        ("block 3 never flowed", "MATERIAL, 3, ELASTIC"),
+        ("block 3 touched nothing", "CONTACT MATERIAL, 1, 2"),
+        ("no edge touched another", "CONTACT EDGES, OFF"),
+        ("the rigid plane of side set 100 was never touched", "a deck without it"),
+        ("the rule of DEATH took nothing away", "a deck without DEATH"),
+        ("nothing touched before time", "bodies that begin closer"),
+    ];
+    for (words, instead) in steps {
+        let found = about(&advice, words).unwrap_or_else(|| panic!("{words}: {advice:#?}"));
+        assert!(found["instead"].as_str().is_some_and(|text| text.contains(instead)), "{found}");
+    }
+    assert_eq!(advice.iter().filter(|one| one["kind"] == "spare" && one["keeps"] == "the same bits").count(), 6);
+    // All that promises the same bits, at once and one by one.
+    let lean = "CONTACT MATERIAL, 1, 2\nCONTACT DATA, 1, 2, 0.3\nCONTACT EDGES, OFF\n";
+    let others = [
+        ("lean", deck(5.0, lean, "ELASTIC")),
+        (
+            "elastic",
+            deck(5.0, contact, "ELASTIC").replace("DEATH, 1, EQPS, MAX, 0.5\n", "DEATH, 1, VOLUME, MIN, 0.01\n"),
+        ),
+        ("edges", deck(5.0, &format!("{contact}CONTACT EDGES, OFF\n"), "ELASTIC PLASTIC")),
+        ("blocks", deck(5.0, &contact.replace("MATERIAL\n", "MATERIAL, 1, 2\n"), "ELASTIC PLASTIC")),
+        ("plane", whole.lines().filter(|line| !line.starts_with("RIGID")).collect::<Vec<_>>().join("\n")),
+    ];
+    for (name, other) in others {
+        advised(&desk, name, &other, &[]);
+        let found = difference_of_common(&desk, "whole", name);
+        assert!(found.0, "{name}: {found:?}");
+    }
+}
+
+/// The same of the variables that both files have.
+fn difference_of_common(desk: &Desk, a: &str, b: &str) -> (bool, f64) {
+    difference(&desk.path(&format!("{b}.e")), &desk.path(&format!("{a}.e")))
+}
+
+#[test]
+fn what_was_needed_is_not_advised_against() {
+    let desk = desk();
+    // Fast enough to flow.
+    let advice = advised(&desk, "fast", &deck(200.0, "CONTACT MATERIAL\n", "ELASTIC PLASTIC"), &[]);
+    assert!(
+        about(&advice, "block 1 never").is_none() && about(&advice, "block 3 never flowed").is_some(),
+        "{advice:#?}"
+    );
+    // Nothing is in the way.
+    let advice = advised(&desk, "away", &deck(-5.0, "CONTACT MATERIAL\n", "ELASTIC"), &[]);
+    let nothing = about(&advice, "nothing touched anything").expect("that is seen");
+    assert_eq!(nothing["keeps"], "the same bits");
+    advised(&desk, "without", &deck(-5.0, "", "ELASTIC").replace(", CONTACT", ""), &[]);
+    let found = difference(&desk.path("without.e"), &desk.path("away.e"));
+    assert!(found.0, "{found:?}");
+}
+
+#[test]
+fn laws_that_never_flow_keep_what_is_promised() {
+    let desk = desk();
+    let elastic = deck(5.0, "CONTACT MATERIAL, 1, 2\n", "ELASTIC");
+    advised(&desk, "elastic", &elastic, &[]);
+    let laws = [
+        ("EP POWER HARD", "YIELD STRESS = 500.E6\nHARDENING CONSTANT = 1.E9\nHARDENING EXPONENT = 0.5\n"),
+        ("VISCOPLASTIC", "YIELD STRESS = 500.E6\nHARDENING MODULUS = 1.E9\nGAMMA = 1000.\nP = 2.\n"),
+    ];
+    for (law, properties) in laws {
+        let plastic = elastic.replace(
+            &format!("MATERIAL, 1, ELASTIC, 7850.\n{STEEL}"),
+            &format!("MATERIAL, 1, {law}, 7850.\n{STEEL}{properties}"),
+        );
+        let advice = advised(&desk, "plastic", &plastic, &[]);
+        let found = about(&advice, "block 1 never flowed").expect("it does not");
+        assert_eq!(found["keeps"], "the same digits", "{law}");
+        let (_, worst) = difference(&desk.path("elastic.e"), &desk.path("plastic.e"));
+        // Round-off of sums of stress parts, over some hundred steps.
+        assert!(worst < 1e-9, "{law}: {worst}");
+    }
+}
+
+/// A plate of one element that bends, a single sliver, and states too far apart.
+#[test]
+fn what_a_scene_lacked_is_said() {
+    let desk = desk();
+    desk.put(
+        "bars.mesh",
+        "TITLE\n PLATE\nBOX, 1, 0., 0., 0., 0.2, 0.02, 0.005, 20, 2, 1\nNODE SET FACE, 1, 1, LEFT\nNODE SET FACE, 2, 1, RIGHT\n",
+    );
+    let plate = format!(
+        "TITLE\n PLATE\nTERMINATION TIME, 20.E-3\nPLOT TIME, 5.E-3\nOUTPUT TIME, 0.1E-3\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\n\
+         NO DISPLACEMENT, Z, 1\nINITIAL VELOCITY NODESET, 2, 0., 0., 5.\nMATERIAL, 1, ELASTIC, 7850.\n{STEEL}END\nEXIT\n"
+    );
+    let advice = advised(&desk, "plate", &plate, &[]);
+    let wall = about(&advice, "block 1 is a wall of one element that bends").expect("it is");
+    assert_eq!(wall["kind"], "lacked");
+    assert!(about(&advice, "and the kinetic energy turned").is_some(), "{advice:#?}");
+    let log = desk.text("plate.o");
+    assert!(log.contains("W H A T   T H E   S C E N E   L A C K E D"));
+    // The same plate in four elements through its thickness has no such fault.
+    let fine = std::fs::read_to_string(desk.path("bars.mesh")).expect("the recipe").replace("20, 2, 1", "40, 4, 4");
+    desk.put("bars.mesh", &fine);
+    let short = plate.replace("TERMINATION TIME, 20.E-3", "TERMINATION TIME, 2.E-3");
+    assert!(about(&advised(&desk, "fine", &short, &[]), "wall of one element").is_none());
+}
+
+#[test]
+fn a_sliver_that_sets_the_step_is_found_and_priced() {
+    let desk = desk();
+    desk.put(
+        "bars.mesh",
+        "TITLE\n SLIVER\nBOX, 1, 0., 0., 0., 0.1, 0.1, 0.1, 10, 10, 10\nBOX, 2, 0.2, 0., 0., 0.001, 0.01, 0.01, 1, 1, 1\n",
+    );
+    let deck = format!(
+        "TITLE\n SLIVER\nTERMINATION TIME, 1.E-5\nINITIAL VELOCITY MATERIAL, 1, 1., 0., 0.\nMATERIAL, 1, ELASTIC, 7850.\n{STEEL}END\n\
+         MATERIAL, 2, ELASTIC, 7850.\n{STEEL}END\nEXIT\n"
+    );
+    let advice = advised(&desk, "sliver", &deck, &[]);
+    let found =
+        about(&advice, "one element of 1001 set the step at the start").unwrap_or_else(|| panic!("{advice:#?}"));
+    // The sliver has 1e-4 of the mass: as much again would make its step √2 times as long.
+    assert!(found["words"].as_str().is_some_and(|text| text.contains("1.4 times as long")), "{found}");
+}

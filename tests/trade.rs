@@ -1,0 +1,139 @@
+//! The trade of decks: its text, with times masked, and its recommendation, which is run.
+
+mod program;
+
+use program::{Desk, project};
+use serde_json::Value;
+
+/// A text without what depends on the machine: seconds, memory, the front, and the variant that puts fast ones together.
+fn lasting(table: &str) -> String {
+    let mut out = String::new();
+    for line in table.lines().filter(|line| !line.starts_with("together")) {
+        let cells: Vec<&str> = line.split_whitespace().collect();
+        // Words on what is cheapest hang on the times.
+        if line.starts_with("The cheapest") || line.starts_with("Nothing that was run") {
+            continue;
+        }
+        let timed = cells.iter().position(|cell| cell.contains('.') && cell.parse::<f64>().is_ok());
+        let of_variant = !cells.is_empty()
+            && line.contains(' ')
+            && timed.is_some()
+            && !line.starts_with("last")
+            && !line.starts_with("peak");
+        match timed.filter(|_| of_variant) {
+            // Name, knob, seconds, steps, megabytes, error.
+            Some(place) => {
+                let kept =
+                    cells.iter().enumerate().filter(|(i, cell)| *i != place && *i != place + 2 && **cell != "front");
+                out += &kept.map(|(_, cell)| *cell).collect::<Vec<_>>().join(" ");
+            }
+            None => out += &cells.join(" "),
+        }
+        out.push('\n');
+    }
+    out
+}
+
+fn golden(name: &str, table: &str) {
+    let path = project(&format!("tests/trade/{name}.txt"));
+    let text = lasting(table);
+    if std::env::var_os("URTO_BLESS").is_some() {
+        std::fs::create_dir_all(project("tests/trade")).expect("a folder");
+        return std::fs::write(path, text).expect("it can be written");
+    }
+    let kept = std::fs::read_to_string(path).unwrap_or_default();
+    assert_eq!(kept, text, "URTO_BLESS=1 cargo test --test trade accepts this");
+}
+
+/// A bar that strikes a wall and flows, in few elements.
+fn put_bar(desk: &Desk) {
+    desk.put("bar.mesh", "TITLE\n BAR\nBOX, 1, 0., 0., 0., 0.004, 0.004, 0.02, 2, 2, 8\nNODE SET FACE, 1, 1, LEFT\nNODE SET FACE, 2, 1, FRONT\nNODE SET FACE, 3, 1, BOTTOM\n");
+    desk.put(
+        "bar.i",
+        "TITLE\n A BAR STRIKES\nTERMINATION TIME, 30.E-6\nPLOT TIME, 3.E-6\nHISTORY NODE SET, 3\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 2\n\
+         NO DISPLACEMENT, Z, 3\nINITIAL VELOCITY MATERIAL, 1, 0., 0., {speed = -200.}\nMATERIAL, 1, ELASTIC PLASTIC, 8930.\n\
+         YOUNGS MODULUS = 117.E9\nPOISSONS RATIO = 0.35\nYIELD STRESS = 400.E6\nHARDENING MODULUS = 100.E6\nEND\nEXIT\n",
+    );
+}
+
+#[test]
+fn a_bar_is_traded_and_the_recommendation_holds() {
+    let desk = Desk::new();
+    put_bar(&desk);
+    let arguments = ["trade", "bar.i", "-D", "speed=-150", "--levels", "2,3", "--within", "20", "--write", "best.i"];
+    let first = desk.urto(&arguments).with(0);
+    golden("bar", &desk.text("bar_trade/table.txt"));
+    assert!(first.out.contains("The cheapest within 20 %"), "{}", first.out);
+    for name in ["front.png", "front.csv", "refinement.png", "table.txt"] {
+        assert!(desk.has(&format!("bar_trade/{name}")), "{name}");
+    }
+    // What is done is not run again, and says the same.
+    let again = desk.urto(&arguments).with(0);
+    assert!(again.out.contains("deck: done before") && again.out.contains("mesh-3: done before"), "{}", again.out);
+    assert_eq!(
+        lasting(&desk.text("bar_trade/table.txt")),
+        lasting(
+            &first.out[first.out.find("VARIANT").expect("a table")..]
+                .split("bar_trade")
+                .next()
+                .map(rows_only)
+                .unwrap_or_default()
+        )
+    );
+    // The deck that was written has the values that its variant was judged by.
+    let line = first.out.lines().find(|line| line.starts_with("best.i is ")).expect("the deck is told");
+    let (variant, mesh) = line["best.i is ".len()..].split_once("; its mesh is ").expect("its mesh is told");
+    desk.urto(&["run", "best.i", "-m", mesh, "-q", "--ranks", "2", "--summary", "best.json"]).with(0);
+    let read = |name: &str| -> Value { serde_json::from_str(&desk.text(name)).expect("JSON") };
+    let [own, judged] = ["best.json".to_string(), format!("bar_trade/{variant}/summary.json")].map(|name| read(&name));
+    assert_eq!(own["globals"], judged["globals"], "{variant}");
+    assert_eq!(own["steps"], judged["steps"]);
+}
+
+/// The table and the words as they stand on the terminal, without the names of what was made.
+fn rows_only(text: &str) -> String {
+    text.lines().filter(|line| !line.starts_with("best.i")).map(|line| format!("{line}\n")).collect()
+}
+
+/// A cube on a cube: contact has knobs.
+#[test]
+fn contact_has_knobs_and_a_budget_is_kept() {
+    let desk = Desk::new();
+    desk.put("two.mesh", "TITLE\n TWO\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.01, 2, 2, 2\nBOX, 2, 0.002, 0.001, 0.0101, 0.006, 0.006, 0.006, 2, 2, 2\nNODE SET FACE, 3, 1, BOTTOM\n");
+    desk.put(
+        "two.i",
+        "TITLE\n TWO CUBES\nTERMINATION TIME, 20.E-6\nPLOT TIME, 2.E-6\nHISTORY BLOCK, 2\nNO DISPLACEMENT, Z, 3\nCONTACT MATERIAL\n\
+         INITIAL VELOCITY MATERIAL, 2, 0., 0., -20.\nMATERIAL, 1, ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nEND\n\
+         MATERIAL, 2, ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nEND\nEXIT\n",
+    );
+    let left = desk.urto(&["trade", "two.i", "--quantity", "KE,VELZ_BLOCK2", "--levels", "2,3"]).with(0);
+    golden("two", &desk.text("two_trade/table.txt"));
+    assert!(left.out.contains("no-edges") && left.out.contains("loose-contact"), "{}", left.out);
+    // A mesh that no recipe makes is divided; what the budget has no room for is told.
+    desk.urto(&["mesh", "two.mesh", "-o", "two.g"]).with(0);
+    let brief = desk
+        .urto(&[
+            "trade",
+            "two.i",
+            "-m",
+            "two.g",
+            "-o",
+            "brief",
+            "--quantity",
+            "KE",
+            "--levels",
+            "2,64",
+            "--budget",
+            "60s",
+        ])
+        .with(0);
+    assert!(
+        brief.out.contains("mesh-2: ") && brief.out.contains("are more than is left of the budget"),
+        "{}",
+        brief.out
+    );
+    desk.urto(&["trade", "two.i", "--quantity", "NONE"]).with(2).says(&["the run has no NONE"]);
+    desk.urto(&["trade", "two.i", "--budget", "soon"]).with(2).says(&["expected a time such as"]);
+    desk.urto(&["trade", "two.i", "--within", "0"]).with(2).says(&["--within is 0"]);
+    desk.urto(&["trade", "two.i", "--quantity", "KE:mean"]).with(2).says(&["expected NAME, NAME:last or NAME:peak"]);
+}
