@@ -5,7 +5,7 @@ URTO     = target/release/urto
 # MPI is built in where the machine has it; URTO_MPI=no leaves it out.
 FEATURES = $$(.ci/packages features)
 
-.PHONY: demo test build mpi bench scale decompositions verify man install clean packages needed
+.PHONY: demo test build mpi bench scale trade decompositions verify man install clean packages needed
 
 demo: build            # crushes a can under a plate, half a minute on two cores, and draws it
 	@mkdir -p out
@@ -45,6 +45,15 @@ scale: build           # the scaling studies of docs/performance.md: what hundre
 	  $(STUDY) $${in}_wall_scaled.csv --scaled decks/brick_wall.i --mesh meshes/brick_wall_scaled.mesh && \
 	  $(STUDY) $${in}_can.csv decks/can_crush_paper.i && \
 	  $(STUDY) $${in}_can_scaled.csv --scaled decks/can_crush_paper.i --mesh meshes/can_crush_scaled.mesh || exit 1; \
+	done
+
+# Decks whose trade docs/trade.md shows, with the time that each gets.
+TRADED = taylor_bar_axisymmetric:120s bending_beam_plane:120s lined_box:180s hertz:240s perforation:300s can_crush:600s
+
+trade: build           # the fronts of docs/trade.md: what each knob costs and gains on some decks
+	@mkdir -p out
+	for one in $(TRADED); do \
+	  $(URTO) trade decks/$${one%:*}.i --budget $${one#*:} --output out/trade_$${one%:*} || exit 1; \
 	done
 
 decompositions: build  # contact shared out by bisection, in slices and with the elements, as docs/performance.md compares them

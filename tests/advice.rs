@@ -202,4 +202,13 @@ fn a_sliver_that_sets_the_step_is_found_and_priced() {
         about(&advice, "one element of 1001 set the step at the start").unwrap_or_else(|| panic!("{advice:#?}"));
     // The sliver has 1e-4 of the mass: as much again would make its step √2 times as long.
     assert!(found["words"].as_str().is_some_and(|text| text.contains("1.4 times as long")), "{found}");
+    // The command as it is told is taken, and buys what is promised.
+    let command = found["instead"].as_str().and_then(|text| text.split(", or").next()).expect("a command");
+    advised(&desk, "scaled", &deck.replace("TITLE\n", &format!("{command}\nTITLE\n")), &[]);
+    let steps = |name: &str| -> f64 {
+        let read: Value = serde_json::from_str(&desk.text(name)).expect("JSON");
+        read["steps"].as_f64().expect("a number")
+    };
+    let gain = steps("sliver.json") / steps("scaled.json");
+    assert!((gain - 1.41).abs() < 0.05, "{gain}");
 }

@@ -20,6 +20,8 @@ use std::time::{Duration, Instant};
 
 /// Time between looks at a run.
 const LOOK_INTERVAL: Duration = Duration::from_millis(20);
+/// Processor time, in seconds, above which it is taken rather than that of the clock.
+const LONG: f64 = 0.2;
 /// Largest part of the accepted error that a variant may change a quantity by to be put together with others.
 const HARMLESS: f64 = 0.3;
 /// Part of the time that a variant must save to be put together with others.
@@ -58,6 +60,10 @@ pub fn trade(options: &options::Trade) -> Result<u8, Failure> {
     if let Some(Err(reason)) = rows.first().map(|row| &row.outcome) {
         return Err(Failure::input(format_args!("error: {reason}")));
     }
+    // Behind the first finer mesh and the shorter steps.
+    let step = rows[0].outcome.as_ref().map_or(0.0, |base| base.time / base.steps.max(1) as f64);
+    let place = list.len().min(3);
+    list.splice(place..place, knobs::mass_scaling(step));
     for variant in list {
         trial.add(variant, &mut rows, &quantities, &wishes)?;
     }
@@ -155,8 +161,12 @@ impl<'a> Trial<'a> {
             let values = quantities.iter().map(|quantity| trade::found(quantity, &summary, &results));
             let seconds = &summary["seconds"];
             Ok(Measured {
-                seconds: seconds["processor"].as_f64().or(seconds["all"].as_f64()).unwrap_or(f64::NAN),
+                // The system counts processor time in hundredths of a second.
+                seconds: (seconds["processor"].as_f64().filter(|time| *time > LONG))
+                    .or(seconds["all"].as_f64())
+                    .unwrap_or(f64::NAN),
                 steps: summary["steps"].as_u64().unwrap_or(0),
+                time: summary["time"].as_f64().unwrap_or(f64::NAN),
                 memory: summary["memory_bytes"].as_f64(),
                 values: values.collect::<Result<_, _>>()?,
             })

@@ -3,15 +3,20 @@
 use super::{Advice, Promise, Scene};
 use crate::comm::Communicator;
 use crate::mesh::Mesh;
+use crate::numbers::scientific;
 use crate::solver::{Section, Slivers, Solver};
 
 /// How much longer steps must become for it to be worth words.
 const WORTH_WORDS: f64 = 1.2;
 
+/// Mass that a block may gain without a word in the command.
+const LIMIT: f64 = 0.05;
+
 pub fn advice(scene: &Scene, _: &mut dyn Communicator) -> Vec<Advice> {
     let Some(words) = words(scene.mesh, scene.solver) else { return Vec::new() };
-    let gain = scene.solver.slivers.map_or(1.0, |slivers| slivers.gain);
-    let instead = "a better shape or a larger size there".to_string();
+    let Some(Slivers { gain, step, block_gain, .. }) = scene.solver.slivers else { return Vec::new() };
+    let limit = if block_gain > LIMIT { format!(", {}", scientific(1.01 * block_gain, 2)) } else { String::new() };
+    let instead = format!("MASS SCALING, ALL, STEP, {}{limit}, or a better shape there", scientific(step, 3));
     vec![Advice::spare(words, instead, Promise::Nothing, Some((Section::Elements, 1.0 - 1.0 / gain)))]
 }
 

@@ -14,6 +14,10 @@ pub struct Slivers {
     pub count: u64,
     /// The one with the shortest step.
     pub place: ElementPlace,
+    /// The step that all then have, with the factor of the deck.
+    pub step: f64,
+    /// Largest mass that a block gains, as a part of its own.
+    pub block_gain: f64,
 }
 
 impl Slivers {
@@ -25,9 +29,26 @@ impl Slivers {
     const HALVINGS: usize = 24;
 }
 
-/// Steps and masses of the elements of this rank, of which the steps were kept.
-fn kept(domain: &Domain) -> Vec<[f64; 2]> {
-    elements(domain).filter_map(|(_, group, i)| Some([group.stable_step(i)?, group.element_mass(i)])).collect()
+/// Step, mass and block of each element of this rank of which the step was kept.
+fn kept(domain: &Domain) -> Vec<(f64, f64, usize)> {
+    let of = elements(domain).map(|(block, group, i)| (group.stable_step(i), group.element_mass(i), block.index));
+    of.filter_map(|(step, mass, block)| Some((step?, mass, block))).collect()
+}
+
+/// Mass that lets an element take a step so long: it grows with the square of the step.
+fn missing(&(step, mass, _): &(f64, f64, usize), wanted: f64) -> f64 {
+    if step < wanted { mass * ((wanted / step).powi(2) - 1.0) } else { 0.0 }
+}
+
+/// For each block its mass and what it would gain, on all ranks. All ranks call it.
+fn of_blocks(own: &[(f64, f64, usize)], wanted: f64, blocks: usize, comm: &mut dyn Communicator) -> Vec<[f64; 2]> {
+    let mut sums = vec![ExactSum::new(); 2 * blocks];
+    for element in own {
+        sums[2 * element.2].add(element.1);
+        sums[2 * element.2 + 1].add(missing(element, wanted));
+    }
+    ExactSum::merge_ranks(&mut sums, comm);
+    sums.chunks_exact(2).map(|pair| [pair[0].value(), pair[1].value()]).collect()
 }
 
 impl Solver {
@@ -50,11 +71,9 @@ impl Solver {
             sum[0].value()
         };
         let least = self.stable_step;
-        let all = sum(&mut own.iter().map(|[_, mass]| *mass), comm);
-        // Mass that lets every element take a step so many times as long as the shortest: it grows with the square of the step.
+        let all = sum(&mut own.iter().map(|(_, mass, _)| *mass), comm);
         let added = |gain: f64, comm: &mut dyn Communicator| {
-            let short = own.iter().filter(|[step, _]| *step < gain * least);
-            sum(&mut short.map(|[step, mass]| mass * ((gain * least / step).powi(2) - 1.0)), comm)
+            sum(&mut own.iter().filter(|(step, ..)| *step < gain * least).map(|one| missing(one, gain * least)), comm)
         };
         let [mut low, mut high] = [1.0, Slivers::MOST];
         if added(high, comm) > Slivers::ADDED * all {
@@ -66,9 +85,16 @@ impl Solver {
         } else {
             low = high;
         }
-        let mut count = [own.iter().filter(|[step, _]| *step < low * least).count() as u64];
+        let mut count = [own.iter().filter(|(step, ..)| *step < low * least).count() as u64];
         comm.all_sum(&mut count);
         let place = self.controlling_element(comm);
-        self.slivers = Some(Slivers { gain: low, count: count[0], place });
+        let last = self.domain.blocks.iter().map(|block| block.index as f64).fold(0.0, f64::max);
+        let mut last = [-last];
+        comm.all_min(&mut last);
+        let blocks = of_blocks(&own, low * least, -last[0] as usize + 1, comm);
+        let block_gain =
+            blocks.iter().filter(|[mass, _]| *mass > 0.0).map(|[mass, gain]| gain / mass).fold(0.0, f64::max);
+        let step = self.control.scale * low * least;
+        self.slivers = Some(Slivers { gain: low, count: count[0], place, step, block_gain });
     }
 }

@@ -60,11 +60,11 @@ impl Judgement {
         good.min_by(|&a, &b| seconds(&rows[a]).total_cmp(&seconds(&rows[b])))
     }
 
-    /// Of the knobs that were turned alone, the one with the largest effect on a quantity, with that effect.
+    /// Of the knobs that were turned to something no less exact, the one with the largest effect on a quantity, with that effect.
     pub fn largest_part(&self, rows: &[Row]) -> Option<(Knob, f64)> {
         let base = rows.first()?.outcome.as_ref().ok()?;
         let mut parts: Vec<(Knob, f64)> = Vec::new();
-        for row in rows.iter().skip(1).filter(|row| row.variant.knob != Knob::Several) {
+        for row in rows.iter().filter(|row| row.variant.is_finer()) {
             let Ok(found) = &row.outcome else { continue };
             let change = |place: usize| ((found.values[place] - base.values[place]) / self.verdicts[place].best).abs();
             let most = (0..self.verdicts.len()).map(change).filter(|change| change.is_finite()).fold(0.0, f64::max);

@@ -4,6 +4,7 @@ use super::edit::with_command;
 use crate::deck::Deck;
 use crate::mesh::{Dimension, Mesh, Shape};
 use crate::model::{ContactEdges, Hourglass, Model};
+use crate::numbers::scientific;
 
 /// Part by which round-off is imitated: it is far above that of a step and far below any error that is told.
 const ROUND_OFF: f64 = 1e-9;
@@ -23,6 +24,8 @@ pub enum Knob {
     Hourglass,
     /// Bulk viscosity.
     Viscosity,
+    /// Added mass.
+    Mass,
     /// How contact is enforced.
     Contact,
     /// Several together.
@@ -39,6 +42,7 @@ impl Knob {
             Knob::TimeStep => "time step",
             Knob::Hourglass => "hourglass control",
             Knob::Viscosity => "bulk viscosity",
+            Knob::Mass => "mass scaling",
             Knob::Contact => "contact",
             Knob::Several => "several",
         }
@@ -67,6 +71,16 @@ impl Variant {
         let lines = if line.is_empty() { Vec::new() } else { vec![line.clone()] };
         let words = if line.is_empty() { "as it is".to_string() } else { line };
         Variant { name: name.into(), knob, words, change: (without.to_vec(), lines), refine: 1, work }
+    }
+
+    /// Whether it is more exact than the deck as it is, as far as its knob goes, or at least no less: what it changes is an error of the
+    /// deck.
+    pub fn is_finer(&self) -> bool {
+        match self.knob {
+            Knob::None | Knob::Mass | Knob::Several => false,
+            Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),
+            Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Hourglass | Knob::Viscosity => true,
+        }
     }
 
     /// Its deck. `more` lines and names belong to all variants.
@@ -123,7 +137,7 @@ fn hourglass(model: &Model, mesh: &Mesh) -> Option<Variant> {
 
 fn viscosity(model: &Model) -> Vec<Variant> {
     let now = model.bulk_viscosity;
-    let command = |linear: f64, quadratic: f64| format!("BULK VISCOSITY, {linear:?}, {quadratic:?}");
+    let command = |linear: f64, quadratic: f64| format!("BULK VISCOSITY, {linear}, {quadratic}");
     let mut all = Vec::new();
     if now.linear > 0.0 || now.quadratic > 0.0 {
         let half = command(0.5 * now.linear, 0.5 * now.quadratic);
@@ -147,7 +161,7 @@ fn contact(model: &Model, mesh: &Mesh) -> Vec<Variant> {
         return Vec::new();
     }
     let control = &model.contact.control;
-    let passes = |passes: u32, tolerance: f64| format!("CONTACT PASSES, {passes}, {tolerance:?}");
+    let passes = |passes: u32, tolerance: f64| format!("CONTACT PASSES, {passes}, {}", scientific(tolerance, 2));
     let without = &["CONTACT PASSES"];
     let now = control.passes;
     let mut all = vec![
@@ -173,6 +187,18 @@ fn contact(model: &Model, mesh: &Mesh) -> Vec<Variant> {
         }
     }
     all
+}
+
+/// Steps with which mass is added, of the mean step of the deck as it is.
+const LONGER: [(&str, f64); 2] = [("mass-1.2", 1.2), ("mass-2", 2.0)];
+
+/// Mass scaling to steps longer than `step`, the mean one of the deck as it is. Its own limit is no limit here: the error is measured.
+pub fn mass_scaling(step: f64) -> Vec<Variant> {
+    let of = |(name, factor): (&str, f64)| {
+        let line = format!("MASS SCALING, ALL, STEP, {}, 1000.", scientific(factor * step, 3));
+        Variant::of(Knob::Mass, name, &["MASS SCALING"], line, 1.0 / factor)
+    };
+    LONGER.into_iter().map(of).collect()
 }
 
 /// A variant with what all of these turn.

@@ -27,6 +27,8 @@ pub struct Measured {
     pub seconds: f64,
     /// Steps taken.
     pub steps: u64,
+    /// Time reached.
+    pub time: f64,
     /// Most memory held, in bytes, where the system tells.
     pub memory: Option<f64>,
     /// The quantities, in the order in which they were asked for.

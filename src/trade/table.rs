@@ -162,8 +162,15 @@ pub fn words(judgement: &Judgement, rows: &[Row], within: f64) -> String {
         }
     }
     if let Some((knob, part)) = judgement.largest_part(rows).filter(|(_, part)| known && *part > 0.0) {
-        let most = if knob == Knob::RoundOff { "Nothing matters more than round-off" } else { "What matters most" };
-        let _ = writeln!(out, "{most}: {}, which changes a quantity by {}.", knob.name(), percent(part));
+        let _ = match knob {
+            Knob::RoundOff => writeln!(out, "No knob matters more than round-off."),
+            _ => writeln!(
+                out,
+                "Most of it comes from the {}, which changes a quantity by {}.",
+                knob.name(),
+                percent(part)
+            ),
+        };
     }
     out
 }
