@@ -5,31 +5,25 @@ mod program;
 use program::{Desk, project};
 use serde_json::Value;
 
-/// A text without what depends on the machine: seconds, memory, the front, and the variant that puts fast ones together.
+/// A text without what depends on the machine: seconds, memory, the front, the variant that puts fast ones together, and what is
+/// the cheapest.
 fn lasting(table: &str) -> String {
+    let mut of_variants = true;
     let mut out = String::new();
-    for line in table.lines().filter(|line| !line.starts_with("together")) {
+    for line in table.trim_end().lines() {
         let cells: Vec<&str> = line.split_whitespace().collect();
-        // Words on what is cheapest hang on the times.
-        if line.starts_with("The cheapest") || line.starts_with("Nothing that was run") {
+        of_variants &= !cells.is_empty();
+        if ["together", "The cheapest", "Nothing that was run"].iter().any(|words| line.starts_with(words)) {
             continue;
         }
-        let timed = cells.iter().position(|cell| cell.contains('.') && cell.parse::<f64>().is_ok());
-        let of_variant = !cells.is_empty()
-            && line.contains(' ')
-            && timed.is_some()
-            && !line.starts_with("last")
-            && !line.starts_with("peak");
-        match timed.filter(|_| of_variant) {
-            // Name, knob, seconds, steps, megabytes, error.
-            Some(place) => {
-                let kept =
-                    cells.iter().enumerate().filter(|(i, cell)| *i != place && *i != place + 2 && **cell != "front");
-                out += &kept.map(|(_, cell)| *cell).collect::<Vec<_>>().join(" ");
-            }
-            None => out += &cells.join(" "),
-        }
-        out.push('\n');
+        // Seconds are the first cell with a point; steps stand behind them, then megabytes.
+        let seconds = cells.iter().position(|cell| cell.contains('.') && cell.parse::<f64>().is_ok());
+        let machine = |place: usize| {
+            seconds.is_some_and(|seconds| place == seconds || place == seconds + 2) || cells[place] == "front"
+        };
+        let kept: Vec<&str> =
+            (0..cells.len()).filter(|&place| !of_variants || !machine(place)).map(|place| cells[place]).collect();
+        out += &(kept.join(" ") + "\n");
     }
     out
 }

@@ -100,8 +100,13 @@ fn verdict(quantity: &Quantity, place: usize, rows: &[Row]) -> Verdict {
         Refinement::Unknown => (base, f64::INFINITY),
     };
     let part = |difference: f64| (difference / best).abs();
-    // The extrapolated limit is not known better than the finest mesh is bounded; what is nearer claims no less.
-    let errors = rows.iter().map(|row| value(row).map_or(f64::NAN, |value| part(value - best))).collect();
+    // What is less exact than the deck may come nearer by chance, where errors cancel: that is not believed.
+    let error = |row: &Row| {
+        let value = value(row)?;
+        let exact = row.variant.is_finer() || matches!(row.variant.knob, Knob::None | Knob::Mesh);
+        Some(if exact { part(value - best) } else { part(base - best) + part(value - base) })
+    };
+    let errors = rows.iter().map(|row| error(row).unwrap_or(f64::NAN)).collect();
     Verdict {
         quantity: quantity.clone(),
         refinement,
