@@ -66,6 +66,7 @@ RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.1      $ the floor, rough
 CONTACT MATERIAL, 1, 2                              $ wherever the bar may meet itself
 CONTACT DATA, 1, 2, 0.2, 0.5
 CONTACT SURFACE, 100, 300, 0.1, 0.5
+CONTACT NODE SET, 1                                 $ nodes that may be inside a block or on it
 CONTACT PASSES, 10, 1.E-6
 CONTACT SEARCH, GRID, 10, 0.05
 CONTACT EDGES, ON

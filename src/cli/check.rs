@@ -31,6 +31,9 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
     if let Some(warning) = body.overlap.deep.warning(&given.mesh) {
         complain(format_args!("{warning}\n"));
     }
+    if let Some(note) = body.overlap.crowded.note(&given.mesh) {
+        complain(format_args!("{note}\n"));
+    }
     say(modelled(&given, &body));
     if let Some(assumed) = assumed(&given) {
         say(assumed);

@@ -13,6 +13,12 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT MATERIAL", contact_material),
     ("CONTACT SURFACE", contact_surface),
     ("CONTACT DATA", contact_data),
+    ("CONTACT THICKNESS", |card, draft| {
+        draft.model.contact.thicknesses.push((card.integer("block"), card.number("factor")));
+    }),
+    ("CONTACT NODE SET", |card, draft| {
+        draft.model.contact.node_sets.push((card.integer("node_set"), card.number("radius")));
+    }),
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),

@@ -9,6 +9,10 @@ pub struct Contact {
     pub surfaces: Vec<ContactSurface>,
     /// CONTACT DATA: what holds between two materials.
     pub data: Vec<ContactData>,
+    /// CONTACT THICKNESS: blocks, and factors on the distance at which their surfaces and bars touch.
+    pub thicknesses: Vec<(i64, f64)>,
+    /// CONTACT NODE SET: node sets whose nodes touch as balls, and their radii.
+    pub node_sets: Vec<(i64, f64)>,
     /// CONTACT CONTROL.
     pub control: ContactControl,
 }

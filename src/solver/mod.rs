@@ -36,8 +36,8 @@ pub use totals::Totals;
 
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
-use crate::mesh::{Mesh, Shape};
-use crate::model::{ContactMaterials, Function, Model, MotionKind, TimeStepControl, Unknown};
+use crate::mesh::Mesh;
+use crate::model::{Function, Model, MotionKind, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
@@ -119,32 +119,7 @@ impl Request {
 /// Why blocks of a mesh cannot be computed as the model has them, each with the number of the block.
 pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
     let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
-    mesh.blocks.iter().filter_map(unfit).chain(untouchable_blocks(mesh, model)).collect()
-}
-
-/// Blocks of surfaces that the model lets touch: contact does not know their thickness yet.
-fn untouchable_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
-    let materials = model.contact.materials.as_ref();
-    let by_material = |id: i64| match materials {
-        Some(ContactMaterials::All) => true,
-        Some(ContactMaterials::Blocks(blocks)) => blocks.contains(&id),
-        None => false,
-    };
-    let sets = model.contact.surfaces.iter().flat_map(|surface| surface.side_sets);
-    let named: BTreeSet<u32> =
-        sets.filter_map(|set| mesh.side_set(set)).flat_map(|set| &set.sides).map(|(element, _)| *element).collect();
-    let mut first = 0;
-    let mut found = Vec::new();
-    for block in &mesh.blocks {
-        let own = first..first + block.len() as u32;
-        first = own.end;
-        if block.shape == Shape::Quadrilateral && (by_material(block.id) || named.range(own).next().is_some()) {
-            let reason = "shells take no part in contact between bodies yet".to_string();
-            let help = "name the blocks of solids in CONTACT MATERIAL; RIGID SURFACE holds for shells".to_string();
-            found.push((block.id, elements::Unfit { reason, help }));
-        }
-    }
-    found
+    mesh.blocks.iter().filter_map(unfit).collect()
 }
 
 /// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.

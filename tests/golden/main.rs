@@ -45,6 +45,7 @@ const LIGHTER: &[Lighter] = &[
         until: None,
         mesh: &[("3,       40,     40", "2, 16, 20"), ("28, 28, 3", "12, 8, 2")],
     },
+    Lighter { deck: "can_crush_shell", until: None, mesh: &[("40,     40", "16,     20"), ("28, 28, 3", "10, 8, 2")] },
     Lighter { deck: "container_drop", until: Some(1.5e-3), mesh: &[] },
     Lighter { deck: "hertz", until: None, mesh: &[("16, QUARTER", "4, QUARTER")] },
     Lighter {
@@ -57,6 +58,7 @@ const LIGHTER: &[Lighter] = &[
         ],
     },
     Lighter { deck: "lined_box", until: None, mesh: &[("10, 10, 20", "5, 5, 10")] },
+    Lighter { deck: "square_tube", until: Some(2e-3), mesh: &[("8, 60", "4, 20")] },
     Lighter { deck: "taylor_bar", until: None, mesh: &[("8, 160, QUARTER", "2, 40, QUARTER")] },
     Lighter { deck: "taylor_bar_axisymmetric", until: None, mesh: &[("16, 160", "6, 60")] },
     Lighter { deck: "taylor_bar_steel", until: None, mesh: &[("3, 81, QUARTER", "2, 40, QUARTER")] },

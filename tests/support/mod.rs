@@ -11,7 +11,9 @@ pub mod momentum;
 pub mod penetration;
 pub mod run;
 pub mod scenes;
+pub mod shell_scenes;
 pub mod stiffness;
+pub mod surfaces;
 
 /// Asserts that `value` is within `tolerance` (relative) of `expected`, and prints the line that docs/verification.md
 /// quotes.

@@ -17,10 +17,10 @@ pub struct Scene {
 }
 
 /// Numbers that look random and follow from a seed (splitmix64: Steele, Lea and Flood 2014).
-struct Dice(u64);
+pub(super) struct Dice(u64);
 
 impl Dice {
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -28,46 +28,46 @@ impl Dice {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
     /// Evenly spread in its logarithm.
-    fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.next())
     }
 
-    fn count(&mut self, low: usize, high: usize) -> usize {
+    pub(super) fn count(&mut self, low: usize, high: usize) -> usize {
         low + (self.next() * (high - low + 1) as f64) as usize
     }
 
-    fn chance(&mut self, probability: f64) -> bool {
+    pub(super) fn chance(&mut self, probability: f64) -> bool {
         self.next() < probability
     }
 
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+    pub(super) fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.count(0, choices.len() - 1)]
     }
 }
 
 /// Steel, in metres, kilogrammes and seconds: what all stiffnesses and densities are told against.
-const YOUNG: f64 = 2e11;
+pub(super) const YOUNG: f64 = 2e11;
 const DENSITY: f64 = 7800.0;
 
 /// Steps in which a notch closes and is pressed on.
 const NOTCH_STEPS: f64 = 600.0;
 
-struct Builder {
-    dice: Dice,
-    recipe: String,
+pub(super) struct Builder {
+    pub(super) dice: Dice,
+    pub(super) recipe: String,
     deck: String,
     /// Largest wave speed and smallest thickness of an element: they set the step.
-    speed: f64,
-    thinnest: f64,
+    pub(super) speed: f64,
+    pub(super) thinnest: f64,
 }
 
 impl Builder {
-    fn boxed(&mut self, block: usize, corner: [f64; 3], size: [f64; 3], cells: [usize; 3]) {
+    pub(super) fn boxed(&mut self, block: usize, corner: [f64; 3], size: [f64; 3], cells: [usize; 3]) {
         let ([x, y, z], [a, b, c], [l, m, n]) = (corner, size, cells);
         let _ = writeln!(self.recipe, "BOX, {block}, {x:?}, {y:?}, {z:?}, {a:?}, {b:?}, {c:?}, {l}, {m}, {n}");
         for (length, count) in size.iter().zip(cells) {
@@ -75,7 +75,7 @@ impl Builder {
         }
     }
 
-    fn material(&mut self, block: usize, stiffness: f64, density: f64) {
+    pub(super) fn material(&mut self, block: usize, stiffness: f64, density: f64) {
         let (young, density) = (YOUNG * stiffness, DENSITY * density);
         self.speed = self.speed.max((1.35 * young / density).sqrt());
         let _ = if self.dice.chance(0.3) {
@@ -95,16 +95,16 @@ impl Builder {
         };
     }
 
-    fn line(&mut self, text: &str) {
+    pub(super) fn line(&mut self, text: &str) {
         let _ = writeln!(self.deck, "{text}");
     }
 
-    fn mesh_line(&mut self, text: &str) {
+    pub(super) fn mesh_line(&mut self, text: &str) {
         let _ = writeln!(self.recipe, "{text}");
     }
 
     /// Contact of all blocks, with friction in a third of the scenes and now and then few passes.
-    fn contact(&mut self, blocks: usize) -> bool {
+    pub(super) fn contact(&mut self, blocks: usize) -> bool {
         self.line("CONTACT MATERIAL");
         let friction = self.dice.chance(0.33);
         if friction {
@@ -126,7 +126,7 @@ impl Builder {
     }
 
     /// The finished scene, which lasts so many steps of the thinnest element of the stiffest body.
-    fn finish(self, kind: &'static str, friction: bool, steps: f64) -> Scene {
+    pub(super) fn finish(self, kind: &'static str, friction: bool, steps: f64) -> Scene {
         let time = steps * 0.5 * self.thinnest / self.speed;
         let deck = format!(
             "TITLE\n {kind}\nTERMINATION TIME, {time:?}\nOUTPUT TIME, {time:?}\nPLOT TIME, {time:?}\n{}EXIT\n",
@@ -136,15 +136,20 @@ impl Builder {
     }
 }
 
-/// The scene of a seed.
-pub fn scene(seed: u64) -> Scene {
-    let builder = Builder {
+/// What the scene of a seed is built with.
+pub(super) fn builder(seed: u64) -> Builder {
+    Builder {
         dice: Dice(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d),
         recipe: "TITLE\n SCENE\n".into(),
         deck: String::new(),
         speed: 0.0,
         thinnest: f64::INFINITY,
-    };
+    }
+}
+
+/// The scene of a seed.
+pub fn scene(seed: u64) -> Scene {
+    let builder = builder(seed);
     match seed % 8 {
         0 => stack(builder, false),
         1 => stack(builder, true),

@@ -2,7 +2,7 @@
 
 use super::{echo::table, number};
 use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
-use crate::solver::contact::{DeepOverlap, Overlap};
+use crate::solver::contact::{Crowded, DeepOverlap, Overlap};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
 pub fn tables(model: &Model, overlap: Overlap) -> String {
@@ -24,6 +24,11 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
         table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
         table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.deep)),
+        table(
+            "NODES NEARER TO SHELLS OR BARS THAN THEIR THICKNESS",
+            "  NODES   LEAST PART OF THE DISTANCE",
+            crowded(overlap.crowded),
+        ),
         table(
             "REMOVAL OF ELEMENTS",
             "BLOCK   VARIABLE      BOUND        VALUE   NODES",
@@ -53,11 +58,18 @@ fn control(model: &Model) -> Vec<String> {
         ContactSearch::Grid => "GRID",
         ContactSearch::Tree => "TREE",
     };
-    vec![
+    let thicknesses = model.contact.thicknesses.iter();
+    let thicknesses =
+        thicknesses.map(|(block, factor)| format!("THICKNESS OF BLOCK {block} TIMES {}", number(*factor)));
+    let sets = model.contact.node_sets.iter();
+    let sets = sets.map(|(set, radius)| format!("NODES OF SET {set} TOUCH, RADIUS {}", number(*radius)));
+    let mut lines = vec![
         format!("AT MOST {} PASSES, TO AN OVERLAP OF {} FACE SIZES", control.passes, number(control.tolerance)),
         format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
         format!("EDGES TOUCH EDGES: {}", edges(control.edges)),
-    ]
+    ];
+    lines.extend(thicknesses.chain(sets));
+    lines
 }
 
 fn edges(edges: ContactEdges) -> &'static str {
@@ -75,6 +87,11 @@ fn overlaps(overlap: Overlap) -> Vec<String> {
 
 fn left(left: DeepOverlap) -> Vec<String> {
     let some = (left.nodes > 0).then(|| format!("{:>21}{:>13}", left.nodes, number(left.deepest)));
+    some.into_iter().collect()
+}
+
+fn crowded(crowded: Crowded) -> Vec<String> {
+    let some = (crowded.nodes > 0).then(|| format!("{:>7}{:>13}", crowded.nodes, number(crowded.least)));
     some.into_iter().collect()
 }
 

@@ -32,6 +32,8 @@ pub struct Layout {
     pub edges: Vec<Edge>,
     /// Whether lines of the mesh meet edges that stand out.
     pub lines: bool,
+    /// Whether there are surfaces; their edges meet all lines.
+    pub surfaces: bool,
 }
 
 impl Layout {
@@ -44,9 +46,15 @@ impl Layout {
     pub fn takes_part(&self, edge: u32) -> bool {
         match self.edges[edge as usize].shape {
             Shape::StandsOut => true,
-            Shape::Line => self.lines,
+            Shape::Line => self.lines || self.surfaces,
             Shape::Hollow => false,
         }
+    }
+
+    /// Whether an edge that stands out meets another.
+    pub fn meets(&self, edge: u32, other: u32) -> bool {
+        let of_surface = |edge: u32| self.edges[edge as usize].is_of_surface(&self.faces);
+        self.edges[other as usize].stands_out() || self.lines || of_surface(edge)
     }
 
     /// The edge between two nodes of the mesh.

@@ -20,6 +20,7 @@ pub mod search;
 mod seen;
 mod skin;
 mod state;
+mod touching;
 
 use super::body::Body;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
@@ -48,7 +49,7 @@ use search::{Search, SearchKind, neighbourhood};
 use skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
-pub use check::initial_overlap::{DeepOverlap, Overlap, remove as remove_overlap};
+pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
 pub use report::{Report, Tally, Work};
 pub use seen::Seen;
 
@@ -158,7 +159,8 @@ impl Contact {
         let Contact { layout, held, elements, skin, .. } = self;
         let is_here = |number: u32| comm.size() == 1 || elements.binary_search(&(number / 6)).is_ok();
         let numbers = if layout.interfaces.is_empty() { &[][..] } else { &layout.faces.number[..] };
-        let faces = (0..).zip(numbers).filter(|(_, number)| is_here(**number));
+        let solid = |face: &u32| !layout.faces.is_two_sided(*face);
+        let faces = (0..).zip(numbers).filter(|(face, number)| solid(face) && is_here(**number));
         self.thicknesses =
             faces.map(|(face, &number)| (face, skin.sides(number).map(|side| side.map(&local)))).collect();
         let here = |point: u32| local(layout.nodes[point as usize]);
@@ -283,7 +285,7 @@ impl Contact {
             let history = carried.take().unwrap_or_else(|| problem.history());
             *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
         } else {
-            let points = neighbourhood::point_boxes(contact_nodes);
+            let points = neighbourhood::point_boxes(layout, contact_nodes);
             let faces = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
             let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
             let found = neighbourhood::find(&mut **search, [&points, &faces, &edges], |_| true, layout);
@@ -417,7 +419,8 @@ fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout
     for (number, (plane, nodes)) in model.rigid_surfaces.iter().zip(plane_node_sets).enumerate() {
         for &node in nodes {
             if let Ok(point) = layout.nodes.binary_search(&node) {
-                let plane_node = PlaneNode::new(point as u32, number, plane, body.positions[node as usize]);
+                let reach = layout.faces.node_reach[point];
+                let plane_node = PlaneNode::new(point as u32, number, plane, body.positions[node as usize], reach);
                 list.push(PlaneNode { number: list.len() as u32, ..plane_node });
             }
         }

@@ -91,7 +91,7 @@ impl Contact {
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
             let Some(first) = self.side(edge.faces[0]) else { continue };
             let Some(second) = self.side(edge.faces[1]).or_else(|| elsewhere.get(&number).copied()) else { continue };
-            let shape = Shape::of(first, second, edge.stands_out());
+            let shape = edge.shape_between(first, second, &self.layout.faces);
             if shape != edge.shape {
                 changed.push(SHAPES * number + shape.code());
             }

@@ -6,6 +6,7 @@ use super::geometry::surface::{Surface, back_nodes, face_nodes};
 use super::layout::Layout;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
+use super::touching::Touching;
 use crate::mesh::{Connectivity, Dimension, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
 use crate::solver::Body;
@@ -33,6 +34,8 @@ pub struct Skin {
     more: Vec<u32>,
     /// Which edges may touch edges.
     edges_wanted: ContactEdges,
+    /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
+    touching: Touching,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
     pub(super) free: Vec<(u32, u32)>,
 }
@@ -55,12 +58,20 @@ impl Skin {
             positions: body.positions.clone(),
             surface: contact.materials.is_some().then(|| surface(&chosen, body)),
             sets: side_set_faces(mesh, contact, body),
-            chosen,
             more,
             // In the plane the edges are the faces.
+            touching: Touching::of_chosen(Touching::new(mesh, model, body), |element| {
+                chosen[body.element_block[element as usize] as usize]
+            }),
             edges_wanted: if mesh.dimension == Dimension::Two { ContactEdges::None } else { contact.control.edges },
             free: Vec::new(),
+            chosen,
         }
+    }
+
+    /// The same without any distance at which surfaces and bars touch.
+    pub fn without_thickness(self) -> Skin {
+        Skin { touching: self.touching.without_distances(), ..self }
     }
 
     /// Initial positions of some nodes of the mesh.
@@ -86,15 +97,25 @@ impl Skin {
         numbers.dedup();
         let mut nodes: Vec<u32> = numbers.iter().flat_map(|&face| face_nodes(&self.element_nodes, face)).collect();
         nodes.extend(self.more.iter().copied().chain(self.free.iter().map(|(node, _)| *node)));
+        nodes.extend(self.balls().map(|(node, ..)| node));
         nodes.sort_unstable();
         nodes.dedup();
         let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
         let body = (&*self.element_nodes, &self.element_block[..], &self.positions[..]);
-        layout.faces = Arc::new(Faces::new(&numbers, body, |node| layout.point(node), points));
+        let distance = |element| self.touching.distance(element);
+        let mut faces = Faces::new(&numbers, body, (|node| layout.point(node), points), distance);
+        let mut blocks = vec![None; if self.balls().next().is_none() { 0 } else { points }];
+        for (node, radius, block) in self.balls() {
+            let point = layout.point(node) as usize;
+            faces.node_reach[point] = faces.node_reach[point].max(radius);
+            blocks[point].get_or_insert(block);
+        }
+        layout.faces = Arc::new(faces);
         let faces = &layout.faces;
-        let block = |point: u32| faces.around(point).first().map_or(0, |&face| faces.block[face as usize]);
+        let of_ball = |point: u32| blocks.get(point as usize).copied().flatten().unwrap_or(0);
+        let block = |point: u32| faces.around(point).first().map_or(of_ball(point), |&face| faces.block[face as usize]);
         layout.point_block = (0..points as u32).map(block).collect();
         for &(node, block) in &self.free {
             let point = layout.point(node) as usize;
@@ -104,12 +125,14 @@ impl Skin {
         if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
             layout.edges = edges::between(&automatic.faces, &layout.faces, &positions);
+            layout.surfaces = layout.edges.iter().any(|edge| edge.is_of_surface(&layout.faces));
         }
         layout
     }
 
     /// Takes elements away. Nodes that lose their last face and that `keeps` wants become free points.
     pub fn delete(&mut self, elements: &[u32], old: &Layout, keeps: impl Fn(u32) -> bool) {
+        self.touching.delete(elements);
         let Some(surface) = &mut self.surface else { return self.shorten_sets(elements) };
         elements.iter().for_each(|&element| surface.delete(element));
         self.shorten_sets(elements);
@@ -122,8 +145,23 @@ impl Skin {
                 }
             }
         }
+        for (node, ..) in self.balls() {
+            if let Some(on) = on_a_face.get_mut(old.point(node) as usize) {
+                *on = true;
+            }
+        }
         let lost = (0..old.nodes.len()).filter(|&point| automatic.points[point] && !on_a_face[point]);
         self.free = lost.map(|p| (old.nodes[p], old.point_block[p])).filter(|(node, _)| keeps(*node)).collect();
+    }
+
+    /// Nodes that touch as balls, once for each of their elements, with radius and block.
+    fn balls(&self) -> impl Iterator<Item = (u32, f64, u32)> + '_ {
+        let of = |&element: &u32| {
+            let (radius, block) = (self.touching.distance(element), self.element_block[element as usize]);
+            self.element_nodes[element as usize].iter().map(move |&node| (node, radius, block))
+        };
+        let single = self.touching.single.iter().map(|single| (single.node, single.radius, single.block));
+        self.touching.of_nodes.iter().flat_map(of).chain(single)
     }
 
     fn shorten_sets(&mut self, dead: &[u32]) {
@@ -157,6 +195,7 @@ impl Skin {
         if !automatic.is_empty() {
             let faces = places(automatic);
             let mut points = corners(&faces);
+            self.balls().for_each(|(node, ..)| points[layout.point(node) as usize] = true);
             self.free.iter().for_each(|&(node, _)| points[layout.point(node) as usize] = true);
             interfaces.push(Interface { points, faces, rule: Rule::Blocks });
         }
@@ -184,8 +223,12 @@ fn side_set_faces(mesh: &Mesh, contact: &Contact, body: &Body) -> Vec<Vec<u32>> 
     }
     let list = |id: i64| {
         let sides = mesh.side_set(id).map_or(&[][..], |set| &set.sides);
-        let mut faces: Vec<u32> =
-            sides.iter().map(|&(element, side)| 6 * canonical[element as usize] + u32::from(side)).collect();
+        // Edges of surfaces are sides as well, but no faces.
+        let is_face =
+            |element: u32, side: u8| usize::from(side) < body.element_nodes.shape(element as usize).faces().len();
+        let sides = sides.iter().map(|&(element, side)| (canonical[element as usize], side));
+        let sides = sides.filter(|&(element, side)| is_face(element, side));
+        let mut faces: Vec<u32> = sides.map(|(element, side)| 6 * element + u32::from(side)).collect();
         faces.sort_unstable();
         faces.dedup();
         faces

@@ -74,6 +74,17 @@ pub struct Sample<'a> {
     pub attributes: &'a [f64],
 }
 
+/// Which parts of an element may touch others, and at what distance from where the mesh has them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Touch {
+    /// Faces that belong to no other element, where they are.
+    Outside,
+    /// Both sides of a surface, at this distance from it: half of its thickness, a length.
+    BothSides(f64),
+    /// Its nodes, each a ball of this radius, a length; they meet faces, not each other.
+    Nodes(f64),
+}
+
 /// Why a block cannot be computed with an element, as the end of a sentence that begins with the block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unfit {
@@ -145,6 +156,11 @@ pub trait Formulation: Sized {
     /// forces Nxx, Nyy, Nxy, moments Mxx, Myy, Mxy, shear forces Qx, Qy.
     fn resultants(&self, _group: &Group, _i: usize) -> [f64; 8] {
         [0.0; 8]
+    }
+
+    /// What of an element with these attributes touches others, and at what distance, by its thickness at the start.
+    fn touch(&self, _attributes: &[f64]) -> Touch {
+        Touch::Outside
     }
 
     /// Right stretch in the frame of the `i`-th element.

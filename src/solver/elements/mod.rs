@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
-pub use formulation::{Energies, Entry, Formulation, PointEntry, Sample, StoredRow, Unfit};
+pub use formulation::{Energies, Entry, Formulation, PointEntry, Sample, StoredRow, Touch, Unfit};
 pub use pass::{Masses, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 
 macro_rules! elements {
@@ -107,6 +107,11 @@ macro_rules! elements {
             /// See [`Formulation::resultants`].
             pub fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
                 match self { $(Element::$element(own) => own.resultants(group, i),)+ }
+            }
+
+            /// See [`Formulation::touch`].
+            pub fn touch(&self, attributes: &[f64]) -> Touch {
+                match self { $(Element::$element(own) => own.touch(attributes),)+ }
             }
 
             /// See [`Formulation::stretch`].

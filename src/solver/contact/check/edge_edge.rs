@@ -149,16 +149,18 @@ impl EdgeCheck<'_> {
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
     fn apart(&self, pair: [u32; 2]) -> f64 {
         let margins = pair.map(|edge| self.reaches[edge as usize]);
+        let distance = self.distance(pair);
         let bounds = |edge: u32, margin: f64| {
             let [a, b] = self.edges[edge as usize].ends.map(|end| &self.motion.swept_boxes[end as usize]);
             SweptBox::joined([a, b, a, b], margin as f32)
         };
-        f64::from(bounds(pair[0], margins[0].max(margins[1])).distance(&bounds(pair[1], 0.0)))
+        f64::from(bounds(pair[0], margins[0].max(margins[1]) + distance).distance(&bounds(pair[1], 0.0)))
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
     pub fn pair(&self, pair: [u32; 2], past: Option<&EdgeContact>, pairing: impl FnOnce() -> Pairing) -> EdgeVerdict {
-        let stand_out = self.edges[pair[1] as usize].stands_out();
+        // What lies in a surface has no outside of its own: motion says on which side the other is.
+        let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
         if past.is_none() {
             let apart = self.apart(pair);
             if apart > 0.0 {
@@ -179,7 +181,12 @@ impl EdgeCheck<'_> {
         }
     }
 
-    /// Two edges that stand out.
+    /// Whether one of two edges is one of a surface.
+    fn is_of_surface(&self, pair: [u32; 2]) -> bool {
+        pair.iter().any(|&edge| self.edges[edge as usize].is_of_surface(self.faces))
+    }
+
+    /// Two edges that stand out, or of which one is of a surface.
     fn standing_out(
         &self,
         pair: [u32; 2],
@@ -187,16 +194,20 @@ impl EdgeCheck<'_> {
         pairing: Pairing,
     ) -> Option<(EdgeContact, Constraint)> {
         let margin = past.map_or(0.0, |_| self.reaches[pair[0] as usize]);
-        if !self.swept_box(pair[0]).grown(margin).overlaps(&self.swept_box(pair[1])) {
+        let distance = self.distance(pair);
+        if !self.swept_box(pair[0]).grown(margin + distance).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
         let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
         let now = match past {
             // What has opened does not close again for nothing.
-            Some(past) => EdgeContact { tolerated: past.tolerated.max((past.sense * end.gap).min(0.0)), ..*past },
+            Some(past) => {
+                EdgeContact { tolerated: past.tolerated.max((past.sense * end.gap - distance).min(0.0)), ..*past }
+            }
+            None if self.is_of_surface(pair) => self.comes_near(pair, &end, distance)?,
             None => self.newcomer(pair, &end)?,
         };
-        let gap = now.sense * end.gap - now.tolerated;
+        let gap = now.sense * end.gap - distance - now.tolerated;
         let reach = end.shorter();
         if !end.between_ends((-gap).max(0.0)) || gap > KEEP * reach || gap < -DEEP * reach {
             return None;
@@ -279,6 +290,33 @@ impl EdgeCheck<'_> {
     fn outwards(&self, edge: u32) -> [f64; 3] {
         let [a, b] = self.edges[edge as usize].faces.map(|face| area_normal(&self.faces.start(face, self.motion)));
         add(a, b)
+    }
+
+    /// Distance at which two edges touch, a length.
+    fn distance(&self, pair: [u32; 2]) -> f64 {
+        pair.iter().map(|&edge| self.edges[edge as usize].distance(self.faces)).sum()
+    }
+
+    /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
+    /// stays. Where the mesh or a way from beside has brought them nearer, they stay as near.
+    fn comes_near(&self, pair: [u32; 2], end: &Crossing, distance: f64) -> Option<EdgeContact> {
+        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+        if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
+            return None;
+        }
+        let sense = start.gap.signum();
+        let before = sense * start.gap - distance;
+        // Into its own body no edge of a solid is pushed.
+        let outwards = [-sense, sense].iter().zip(pair).all(|(sense, edge)| {
+            self.edges[edge as usize].is_of_surface(self.faces) || sense * dot(start.normal, self.outwards(edge)) > 0.0
+        });
+        let touches = sense * end.gap < distance && (before >= 0.0 || start.between_ends(0.0) || self.meets(pair));
+        (outwards && touches).then_some(EdgeContact {
+            pair,
+            sense,
+            tolerated: before.min(0.0),
+            carried: Carried::NOTHING,
+        })
     }
 
     /// A pair that has not touched before: it must come together within the step, both edges from outside.

@@ -32,10 +32,12 @@ const LARGER: f64 = 1e-3;
 const PARCEL: usize = 4 + 3 * 8;
 
 impl Contact {
-    /// Canonical numbers of the elements with faces that CONTACT MATERIAL lets touch, ascending.
+    /// Canonical numbers of the solid elements with faces that CONTACT MATERIAL lets touch, ascending.
     pub fn outer_elements(&self) -> Vec<u32> {
         let automatic = self.layout.automatic();
-        let numbers = automatic.iter().flat_map(|interface| &interface.faces);
+        let faces = automatic.iter().flat_map(|interface| &interface.faces);
+        // Surfaces have no inside.
+        let numbers = faces.filter(|&&face| !self.layout.faces.is_two_sided(face));
         let mut elements: Vec<u32> = numbers.map(|&face| self.layout.faces.number[face as usize] / 6).collect();
         elements.sort_unstable();
         elements.dedup();

@@ -1,7 +1,7 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
 use super::node_face;
-use super::node_face::{NO_CONTACT, NodeFaceCheck};
+use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
 use crate::mesh::{HEX_SIDES, Mesh};
 use crate::model::{Analysis, ContactOverlap, Model};
 use crate::solver::Body;
@@ -15,11 +15,12 @@ use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::layout::{ABSENT, Layout};
-use crate::solver::contact::pairings::Pairings;
+use crate::solver::contact::pairings::{Pairing, Pairings};
 use crate::solver::contact::search::locate::{Candidate, Interface, Locator};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::skin::Skin;
+use crate::solver::elements::Touch;
 use crate::vector::{add, cross, dot, scaled, subtract};
 use std::sync::Arc;
 
@@ -50,6 +51,36 @@ pub struct Overlap {
     pub deep: DeepOverlap,
     /// What could not be moved out, though it is not deep.
     pub stuck: Stuck,
+    /// Where the mesh leaves less room than thicknesses.
+    pub crowded: Crowded,
+}
+
+/// Nodes that begin nearer to faces than their thicknesses allow. Contact holds them as near as they are, and farther once they
+/// have been farther.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Crowded {
+    /// Their number.
+    pub nodes: usize,
+    /// The least room, as a part of the distance at which they would touch.
+    pub least: f64,
+    /// The node with the least room, from 0 in the mesh file.
+    pub node: u32,
+}
+
+impl Crowded {
+    /// Tells the user, where there are any.
+    pub fn note(&self, mesh: &Mesh) -> Option<String> {
+        let Crowded { nodes, least, node } = *self;
+        let [x, y, z] = mesh.coordinates.get(node as usize)?;
+        (nodes > 0).then(|| {
+            format!(
+                "note: {nodes} nodes begin nearer to shells or bars than their thickness allows; contact uses what room there is, \
+                 at least {:.1} % of it: node {} at {x:.4e} {y:.4e} {z:.4e}",
+                100.0 * least,
+                mesh.node_ids[node as usize]
+            )
+        })
+    }
 }
 
 /// Overlaps that moving nodes cannot remove, because the deck holds them or others are in the way.
@@ -115,7 +146,45 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     if !model.contact.is_some() {
         return Overlap::default();
     }
+    let overlap = remove_deep(mesh, model, body);
+    let balls = model.contact.node_sets.iter().any(|(_, radius)| *radius > 0.0);
+    if !balls && body.elements.iter().all(|element| element.touch(&[]) == Touch::Outside) {
+        return overlap;
+    }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
+    Overlap { crowded: crowded(mesh, model, body, &layout), ..overlap }
+}
+
+/// What thicknesses have no room for.
+fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded {
+    let mut crowded = Crowded { least: 1.0, ..Crowded::default() };
+    if layout.faces.node_reach.iter().all(|&reach| reach == 0.0) {
+        return crowded;
+    }
+    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    motion.begin(0.0);
+    for (point, &node) in layout.nodes.iter().enumerate() {
+        motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
+    }
+    let mut last = ABSENT;
+    for (point, contact, _) in behind(layout, &Pairings::new(mesh, model, body), &motion) {
+        let distance = layout.faces.distance(point, contact.face);
+        let (size, room) = (layout.faces.size[contact.face as usize], contact.projection.gap + distance);
+        if distance > 0.0 && room >= 0.0 && contact.projection.gap < -STUCK * size {
+            crowded.nodes += usize::from(point != last);
+            last = point;
+            if room / distance < crowded.least {
+                (crowded.least, crowded.node) = (room / distance, layout.nodes[point as usize]);
+            }
+        }
+    }
+    crowded
+}
+
+/// Moves nodes of the body out of the faces that they begin behind, without regard to thicknesses.
+fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
+    // No thickness is put into a mesh that has no room for it.
+    let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
     if matches!(model.contact.control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_)) {
         return Overlap { deep: deep_overlap(body, &layout), ..Default::default() };
     }
@@ -305,17 +374,26 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
     }
 }
 
-/// Every point behind a face that faces it.
+/// Constraints of all points behind faces that face them.
 fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
+    let behind = behind(layout, pairings, motion).into_iter();
+    let constraint = |(point, contact, pairing): (u32, DetectedContact, Pairing)| {
+        node_face::constraint(&layout.faces, pairing, point, &contact)
+    };
+    behind.filter_map(constraint).collect()
+}
+
+/// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
+fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
     let contact_nodes = ContactNodes::still(motion);
-    let all = neighbourhood::point_boxes(&contact_nodes);
+    let all = neighbourhood::point_boxes(layout, &contact_nodes);
     let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &contact_nodes);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, motion, &layout.faces, &layout.edges);
     locator.step(motion, &layout.faces);
     let check = NodeFaceCheck { motion, faces: &layout.faces };
-    let (mut contacts, mut constraints) = (Vec::new(), Vec::new());
+    let (mut contacts, mut found) = (Vec::new(), Vec::new());
     let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.slave_nodes().len() {
         let point = locator.slave_nodes()[i];
@@ -330,11 +408,11 @@ fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Co
             let face = layout.faces.block[contact.face as usize];
             let pairing = pairings.of(rule, layout.point_block[point as usize], face);
             if contact.projection.gap < -NOTHING * size {
-                constraints.extend(node_face::constraint(&layout.faces, pairing, point, contact));
+                found.push((point, *contact, pairing));
             }
         }
     }
-    constraints
+    found
 }
 
 fn moved(mesh: &Mesh, body: &Body, layout: &Layout) -> Overlap {

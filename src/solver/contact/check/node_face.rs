@@ -119,7 +119,8 @@ impl NodeFaceCheck<'_> {
                 let end = self.faces.end(contact.face, self.motion);
                 let foot = projection::foot(&end, &shares);
                 contact.projection.weights = shares;
-                contact.projection.gap = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
+                let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
+                contact.projection.gap = apart - self.faces.distance(point, contact.face);
             }
         }
     }
@@ -127,6 +128,9 @@ impl NodeFaceCheck<'_> {
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
     fn blend(&self, near: &[u32], contact: &mut DetectedContact) {
+        if contact.projection.rounded {
+            return;
+        }
         // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
         if contact.projection.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
             return;
@@ -163,8 +167,43 @@ impl NodeFaceCheck<'_> {
         past != NONE && self.faces.adjacent(past, face)
     }
 
+    /// Where a point stands against a face at the end of the step; its gap is what is left beyond the distance at which they
+    /// touch.
     fn projection_at_end(&self, point: u32, face: u32) -> Option<Projection> {
-        projection::project(&self.faces.end(face, self.motion), self.motion.end(point))
+        let mut projection = projection::project(&self.faces.end(face, self.motion), self.motion.end(point))?;
+        projection.gap -= self.faces.distance(point, face);
+        Some(projection)
+    }
+
+    /// The same at the end of the step, or at its beginning, round about the border where they touch at a distance.
+    fn around_border(&self, point: u32, face: u32, at_end: bool) -> Option<Projection> {
+        let distance = self.faces.distance(point, face);
+        let (corners, at) = if at_end {
+            (self.faces.end(face, self.motion), self.motion.end(point))
+        } else {
+            (self.faces.start(face, self.motion), self.motion.start(point))
+        };
+        let mut projection = projection::project(&corners, at)?;
+        if distance > 0.0 {
+            projection = projection.around_border(&corners, at);
+        }
+        projection.gap -= distance;
+        Some(projection)
+    }
+
+    /// Whether a point that one face has held stays on the same side of a surface if another one holds it: across an edge the
+    /// surface goes on, across a corner the point says where it is.
+    fn stays_outside(&self, point: u32, old: u32, face: u32) -> bool {
+        !self.faces.is_two_sided(face)
+            || self.faces.go_on(old, face).unwrap_or_else(|| self.begins_in_front(point, face))
+    }
+
+    /// Whether a point begins the step on the side of a surface to which a face belongs. Where it is in the surface itself, it
+    /// belongs to the top.
+    fn begins_in_front(&self, point: u32, face: u32) -> bool {
+        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
+        let top = self.faces.number[face as usize].is_multiple_of(6);
+        start.is_some_and(|start| start.gap > 0.0 || start.gap == 0.0 && top)
     }
 
     /// Faces that held the point before, and those around them to which it may have moved on.
@@ -193,7 +232,10 @@ impl NodeFaceCheck<'_> {
         let slightly = projection.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
         let mut next: Option<(u32, Projection)> = None;
-        for &face in near.iter().filter(|&&face| self.related(old, face) && past.iter().all(|p| p.face != face)) {
+        let to = |face: &&u32| {
+            self.related(old, **face) && past.iter().all(|p| p.face != **face) && self.stays_outside(point, old, **face)
+        };
+        for &face in near.iter().filter(to) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
             let Some(projection) = self
                 .projection_at_end(point, face)
@@ -218,8 +260,14 @@ impl NodeFaceCheck<'_> {
             {
                 contacts.push(self.held(old, projection, tolerated));
             }
-            None => (),
+            None => contacts.extend(self.held_around(point, old, tolerated)),
         }
+    }
+
+    /// A point that is held around the border of the face that it leaves, or of none.
+    fn held_around(&self, point: u32, old: u32, tolerated: f64) -> Option<DetectedContact> {
+        let end = self.around_border(point, old, true)?;
+        (end.rounded && self.in_reach(old, &end, tolerated)).then(|| self.held(old, end, tolerated))
     }
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
@@ -241,7 +289,10 @@ impl NodeFaceCheck<'_> {
                 if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
                     continue;
                 }
-                let Some(projection) = projection::project(&corners, self.motion.end(point)) else { continue };
+                if !self.stays_outside(point, old.face, face) {
+                    continue;
+                }
+                let Some(projection) = self.projection_at_end(point, face) else { continue };
                 if projection.outside == 0.0 && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, 0.0));
                 }
@@ -270,15 +321,27 @@ impl NodeFaceCheck<'_> {
         if self.is_in_front(point, face) {
             return None;
         }
-        let end = projection::project(&self.faces.end(face, self.motion), self.motion.end(point))
-            .filter(|projection| projection.gap < 0.0)?;
-        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point))?;
+        let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
+        let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        if start.gap >= 0.0 {
-            let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
-            let time = projection::first_crossing(&corners, self.motion.path(point))?;
-            let comes = !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
-            return comes.then(|| contact(time, 0.0));
+        let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
+        let distance = self.faces.distance(point, face);
+        if distance == 0.0 && start.gap >= 0.0 {
+            let time = self.first_touch(point, face)?;
+            return comes().then(|| contact(time, 0.0));
+        }
+        if distance > 0.0 && self.begins_in_front(point, face) {
+            // What comes over the border is not seen to come through the face pushed out. What is in front all the time and
+            // over the face at the end has come, what is behind then must have come through.
+            let stays_in_front = end.outside == 0.0 && end.gap > -distance;
+            let unseen = if start.gap < 0.0 { 0.0 } else { 1.0 };
+            let time = self.first_touch(point, face).or_else(|| stays_in_front.then_some(unseen))?;
+            // Nearer than thicknesses allow, as the mesh has it or because it came from beside, it stays as near.
+            return comes().then(|| contact(time, start.gap.min(0.0)));
+        }
+        if self.faces.is_two_sided(face) {
+            // It is on the other side.
+            return None;
         }
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
         let depth = self.faces.depth[face as usize];
@@ -290,9 +353,23 @@ impl NodeFaceCheck<'_> {
         inside.then(|| contact(0.0, start.gap))
     }
 
-    /// Whether a point surely is in front of a face at the end of the step.
+    /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
+    /// faces pushed outwards.
+    fn first_touch(&self, point: u32, face: u32) -> Option<f64> {
+        let (path, distance) = (self.motion.path(point), self.faces.distance(point, face));
+        let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
+        let outside = (distance > 0.0).then(|| projection::pushed_out(&corners, distance));
+        let touched = outside.and_then(|outside| projection::first_crossing(&outside, path));
+        touched.or_else(|| projection::first_crossing(&corners, path))
+    }
+
+    /// Whether a point surely is in front of a face at the end of the step, farther than they touch.
     #[inline(always)]
     fn is_in_front(&self, point: u32, face: u32) -> bool {
+        let distance = self.faces.distance(point, face);
+        if distance > 0.0 {
+            return projection::is_out_of_reach(&self.faces.end(face, self.motion), self.motion.end(point), distance);
+        }
         let [a, b, c, d] = self.faces.corners[face as usize];
         let end = |point| self.motion.end_four(point);
         projection::is_in_front([end(a), end(b), end(c), end(d)], end(point))
@@ -312,14 +389,18 @@ impl NodeFaceCheck<'_> {
         let element = |face: u32| self.faces.number[face as usize] / 6;
         let same = move |other: &u32| element(*other) == element(face);
         let below = (0..face).rev().take_while(same);
-        below.chain((face + 1..self.faces.len() as u32).take_while(same))
+        let all = below.chain((face + 1..self.faces.len() as u32).take_while(same));
+        // The other side of a surface lies at the same place.
+        all.filter(move |_| !self.faces.is_two_sided(face))
     }
 
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
     /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
     /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
     fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
-        self.faces.around(point).is_empty() || self.most_opposed(point, normal) < FACING
+        self.faces.around(point).is_empty()
+            || self.most_opposed(point, normal) < FACING
+            || self.faces.is_on_surface(point)
     }
 
     /// Smallest cosine between a normal and those of the faces around a point.

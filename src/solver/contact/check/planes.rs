@@ -15,6 +15,8 @@ pub struct PlaneNode {
     pub point: u32,
     /// Index into the model's rigid surfaces.
     pub plane: u32,
+    /// Distance from the plane at which the point touches it, a length.
+    pub(in crate::solver::contact) reach: f64,
     /// Gap, a length, that the mesh had at the start where it was negative: a point that begins behind the plane is held where
     /// it is, not thrown out.
     pub(in crate::solver::contact) tolerated: f64,
@@ -26,13 +28,14 @@ fn gap(plane: &RigidSurface, position: [f64; 3]) -> f64 {
 }
 
 impl PlaneNode {
-    /// A point at its initial position.
-    pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3]) -> PlaneNode {
+    /// A point at its initial position that touches planes at a distance `reach`.
+    pub fn new(point: u32, number: usize, plane: &RigidSurface, position: [f64; 3], reach: f64) -> PlaneNode {
         PlaneNode {
             number: 0,
             point,
             plane: number as u32,
-            tolerated: gap(plane, position).min(0.0),
+            reach,
+            tolerated: (gap(plane, position) - reach).min(0.0),
             carried: Carried::NOTHING,
         }
     }
@@ -48,7 +51,7 @@ impl PlaneNode {
     ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
         let end = motion.end(self.point);
-        let gap = gap(plane, end) - self.tolerated;
+        let gap = gap(plane, end) - self.reach - self.tolerated;
         if gap >= 0.0 && !always {
             self.carried = Carried::NOTHING;
             return None;

@@ -76,6 +76,37 @@ impl Edge {
     pub fn stands_out(&self) -> bool {
         self.shape == Shape::StandsOut
     }
+
+    /// How it lies when its faces lie so. An edge of a surface, which has no inside, always stands out: it meets all others, that
+    /// no line of a sheet sinks in between the nodes of another, however it comes to be bent.
+    pub fn shape_between(&self, first: Side, second: Side, faces: &Faces) -> Shape {
+        if self.is_of_surface(faces) { Shape::StandsOut } else { Shape::of(first, second, self.stands_out()) }
+    }
+
+    /// Whether it is an edge of a surface, which can be met from all around.
+    pub fn is_of_surface(&self, faces: &Faces) -> bool {
+        self.faces.iter().all(|&face| faces.is_two_sided(face))
+    }
+
+    /// Distance at which it touches, a length.
+    pub fn distance(&self, faces: &Faces) -> f64 {
+        self.faces.iter().map(|&face| faces.reach[face as usize]).fold(0.0, f64::max)
+    }
+}
+
+/// The two faces that stand for an edge: those that meet there; of the four of two surface elements two that look the same way, of
+/// one surface element both. `None` where others meet.
+fn pair_at(same: &[([u32; 2], u32)], faces: &Faces) -> Option<[u32; 2]> {
+    match *same {
+        [(_, a), (_, b)] if faces.is_two_sided(a) == faces.is_two_sided(b) => Some([a, b]),
+        [(_, a), (_, b), (_, c), (_, d)] if [a, b, c, d].iter().all(|&face| faces.is_two_sided(face)) => {
+            let other = [b, c, d].into_iter().find(|&other| {
+                faces.number[other as usize] / 6 != faces.number[a as usize] / 6 && faces.go_on(a, other) == Some(true)
+            })?;
+            Some([a, other])
+        }
+        _ => None,
+    }
 }
 
 /// Edges between two of some faces, in ascending order of their ends.
@@ -93,12 +124,11 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edg
     sides.sort_unstable();
     let side = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
     (sides.chunk_by(|a, b| a.0 == b.0))
-        .filter_map(|same| match same {
-            &[(ends, first), (_, second)] => {
-                let shape = Shape::of(side(first), side(second), false);
-                Some(Edge { ends, faces: [first, second], shape, in_mesh: shape })
-            }
-            _ => None,
+        .filter_map(|same| {
+            let [first, second] = pair_at(same, faces)?;
+            let edge = Edge { ends: same[0].0, faces: [first, second], shape: Shape::Hollow, in_mesh: Shape::Hollow };
+            let shape = edge.shape_between(side(first), side(second), faces);
+            Some(Edge { shape, in_mesh: shape, ..edge })
         })
         .collect()
 }

@@ -3,11 +3,14 @@
 use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
-use crate::mesh::Connectivity;
+use crate::mesh::{Connectivity, Shape};
 use crate::vector::{dot, subtract};
 
 /// Most factors of √2 by which a depth becomes less: to 0.6 % of that at the start.
 pub const THINNEST: u8 = 15;
+
+/// A surface is thick against its elements when two thicknesses of its sides make more than this part of a face.
+const THICK: f64 = 0.7;
 
 /// Half of the thickness of an element between a face and the side across from it, along the normal of the face; 0 for a face
 /// without area.
@@ -32,7 +35,13 @@ pub struct Faces {
     /// A point deeper than this behind a face did not come through it: half the element, as it is now where it has become
     /// thinner, to the nearest factor of √2. A length.
     pub depth: Vec<f64>,
-    /// The same at the start.
+    /// Distance in front of the face at which it is touched: half the thickness of a shell, 0 on solids. A length.
+    pub reach: Vec<f64>,
+    /// Distance from each point at which it touches: half the thickness of its thickest shell, the radius of a bar. A length.
+    pub node_reach: Vec<f64>,
+    /// Whether the face is one of both sides of a surface.
+    two_sided: Vec<bool>,
+    /// The same depth at the start.
     start_depth: Vec<f64>,
     /// How often the depth has become less by a factor of √2 since then.
     thinning: Vec<u8>,
@@ -45,25 +54,33 @@ pub struct Faces {
 
 impl Faces {
     /// Takes faces in by their numbers from the nodes and blocks of the elements and the initial positions; `point`
-    /// gives the point of a node of the mesh.
+    /// gives the point of a node of the mesh, `reach` the distance at which an element is touched.
     pub fn new(
         numbers: &[u32],
         (elements, blocks, positions): (&Connectivity, &[u32], &[[f64; 3]]),
-        point: impl Fn(u32) -> u32,
-        points: usize,
+        (point, points): (impl Fn(u32) -> u32, usize),
+        reach: impl Fn(u32) -> f64,
     ) -> Faces {
         let mut faces = Faces { number: numbers.to_vec(), ..Default::default() };
         for &number in numbers {
             let nodes = face_nodes(elements, number);
             let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);
             let element = number as usize / 6;
-            let (front, back) = (at(nodes), at(back_nodes(elements, number)));
+            let front = at(nodes);
             let normal = area_normal(&front);
             let area = dot(normal, normal).sqrt();
+            let (two_sided, reach) = (elements.shape(element) == Shape::Quadrilateral, reach(number / 6));
             faces.corners.push(nodes.map(&point));
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());
-            faces.start_depth.push(half_thickness(front, back));
+            faces.two_sided.push(two_sided);
+            faces.reach.push(reach);
+            faces.start_depth.push(if two_sided {
+                // History says on which side a point is, so that it may be deep.
+                (0.5 * area.sqrt()).max(2.0 * reach)
+            } else {
+                half_thickness(front, at(back_nodes(elements, number)))
+            });
             let mut of_element = [u32::MAX; 8];
             of_element.iter_mut().zip(&elements[element]).for_each(|(place, &node)| *place = point(node));
             faces.element.push(of_element);
@@ -71,12 +88,20 @@ impl Faces {
         faces.depth.clone_from(&faces.start_depth);
         faces.thinning = vec![0; faces.len()];
         faces.connect(points);
+        let thickest =
+            |point: u32| faces.around(point).iter().map(|&face| faces.reach[face as usize]).fold(0.0, f64::max);
+        faces.node_reach = (0..points as u32).map(thickest).collect();
         faces
     }
 
     /// Some of these faces, ascending; `point` gives the new numbers of points, of which there are `points`.
     pub fn subset(&self, chosen: &[u32], point: impl Fn(u32) -> u32, points: usize) -> Faces {
-        let mut some = Faces::default();
+        let mut some = Faces { node_reach: vec![0.0; points], ..Faces::default() };
+        for (old, &reach) in (0..).zip(&self.node_reach).filter(|(_, reach)| **reach > 0.0) {
+            if let Some(place) = some.node_reach.get_mut(point(old) as usize) {
+                *place = reach;
+            }
+        }
         for &face in chosen {
             let face = face as usize;
             some.number.push(self.number[face]);
@@ -85,6 +110,8 @@ impl Faces {
             some.size.push(self.size[face]);
             some.depth.push(self.depth[face]);
             some.start_depth.push(self.start_depth[face]);
+            some.reach.push(self.reach[face]);
+            some.two_sided.push(self.two_sided[face]);
             some.thinning.push(self.thinning[face]);
             some.element.push(self.element[face].map(|of| if of == u32::MAX { of } else { point(of) }));
         }
@@ -158,6 +185,50 @@ impl Faces {
     /// Whether the point is a node of the face's element: never a contact, however crushed the element.
     pub fn same_element(&self, face: u32, point: u32) -> bool {
         self.element[face as usize].contains(&point)
+    }
+
+    /// Whether a face is one of both sides of a surface: then its element's other face looks the other way, at the same place.
+    pub fn is_two_sided(&self, face: u32) -> bool {
+        self.two_sided[face as usize]
+    }
+
+    /// Distance between a point and a face at which they touch, a length.
+    #[inline]
+    pub fn distance(&self, point: u32, face: u32) -> f64 {
+        self.node_reach[point as usize] + self.reach[face as usize]
+    }
+
+    /// How far around its corners a face looks for points that it may meet, a length: behind solids for those that began there,
+    /// in front of surfaces, `kept` being the part of the depth that a point may leave them.
+    pub fn margin(&self, face: u32, kept: f64) -> f64 {
+        let (depth, reach) = (self.depth[face as usize], self.reach[face as usize]);
+        if self.is_two_sided(face) { kept * depth + reach } else { depth + reach }
+    }
+
+    /// Whether a point is on a surface, which looks both ways.
+    pub fn is_on_surface(&self, point: u32) -> bool {
+        self.around(point).iter().any(|&face| self.is_two_sided(face))
+    }
+
+    /// Whether a face is so near to a point along the surface, and the surface so thick, that they would always touch: not
+    /// across a node, and thicker than most of an element.
+    pub fn grown_together(&self, point: u32, face: u32) -> bool {
+        let distance = self.distance(point, face);
+        distance > THICK * self.size[face as usize] && self.around(point).iter().any(|&own| self.adjacent(own, face))
+    }
+
+    /// Whether two faces with a common edge look the same way across it, as neighbours on one side of a surface do: they run
+    /// along it in opposite directions. `None` for faces that have no edge in common.
+    pub fn go_on(&self, a: u32, b: u32) -> Option<bool> {
+        let (a, b) = (self.corners[a as usize], self.corners[b as usize]);
+        let runs = |of: [u32; 4], from: u32, to: u32| (0..4).any(|i| of[i] == from && of[(i + 1) % 4] == to);
+        let ways = (0..4).map(|i| (a[i], a[(i + 1) % 4])).filter(|(from, to)| from != to);
+        ways.filter_map(|(from, to)| match (runs(b, to, from), runs(b, from, to)) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        })
+        .next()
     }
 
     /// Whether two faces have a corner in common.

@@ -32,6 +32,25 @@ pub struct Projection {
     pub outside: f64,
     /// Number of the triangle in which the foot is.
     pub(super) triangle: usize,
+    /// Whether gap and normal are seen from the nearest point of the border.
+    pub rounded: bool,
+}
+
+/// A point is met around the border of a face up to so many times as far outside as it is in front: up to 71 degrees from the
+/// normal.
+const AROUND: f64 = 3.0;
+
+impl Projection {
+    /// The same of a point beyond the border that is near it, seen from the nearest point of the border: faces that touch at a
+    /// distance are round there. The foot is then on the face. Itself elsewhere.
+    pub fn around_border(self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> Projection {
+        let way = subtract(point, foot(corners, &self.weights));
+        let length = dot(way, way).sqrt();
+        if self.outside <= 0.0 || self.gap <= 0.0 || self.outside > AROUND * self.gap || length <= 0.0 {
+            return self;
+        }
+        Projection { gap: length, normal: scaled(way, 1.0 / length), outside: 0.0, rounded: true, ..self }
+    }
 }
 
 /// Mean of four corners.
@@ -68,6 +87,25 @@ pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
     // The diagonals are parallel to that plane, so the corners are above it and below by the same height.
     let warp = along(less(a, middle)).abs();
     along(less(point, middle)) > warp * (1.0 + BORDER)
+}
+
+/// The same of a point that touches the face from farther away, at some distance, a length.
+pub fn is_out_of_reach(corners: &[[f64; 3]; 4], point: [f64; 3], distance: f64) -> bool {
+    let (middle, normal) = (centre(corners), area_normal(corners));
+    let along = |at: [f64; 3]| dot(subtract(at, middle), normal);
+    along(point) > along(corners[0]).abs() * (1.0 + BORDER) + distance * dot(normal, normal).sqrt()
+}
+
+/// Paths of the corners of a face pushed outwards by a distance, along the normals that it has at both ends of the step.
+pub fn pushed_out(corners: &[Path; 4], distance: f64) -> [Path; 4] {
+    let ends = |part: f64| corners.map(|path| at(path, part));
+    let push = |corners: [[f64; 3]; 4]| {
+        let normal = area_normal(&corners);
+        let length = dot(normal, normal).sqrt();
+        if length > 0.0 { scaled(normal, distance / length) } else { [0.0; 3] }
+    };
+    let (start, end) = (push(ends(0.0)), push(ends(1.0)));
+    corners.map(|(from, path)| (add(from, start), add(path, subtract(end, start))))
 }
 
 /// Where a point stands against a face. `None` for a face without area, or where something is not finite.
@@ -114,7 +152,7 @@ pub fn project(corners: &[[f64; 3]; 4], point: [f64; 3]) -> Option<Projection> {
         normal = blended;
         gap = dot(subtract(r, add(scaled(e1, b1), scaled(e2, b2))), normal);
     }
-    gap.is_finite().then_some(Projection { gap, normal, weights, outside, triangle })
+    gap.is_finite().then_some(Projection { gap, normal, weights, outside, triangle, rounded: false })
 }
 
 /// The mean of the normals of both triangles, for a foot on the line between them: the numbering of the corners must not

@@ -44,7 +44,14 @@ pub fn project(ends: Ends, point: [f64; 3]) -> Option<Projection> {
     let beyond = (-along).max(along - 1.0);
     let foot = along.clamp(0.0, 1.0);
     let outside = if beyond > BORDER { beyond * length } else { 0.0 };
-    gap.is_finite().then_some(Projection { gap, normal, weights: [1.0 - foot, foot, 0.0, 0.0], outside, triangle: 0 })
+    gap.is_finite().then_some(Projection {
+        gap,
+        normal,
+        weights: [1.0 - foot, foot, 0.0, 0.0],
+        outside,
+        triangle: 0,
+        rounded: false,
+    })
 }
 
 /// Shares of the ends in the point of the strip that is met along a direction; `None` where the direction hardly leaves it,

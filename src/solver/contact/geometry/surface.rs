@@ -2,14 +2,18 @@
 //!
 //! A face's number is 6 × its element + its side and never changes; see [`crate::mesh::exterior`].
 
-use crate::mesh::Connectivity;
 use crate::mesh::exterior::{self, EXTERIOR, NONE as GONE};
+use crate::mesh::{Connectivity, Shape};
+use std::collections::BTreeMap;
 
 /// All faces of a body of solids and who is across.
 #[derive(Debug, Clone, Default)]
 pub struct Surface {
     /// Per face number: the face across, [`EXTERIOR`], or [`GONE`] with the element or if the face is of no interest.
     opposite: Vec<u32>,
+    /// Of surface elements that share all nodes with others: their number, and faces of solids or of earlier surface elements
+    /// there. While one of those is left, the surface element is part of it and has no outside of its own.
+    covers: BTreeMap<u32, Vec<u32>>,
 }
 
 /// What is on a face.
@@ -29,18 +33,30 @@ impl Surface {
     /// at; the others count as gone. Both elements at a face name the same nodes, so a face is wanted on both sides
     /// or on neither.
     pub fn new(elements: &Connectivity, node_count: usize, wanted: impl Fn(u32) -> bool) -> Surface {
-        let opposite = exterior::across(elements.shaped(), node_count, wanted);
-        Surface { opposite }
+        let mut opposite = exterior::across(elements.shaped(), node_count, &wanted);
+        let covers = covers(elements, &wanted);
+        // Surfaces are not across from each other.
+        for element in surface_elements(elements) {
+            for face in [6 * element, 6 * element + 1] {
+                if opposite[face as usize] != GONE {
+                    opposite[face as usize] = EXTERIOR;
+                }
+            }
+        }
+        Surface { opposite, covers }
     }
 
     /// Faces on the outside, ascending.
     pub fn exterior(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.opposite.len() as u32).filter(|&face| self.opposite[face as usize] == EXTERIOR)
+        (0..self.opposite.len() as u32).filter(|&face| self.is_exterior(face))
     }
 
     /// Whether a face is on the outside.
     pub fn is_exterior(&self, face: u32) -> bool {
+        let is_left = |&face: &u32| self.opposite[face as usize] != GONE;
         self.opposite[face as usize] == EXTERIOR
+            && (self.covers.is_empty()
+                || !self.covers.get(&(face / 6)).is_some_and(|others| others.iter().any(is_left)))
     }
 
     /// Takes an element away: its faces are gone and those across from them are outside now (Attaway et al. 1996).
@@ -55,10 +71,42 @@ impl Surface {
     }
 }
 
+/// Numbers of the surface elements, ascending.
+fn surface_elements(elements: &Connectivity) -> impl Iterator<Item = u32> + '_ {
+    (0..elements.len() as u32).filter(|&element| elements.shape(element as usize) == Shape::Quadrilateral)
+}
+
+/// See [`Surface::covers`].
+fn covers(elements: &Connectivity, wanted: impl Fn(u32) -> bool) -> BTreeMap<u32, Vec<u32>> {
+    let mut at: BTreeMap<[u32; 4], Vec<u32>> = BTreeMap::new();
+    for element in surface_elements(elements) {
+        at.extend(exterior::key(face_nodes(elements, 6 * element)).map(|key| (key, Vec::new())));
+    }
+    if at.is_empty() {
+        return BTreeMap::new();
+    }
+    for (element, (shape, nodes)) in (0u32..).zip(elements.shaped()) {
+        let sides = if shape == Shape::Quadrilateral { 1 } else { 6 };
+        for (side, nodes) in
+            exterior::faces(shape, nodes).take(sides).filter(|(_, nodes)| nodes.iter().all(|&n| wanted(n)))
+        {
+            if let Some(there) = exterior::key(nodes).and_then(|key| at.get_mut(&key)) {
+                there.push(6 * element + u32::from(side));
+            }
+        }
+    }
+    let is_solid = |face: &u32| elements.shape(*face as usize / 6) != Shape::Quadrilateral;
+    let of_element = |element: u32| {
+        let there = at.get(&exterior::key(face_nodes(elements, 6 * element))?)?;
+        let others: Vec<u32> = there.iter().copied().filter(|face| is_solid(face) || face / 6 < element).collect();
+        (!others.is_empty()).then_some((element, others))
+    };
+    surface_elements(elements).filter_map(of_element).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Shape;
 
     /// n³ unit cubes; element (i, j, k) is number i + n (j + n k).
     fn cubes(n: u32) -> Connectivity {
@@ -114,6 +162,22 @@ mod tests {
         let surface = Surface::new(&wedges, 9, |_| true);
         // Each has two triangles and three quadrilaterals; the shared triangle is inside.
         assert_eq!(surface.exterior().count(), 8);
+    }
+
+    #[test]
+    fn shells_on_faces_of_solids_count_when_these_are_gone() {
+        // A cube, a shell on its top face, another at the same place, and one beside it.
+        let mut elements = cubes(1);
+        let top = [4, 5, 7, 6];
+        elements.push(Shape::Quadrilateral, top);
+        elements.push(Shape::Quadrilateral, [5, 4, 6, 7]);
+        elements.push(Shape::Quadrilateral, [4, 5, 8, 9]);
+        let mut surface = Surface::new(&elements, 10, |_| true);
+        assert_eq!(surface.exterior().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5, 18, 19]);
+        surface.delete(0);
+        assert_eq!(surface.exterior().collect::<Vec<_>>(), [6, 7, 18, 19]);
+        surface.delete(1);
+        assert_eq!(surface.exterior().collect::<Vec<_>>(), [12, 13, 18, 19]);
     }
 
     #[test]

@@ -32,7 +32,7 @@ impl Regional {
         let owner_rank = |point: u32| {
             f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
         };
-        let own = neighbourhood::point_boxes(contact_nodes);
+        let own = neighbourhood::point_boxes(layout, contact_nodes);
         let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, contact_nodes);
         let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
         let [mut to_owner, mut edges_to_owner] = [6, 6].map(|width| Parcels::new(size, width));

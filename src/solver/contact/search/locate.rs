@@ -102,6 +102,9 @@ const SAFE: f64 = 0.499;
 /// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
 const ALONG_A_NORMAL: f64 = 3.4642;
 
+/// What a reach is multiplied by, to be more than what single precision takes away.
+const ROUNDED_UP: f64 = 1.0 + 1e-6;
+
 /// A foot this part of a face's size outside may count as on its border.
 const BORDER: f64 = 0.01;
 
@@ -131,7 +134,7 @@ impl CaptureBoxes {
             let swept = |point: u32| &motion.swept_boxes[point as usize];
             *bounds = SweptBox::joined(
                 [swept(a), swept(b), swept(c), swept(d)],
-                (margin * faces.depth[face as usize]) as f32,
+                (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,
             );
             *step = self.step;
         }
@@ -161,7 +164,11 @@ impl Locator {
             pairs_due: vec![0.0; found.pairs.len()],
             sharp_pairs: (0..)
                 .zip(&found.pairs)
-                .filter_map(|(place, pair)| edges[pair[1] as usize].stands_out().then_some(place))
+                .filter_map(|(place, [a, b])| {
+                    // Surfaces have no depth to sink into: their edges look every step.
+                    let [a, b] = [a, b].map(|edge| &edges[*edge as usize]);
+                    (b.stands_out() || a.is_of_surface(faces)).then_some(place)
+                })
                 .collect(),
             edge_pairs: found.pairs,
             fresh: true,
@@ -218,10 +225,11 @@ impl Locator {
             return;
         }
         let own = motion.swept_boxes[self.slave_nodes[i] as usize];
+        let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
         let capture_boxes = &mut self.capture_boxes;
         let mut look = |candidate: &Candidate| {
             let swept = capture_boxes.of(candidate.face, faces, motion, self.depth);
-            if own.distance(&swept) <= 0.0 || held && past.iter().any(|past| past.face == candidate.face) {
+            if f64::from(own.distance(&swept)) <= reach || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
         };
@@ -292,6 +300,7 @@ impl Locator {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
         let own = motion.swept_boxes[point as usize];
+        let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.last_path, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
         // Behind a thin face a point may be touching a thick one beside it, and then both normals count.
@@ -300,10 +309,11 @@ impl Locator {
         for (bit, candidate) in candidates.iter().enumerate().take(64) {
             let face = candidate.face;
             // Both sides may come nearer.
-            let mut away = 0.5 * f64::from(own.distance(&self.capture_boxes.of(face, faces, motion, self.depth)));
+            let apart = f64::from(own.distance(&self.capture_boxes.of(face, faces, motion, self.depth)));
+            let mut away = 0.5 * (apart - reach);
             if !held && away <= sleep {
-                let apart =
-                    separation([point, face], motion, faces, [self.depth * faces.depth[face as usize], deepest]);
+                let front = self.depth * faces.depth[face as usize] + faces.reach[face as usize] + reach;
+                let apart = separation([point, face], motion, faces, [front, deepest]);
                 away = away.max(apart / ALONG_A_NORMAL);
             }
             if away > sleep && past.iter().all(|past| past.face != face) {

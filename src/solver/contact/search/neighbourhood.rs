@@ -1,7 +1,7 @@
 //! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
 
 use super::locate::{Candidate, Interface};
-use crate::solver::contact::check::edge_edge;
+use crate::solver::contact::check::{edge_edge, node_face};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::layout::Layout;
@@ -43,11 +43,12 @@ fn around(contact_nodes: &ContactNodes, contact_node: usize) -> Box3 {
     Box3 { low, high }
 }
 
-/// Boxes of some contact nodes.
-pub fn point_boxes(contact_nodes: &ContactNodes) -> Boxes {
+/// Boxes of some contact nodes, as large as they reach.
+pub fn point_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut points = Boxes::default();
     for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
-        points.push(contact_node.point, around(contact_nodes, i));
+        let reach = layout.faces.node_reach[contact_node.point as usize];
+        points.push(contact_node.point, around(contact_nodes, i).grown(reach));
     }
     points
 }
@@ -61,7 +62,7 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nod
             .iter()
             .flatten()
             .fold(Box3::empty(), |all, &contact_node| all.joined(&around(contact_nodes, contact_node)));
-        all.push(face, of.grown(layout.faces.depth[face as usize]));
+        all.push(face, of.grown(layout.faces.margin(face, node_face::KEEP)));
     }
     all
 }
@@ -73,7 +74,7 @@ pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nod
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| contact_nodes.of(end));
         let of = of.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)));
-        all.push(edge, of.grown(edge_edge::reach(&layout.faces, one)));
+        all.push(edge, of.grown(edge_edge::reach(&layout.faces, one) + one.distance(&layout.faces)));
     }
     all
 }
@@ -92,7 +93,8 @@ pub fn find(
         let begin = found.candidates.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
             let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
-            let unrelated = near.filter(|&face| !layout.faces.same_element(face, point));
+            let faces = &layout.faces;
+            let unrelated = near.filter(|&face| !faces.same_element(face, point) && !faces.grown_together(point, face));
             found.candidates.extend(unrelated.map(|face| Candidate { face, interface: number as u32 }));
         }
         if found.candidates.len() > begin {
@@ -156,7 +158,7 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
     let mut pairs = Vec::new();
     for (place, &first) in edges.ids.iter().enumerate() {
         let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);
-        let others = others.filter(|&other| other > first || !stands_out(other));
+        let others = others.filter(|&other| layout.meets(first, other) && (other > first || !stands_out(other)));
         let one = &layout.edges[first as usize];
         let unrelated = others.filter(|&other| edges::unrelated(one, &layout.edges[other as usize], &layout.faces));
         pairs.extend(unrelated.map(|second| [first, second]));

@@ -13,7 +13,7 @@ mod section;
 use super::shell::unfit_law;
 use super::{
     Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample, StoredRow,
-    Unfit,
+    Touch, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
@@ -209,6 +209,10 @@ impl Formulation for Beam {
         uniaxial_stress(group.value(i, rows::RESULTANTS) / self.section.area)
     }
 
+    fn touch(&self, _: &[f64]) -> Touch {
+        Touch::Nodes(self.section.radius)
+    }
+
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
         let along = chord(group, i, nodes);
         let long = dot(along, along).sqrt() / group.value(i, rows::START);
@@ -268,7 +272,7 @@ impl KernelVisitor for OfLaw<'_> {
     type Output = PassOutcome;
 
     fn visit<K: Kernel>(self, law: K) -> PassOutcome {
-        let Section { area, moments: [iy, iz], torsion, shear_correction, fibres: own } = &self.beam.section;
+        let Section { area, moments: [iy, iz], torsion, shear_correction, fibres: own, .. } = &self.beam.section;
         let mut fibres = [[0.0; 3]; MOST_FIBRES];
         fibres.iter_mut().zip(own).for_each(|(place, fibre)| *place = *fibre);
         self.pass.over(&BeamStep {

@@ -11,6 +11,9 @@ pub const MOST_FIBRES: usize = 24;
 pub struct Section {
     /// Area, length².
     pub area: f64,
+    /// Distance from its centre at which it touches others: the radius of what is round, of others half the smaller of width
+    /// and height, a length.
+    pub radius: f64,
     /// Second moments about y, ∫ z² dA, and about z, ∫ y² dA, length⁴.
     pub moments: [f64; 2],
     /// Torsion constant, length⁴.
@@ -31,10 +34,10 @@ fn halves() -> [f64; 4] {
 const PAIR: [f64; 2] = [-0.288_675_134_594_812_9, 0.288_675_134_594_812_9];
 
 impl Section {
-    fn of_fibres(fibres: Vec<[f64; 3]>, torsion: f64, shear_correction: f64) -> Section {
+    fn of_fibres(radius: f64, fibres: Vec<[f64; 3]>, torsion: f64, shear_correction: f64) -> Section {
         let sum = |f: fn(&[f64; 3]) -> f64| fibres.iter().map(f).sum::<f64>();
         let moments = [sum(|[_, z, a]| z * z * a), sum(|[y, _, a]| y * y * a)];
-        Section { area: sum(|fibre| fibre[2]), moments, torsion, shear_correction, fibres }
+        Section { area: sum(|fibre| fibre[2]), radius, moments, torsion, shear_correction, fibres }
     }
 
     /// A rectangle of width b along y and height h along z.
@@ -44,7 +47,7 @@ impl Section {
         let ratio = short / long;
         // Roark's formula, right to half a per cent.
         let torsion = long * short.powi(3) * (1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio.powi(4) / 12.0));
-        Section::of_fibres(grid.collect(), torsion, 5.0 / 6.0)
+        Section::of_fibres(0.5 * short, grid.collect(), torsion, 5.0 / 6.0)
     }
 
     /// A solid rod of radius r.
@@ -56,7 +59,7 @@ impl Section {
         let half = 0.5 * (2.0 - sum * sum).sqrt();
         let radii = [0.5 * sum - half, 0.5 * sum + half];
         let rings = radii.into_iter().flat_map(|ring| ring_of(8, ring * r, 0.5 * area));
-        Section::of_fibres(rings.collect(), 0.5 * area * r * r, 0.9)
+        Section::of_fibres(r, rings.collect(), 0.5 * area * r * r, 0.9)
     }
 
     /// A tube of outer radius r and wall t, which may be as thick as the radius.
@@ -64,7 +67,7 @@ impl Section {
         let inner = (r - t).max(0.0);
         let area = std::f64::consts::PI * (r * r - inner * inner);
         let ring = (0.5 * (r * r + inner * inner)).sqrt();
-        Section::of_fibres(ring_of(16, ring, area).collect(), 0.5 * area * (r * r + inner * inner), 0.5)
+        Section::of_fibres(r, ring_of(16, ring, area).collect(), 0.5 * area * (r * r + inner * inner), 0.5)
     }
 
     /// An I of height h along z, flanges of width b along y and thickness f, and a web of thickness w.
@@ -78,7 +81,7 @@ impl Section {
         fibres.extend(halves().into_iter().flat_map(|z| PAIR.map(|y| [y * w, z * web, web * w / 8.0])));
         let torsion = (2.0 * b * f.powi(3) + web * w.powi(3)) / 3.0;
         let shear = web * w / (2.0 * b * f + web * w);
-        Section::of_fibres(fibres, torsion, shear)
+        Section::of_fibres(0.5 * h.min(b), fibres, torsion, shear)
     }
 }
 

@@ -13,7 +13,7 @@ mod stable_step;
 
 use super::{
     Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample, StoredRow,
-    Unfit,
+    Touch, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
@@ -304,6 +304,10 @@ impl Formulation for Shell {
 
     fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
         group.values(i, rows::RESULTANTS)
+    }
+
+    fn touch(&self, attributes: &[f64]) -> Touch {
+        Touch::BothSides(0.5 * self.thickness_of(attributes))
     }
 
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {

@@ -6,7 +6,7 @@
 
 use super::{
     Energies, Entry, Formulation, Group, Masses, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
-    StepKernel, StoredRow, Unfit, uniaxial,
+    StepKernel, StoredRow, Touch, Unfit, uniaxial,
 };
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
@@ -117,6 +117,11 @@ impl Formulation for Truss {
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         Sym3 { xx: group.value(i, rows::STRESS), yy: 0.0, zz: 0.0, xy: 0.0, yz: 0.0, zx: 0.0 }
+    }
+
+    fn touch(&self, attributes: &[f64]) -> Touch {
+        let area = self.area.or(attributes.first().copied()).unwrap_or(0.0);
+        Touch::Nodes((area / std::f64::consts::PI).sqrt())
     }
 
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
