@@ -47,14 +47,8 @@ scale: build           # the scaling studies of docs/performance.md: what hundre
 	  $(STUDY) $${in}_can_scaled.csv --scaled decks/can_crush_paper.i --mesh meshes/can_crush_scaled.mesh || exit 1; \
 	done
 
-# Decks whose trade docs/trade.md shows, with the time that each gets.
-TRADED = taylor_bar_axisymmetric:120s bending_beam_plane:120s lined_box:180s hertz:240s perforation:300s can_crush:600s
-
 trade: build           # the fronts of docs/trade.md: what each knob costs and gains on some decks
-	@mkdir -p out
-	for one in $(TRADED); do \
-	  $(URTO) trade decks/$${one%:*}.i --budget $${one#*:} --output out/trade_$${one%:*} || exit 1; \
-	done
+	.ci/trade $(URTO) out/trade
 
 decompositions: build  # contact shared out by bisection, in slices and with the elements, as docs/performance.md compares them
 	@mkdir -p out

@@ -148,7 +148,7 @@ impl<'a> Trial<'a> {
         quantities: &[Quantity],
         wishes: &Wishes,
     ) -> Result<(), Failure> {
-        let base = rows.first().and_then(|row| row.outcome.as_ref().ok()).map_or(0.0, |measured| measured.seconds);
+        let base = rows.first().and_then(|row| row.outcome.as_ref().ok()).map_or(0.0, |measured| measured.wall);
         let outcome = self.run(&variant, base, wishes)?;
         rows.push(self.row(variant, outcome, quantities));
         Ok(())
@@ -165,6 +165,7 @@ impl<'a> Trial<'a> {
                 seconds: (seconds["processor"].as_f64().filter(|time| *time > LONG))
                     .or(seconds["all"].as_f64())
                     .unwrap_or(f64::NAN),
+                wall: seconds["all"].as_f64().unwrap_or(f64::NAN),
                 steps: summary["steps"].as_u64().unwrap_or(0),
                 time: summary["time"].as_f64().unwrap_or(f64::NAN),
                 memory: summary["memory_bytes"].as_f64(),

@@ -100,10 +100,10 @@ fn verdict(quantity: &Quantity, place: usize, rows: &[Row]) -> Verdict {
         Refinement::Unknown => (base, f64::INFINITY),
     };
     let part = |difference: f64| (difference / best).abs();
-    // What is less exact than the deck may come nearer by chance, where errors cancel: that is not believed.
+    // What is not more exact than the deck may come nearer by chance, where errors cancel: that is not believed.
     let error = |row: &Row| {
         let value = value(row)?;
-        let exact = row.variant.is_finer() || matches!(row.variant.knob, Knob::None | Knob::Mesh);
+        let exact = row.variant.is_finer() || row.variant.knob == Knob::None;
         Some(if exact { part(value - best) } else { part(base - best) + part(value - base) })
     };
     let errors = rows.iter().map(|row| error(row).unwrap_or(f64::NAN)).collect();

@@ -77,9 +77,10 @@ impl Variant {
     /// deck.
     pub fn is_finer(&self) -> bool {
         match self.knob {
-            Knob::None | Knob::Mass | Knob::Several => false,
             Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),
-            Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Hourglass | Knob::Viscosity => true,
+            Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Viscosity => true,
+            // Another formulation is neither finer nor coarser.
+            Knob::None | Knob::Hourglass | Knob::Mass | Knob::Several => false,
         }
     }
 

@@ -25,6 +25,8 @@ pub use table::{csv, text, words};
 pub struct Measured {
     /// Seconds of processor, or of the clock where the system does not tell.
     pub seconds: f64,
+    /// Seconds of the clock that the whole run took.
+    pub wall: f64,
     /// Steps taken.
     pub steps: u64,
     /// Time reached.

@@ -1,5 +1,6 @@
 //! The front, and how quantities answer to refinement, as pictures.
 
+use super::knobs::Knob;
 use super::{Judgement, Row};
 use crate::plot::{self, Curve, Log, PlotError, PlotOptions, Site, Texts};
 use std::path::{Path, PathBuf};
@@ -57,7 +58,11 @@ fn curve(label: String, points: &[[f64; 2]]) -> Curve {
     }
 }
 
-/// The front as a line, and each variant as a point.
+/// Knobs whose way is drawn.
+const DRAWN: [Knob; 7] =
+    [Knob::Mesh, Knob::TimeStep, Knob::Hourglass, Knob::Viscosity, Knob::Contact, Knob::Mass, Knob::Several];
+
+/// The front as a line, and for each knob the way that it goes from the deck as it is, from the cheapest to the dearest.
 fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {
     let point = |row: usize| -> Option<[f64; 2]> {
         let measured = rows[row].outcome.as_ref().ok()?;
@@ -65,8 +70,13 @@ fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {
         error.is_finite().then_some([measured.seconds.max(1e-3), 100.0 * error.max(LEAST)])
     };
     let line: Vec<[f64; 2]> = judgement.front.iter().filter_map(|&row| point(row)).collect();
-    let others = (0..rows.len()).filter_map(|row| Some(curve(rows[row].variant.name.clone(), &[point(row)?])));
-    [curve("front".into(), &line)].into_iter().chain(others).collect()
+    let way = |knob: Knob| {
+        let own = (1..rows.len()).filter(|&row| rows[row].variant.knob == knob).filter_map(point);
+        let mut points: Vec<[f64; 2]> = own.chain(point(0)).collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        (points.len() > 1).then(|| curve(knob.name().into(), &points))
+    };
+    [curve("front".into(), &line)].into_iter().chain(DRAWN.into_iter().filter_map(way)).collect()
 }
 
 fn meshes(judgement: &Judgement) -> Vec<Curve> {

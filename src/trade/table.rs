@@ -13,6 +13,7 @@ const CHAOS: f64 = 0.01;
 fn percent(part: f64) -> String {
     match 100.0 * part {
         percent if percent.is_nan() => "-".into(),
+        0.0 => "0 %".into(),
         percent if percent >= 9.95 => format!("{percent:.0} %"),
         percent if percent >= 0.095 => format!("{percent:.1} %"),
         percent if percent >= 0.001 => format!("{percent:.3} %"),
