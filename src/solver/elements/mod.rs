@@ -5,6 +5,7 @@
 pub mod beam;
 mod block;
 pub mod fields;
+mod fluid;
 mod formulation;
 pub mod hexahedron;
 mod pass;

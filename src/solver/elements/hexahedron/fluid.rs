@@ -6,42 +6,7 @@ use super::geometry::Corners;
 use super::hourglass::Resistance;
 use crate::lanes::{Lanes, Row, array};
 use crate::mesh::corners::NEIGHBOURS;
-
-/// Part α by which an hourglass mode is slowed in a stable step of its element.
-const SLOWED: f64 = 0.9;
-
-/// A volume may grow, and shrink, by this part of itself in a step.
-const LARGEST_GROWTH: f64 = 0.1;
-const LARGEST_SHRINKAGE: f64 = 0.2;
-
-/// A corner is held when its Jacobian is below this part of the volume.
-const CLOSE: f64 = 0.3;
-
-/// Strength of the brake on a closing corner, and of what brings one back, at a Jacobian of zero. They are those of an
-/// element alone; its neighbours make nodes eight times as heavy.
-const BRAKE: f64 = 20.0;
-const BACK: f64 = 100.0;
-
-/// By how much the stable step is shortened by them.
-const SHORTER: f64 = 12.0;
-
-/// A corner may close by this part of its Jacobian in a step, or of a tenth of the volume where it is less.
-const LARGEST_CLOSING: f64 = 0.5;
-const LEAST_ROOM: f64 = 0.1;
-
-/// The areas of a corner do not count as less than this part of B:B, that a flat corner is not given a boundless force.
-const LEAST_REACH: f64 = 0.05;
-
-/// The largest step in which a volume that grows at `rate` times itself does so by no more than it may; `otherwise` where that
-/// is smaller, or no number.
-#[inline(always)]
-pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
-    let tiny = V::splat(f64::MIN_POSITIVE);
-    let growing = V::splat(LARGEST_GROWTH) / rate.max(tiny);
-    let shrinking = V::splat(LARGEST_SHRINKAGE) / (-rate).max(tiny);
-    // In this order a NaN stays.
-    growing.min(shrinking).min(otherwise)
-}
+use crate::solver::elements::fluid::{BACK, BRAKE, CLOSE, LEAST_REACH, LEAST_ROOM, SLOWED, any_close, held_step};
 
 /// Q = α (M/64) q̇/Δt, in space: a mode weighs M/64 per unit of its rate, and is slowed by the part α in a stable step Δt of its
 /// element, whatever its shape.
@@ -95,12 +60,6 @@ impl<V: Lanes> Corner<V> {
     fn own(&self) -> [V; 3] {
         array![i in 3 => self.areas[0][i] + self.areas[1][i] + self.areas[2][i]]
     }
-}
-
-/// Whether a row has a number below the start of the resistance in this part.
-#[inline(always)]
-fn any_close<V: Lanes>(row: &Row, part: usize) -> bool {
-    row.0[part * V::COUNT..(part + 1) * V::COUNT].iter().any(|least| *least < CLOSE)
 }
 
 /// Power of the forces Λ on the corners' Jacobians that are kept in `rows`, at a geometry.
@@ -176,9 +135,6 @@ pub fn hold<V: Lanes>(
             }
         }
     }
-    let limit = V::splat(LARGEST_CLOSING) / closing.max(V::splat(f64::MIN_POSITIVE));
-    let slower = stable_step / (one + V::splat(SHORTER) * most);
-    // In this order a NaN of the element's own step stays.
-    held.stable_step = V::select_less(zero, most, limit.min(slower), stable_step);
+    held.stable_step = held_step(stable_step, most, closing);
     held
 }

@@ -8,6 +8,7 @@ use super::kinematics::{self, Motion};
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
+use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
 
@@ -195,7 +196,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let stable_step =
         if K::FLUID { held.stable_step } else { control.stable_step(stable_step, stiffness_measure, light, mu) };
     let stable_step = match &start {
-        Some(start) => fluid::gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
+        Some(start) => gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
         None => stable_step,
     };
     // An element that passed through itself within the step has failed, even if it looks sound at the end.

@@ -24,6 +24,9 @@ pub struct State<V> {
     pub time_step: V,
 }
 
+/// The usual stiffness coefficient.
+const USUAL_STIFFNESS: f64 = 0.05;
+
 /// Stiffness coefficients up to here have next to no influence on the stable step.
 const LARGEST_USUAL_STIFFNESS: f64 = 0.15;
 
@@ -53,6 +56,15 @@ pub fn resist<V: Lanes>(control: Hourglass, rate: &[V; 2], q: &mut [V; 2], state
             *q = [(q[0] + bending * first * rate[0]) * kept, (q[1] + bending * second * rate[1]) * kept];
             *q
         }
+    }
+}
+
+/// Part of the viscosity by which a fluid's modes are resisted, at most 1: as in the hexahedron the whole of it at the default
+/// κ = 0.05 of Flanagan and Belytschko, and with assumed strain.
+pub fn of_fluids(control: Hourglass) -> f64 {
+    match control {
+        Hourglass::FlanaganBelytschko { stiffness, viscosity } => ((stiffness + viscosity) / USUAL_STIFFNESS).min(1.0),
+        Hourglass::AssumedStrain { factor } => factor.min(1.0),
     }
 }
 

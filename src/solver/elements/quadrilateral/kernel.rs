@@ -1,5 +1,7 @@
 //! The four-node quadrilateral with one integration point: one step of one part of a chunk.
 
+use super::exact::{Start, corner_rows, power_of_stress};
+use super::fluid;
 use super::hourglass;
 use super::kinematics::{self, Flat, Motion};
 use super::rows;
@@ -7,6 +9,7 @@ use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::Hourglass;
+use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
 
@@ -15,6 +18,8 @@ use crate::solver::elements::step_modulus::step_modulus;
 pub struct Settings {
     /// Time step Δt that led to the present positions.
     pub time_step: f64,
+    /// Mean of that step and the one before it.
+    pub kick: f64,
     /// Time of the present positions.
     pub time: f64,
     /// Initial mass density.
@@ -56,12 +61,12 @@ fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usi
 }
 
 #[inline(always)]
-fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
+pub(super) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
     (V::load(row, part) + value).store(row, part);
 }
 
 #[inline(always)]
-fn load<V: Lanes>(state: &[Row], first: usize, part: usize) -> [V; 4] {
+pub(super) fn load<V: Lanes>(state: &[Row], first: usize, part: usize) -> [V; 4] {
     array![i in 4 => V::load(&state[first + i], part)]
 }
 
@@ -105,6 +110,9 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let x = [positions[0], positions[1]];
         let v = [velocities[0], velocities[1]];
 
+        // (o) what the forces of the step's start have done, where that is heat
+        let start = if K::EQUATION { Some(Start::of::<K>(*section, [&x, &v], state, part, settings)) } else { None };
+
         // (i) velocity gradient and hourglass rates at mid-step
         let middle: [Corners<V>; 2] =
             [array![i in 4 => x[0][i] - half_step * v[0][i]], array![i in 4 => x[1][i] - half_step * v[1][i]]];
@@ -130,21 +138,26 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let volume = operator.volume * V::splat(turn);
         let (own, law_state) = state.split_at_mut(rows::LAW);
         let inverse_volume = V::splat(settings.density) / mass.material;
+        let (energy, swept) = match &start {
+            Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
+            None => (zero, zero),
+        };
         let motion = Step {
             strain,
             stretch: solid(stretch),
             volume: volume * inverse_volume,
             middle_volume: middle_volume * inverse_volume,
-            // Laws with an equation of state, which look at these, are refused.
-            energy: zero,
-            swept: zero,
+            energy,
+            swept,
             time: settings.time,
             time_step: settings.time_step,
         };
         let response = law.update(&motion, &mut stress, law_state, part);
         store([stress.xx, stress.yy, stress.zz, stress.xy], own, rows::STRESS, part);
-        let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
-        accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+        if !K::EQUATION {
+            let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
+            accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+        }
 
         // (iv) stable step 2/ω and bulk viscosity in the new configuration
         let stiffness = response.stiffness;
@@ -181,45 +194,79 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let viscous = damping * modulus * bound * rate;
         let last = V::load(&own[rows::VISCOUS_STRESS], part);
         viscous.store(&mut own[rows::VISCOUS_STRESS], part);
-        accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+        if !K::EQUATION {
+            accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+        }
         let stable_step = bound * ((one + damping * damping).sqrt() - damping);
 
-        // (v) hourglass resistance in the frame
-        let light = V::splat(4.0) * lightest / thickness;
-        let state = hourglass::State {
-            lengths,
-            stiffness_measure: measure,
-            mass: light,
-            mu,
-            poisson: V::splat(settings.poisson),
-            returned: response.returned,
-            time_step,
+        // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
+        let total = rotated(&stress, &frame, zero);
+        let mut held = fluid::Held::nothing(stable_step);
+        let (resistance, lever) = if let (true, Some(start)) = (K::FLUID, &start) {
+            let heavy = V::splat(4.0) * lightest;
+            let resistance =
+                fluid::resistance(&start.flow.hourglass, hourglass::of_fluids(settings.control), heavy, stable_step);
+            store(resistance, own, rows::HOURGLASS, part);
+            let sizes = [operator.area, heavy, stable_step, b_squared];
+            held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes);
+            let of_modes = fluid::power_of_modes(&resistance, &start.flow.hourglass) + held.power;
+            let powers = [power_of_stress(&total, &start.flow), viscous * start.growth, of_modes];
+            start.finish::<K>(powers, state, part, settings);
+            (resistance, one)
+        } else {
+            let light = V::splat(4.0) * lightest / thickness;
+            let modes = hourglass::State {
+                lengths,
+                stiffness_measure: measure,
+                mass: light,
+                mu,
+                poisson: V::splat(settings.poisson),
+                returned: response.returned,
+                time_step,
+            };
+            let turned = [frame_middle, frame];
+            let resistance = resist(settings.control, &hourglass_rate, turned, (own, part), middle_thickness, &modes);
+            held.stable_step = hourglass::stable_step(settings.control, stable_step, measure, light, mu);
+            if let Some(start) = &start {
+                let powers = [power_of_stress(&total, &start.flow), viscous * start.growth, zero];
+                start.finish::<K>(powers, state, part, settings);
+            }
+            (resistance, thickness)
         };
-        let turned = [frame_middle, frame];
-        let resistance = resist(settings.control, &hourglass_rate, turned, (own, part), middle_thickness, &state);
-        let stable_step = hourglass::stable_step(settings.control, stable_step, measure, light, mu);
+        let stable_step = match &start {
+            Some(start) => gentle_step(start.growth / volume, held.stable_step),
+            None => held.stable_step,
+        };
         // An element that passed through itself within the step has failed, even if it looks sound at the end.
         let least = middle_volume.min(volume).min(operator.area);
         let stable_step = V::select_less(zero, least, stable_step, zero);
 
         // (vi) corner forces from the rotated stress
-        let total = rotated(&stress, &frame, viscous);
-        Outcome { force: forces(*section, &total, &resistance, &operator, &gamma, thickness), stable_step }
+        let [xx, yy, zz, xy] = total;
+        let total = [xx + viscous, yy + viscous, zz + viscous, xy];
+        let mut force = forces(*section, &total, &resistance, &operator, &gamma, lever);
+        if K::FLUID {
+            for i in 0..2 {
+                force[i] = array![n in 4 => force[i][n] + held.force[i][n]];
+            }
+        }
+        Outcome { force, stable_step }
     }
 }
 
-/// Rates of an element at mid-step.
-struct Rates<V> {
+/// Rates of an element.
+pub(super) struct Rates<V> {
     /// L in the plane.
-    gradient: [[V; 2]; 2],
+    pub gradient: [[V; 2]; 2],
     /// Rate across it.
-    hoop: V,
+    pub hoop: V,
     /// q̇_i = v_i · γ.
-    hourglass: [V; 2],
+    pub hourglass: [V; 2],
 }
 
+/// Rates at a geometry; those of strain come as sums over the corners, per radian where there is an axis, times `inverse`.
 #[inline(always)]
-fn rates<V: Lanes>(
+pub(super) fn rates<V: Lanes>(
     about_axis: bool,
     operator: &Operator<V>,
     v: &[Corners<V>; 2],
@@ -309,7 +356,7 @@ fn resist<V: Lanes>(
 
 /// Cauchy stress in space with bulk viscosity: xx, yy, zz, xy.
 #[inline(always)]
-fn rotated<V: Lanes>(stress: &Sym3<V>, [c, s]: &[V; 2], viscous: V) -> Flat<V> {
+pub(super) fn rotated<V: Lanes>(stress: &Sym3<V>, [c, s]: &[V; 2], viscous: V) -> Flat<V> {
     let (cc, ss, cs) = (*c * *c, *s * *s, *c * *s);
     let shear = (stress.xy + stress.xy) * cs;
     [

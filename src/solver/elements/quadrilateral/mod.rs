@@ -4,6 +4,8 @@
 //! [`sections::Section`]. Forces, masses and energies are those of a unit of thickness,
 //! or of the whole turn of 2π radians.
 
+mod exact;
+mod fluid;
 pub mod hourglass;
 mod kernel;
 pub mod kinematics;
@@ -101,14 +103,7 @@ impl Quadrilateral {
 }
 
 impl Formulation for Quadrilateral {
-    fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit> {
-        let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law);
-        if law.is_some_and(|law| law.equation_of_state().is_some()) {
-            return Err(Unfit {
-                reason: "laws with an equation of state are not computed in two dimensions yet".into(),
-                help: "model a quarter of the body in three dimensions: urto mesh --revolve 90 makes hexahedra of its mesh".into(),
-            });
-        }
+    fn of_block(_: &Block, model: &Model) -> Result<Self, Unfit> {
         match model.analysis {
             Analysis::Solid => Err(Unfit {
                 reason: "its quadrilaterals lie in a plane".into(),
@@ -138,6 +133,7 @@ impl Formulation for Quadrilateral {
         let moduli = law.moduli();
         let settings = Settings {
             time_step: settings.time_step,
+            kick: settings.kick,
             time: settings.time,
             density,
             dilatational: moduli.dilatational(),

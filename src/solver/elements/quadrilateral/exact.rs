@@ -1,0 +1,106 @@
+//! Energy of elements with an equation of state: the work of their corner forces, exactly as the nodes feel it. See the hexahedron's.
+
+use super::fluid;
+use super::kernel::{Rates, Settings, accumulate, load, rates, rotated, solid};
+use super::kinematics::Flat;
+use super::rows;
+use super::sections::{Corners, Operator, Section};
+use crate::lanes::{Lanes, Row, array};
+use crate::material::Kernel;
+
+/// Accounts in the order of [`Works`]: internal energy, bulk viscosity, hourglass resistance.
+const ACCOUNTS: [usize; 3] = [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY];
+
+/// Work or power of stress, bulk viscosity and, in fluids, hourglass resistance.
+pub type Works<V> = [V; 3];
+
+/// Rows of the forces on corners, of fluids: one each, and of the eight that there are the last four stay free.
+pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
+    let end = rows::LAW + K::STATE.len() - 1;
+    end - 9..end
+}
+
+/// What is known of a step's work before the law has found its stress.
+pub struct Start<V> {
+    /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is
+    /// taken to be as at its start.
+    pub energy: V,
+    /// Volume that the element sweeps in the step at its speed at the end.
+    pub swept: V,
+    /// Rates at the end of the step, those of strain times the volume.
+    pub flow: Rates<V>,
+    /// Σ v_iI ∂V/∂x_iI at the end of the step.
+    pub growth: V,
+    works: Works<V>,
+}
+
+/// Power of a stress in space, xx, yy, zz and xy, given the rates of strain times the volume.
+#[inline(always)]
+pub fn power_of_stress<V: Lanes>([xx, yy, zz, xy]: &Flat<V>, flow: &Rates<V>) -> V {
+    let [[rr, rz], [zr, zz_rate]] = flow.gradient;
+    (*xx * rr + *yy * zz_rate) + (*zz * flow.hoop + *xy * (rz + zr))
+}
+
+/// Rates at a geometry, those of strain times the volume of the whole turn.
+#[inline(always)]
+fn flow<V: Lanes>(section: Section, operator: &Operator<V>, v: &[Corners<V>; 2], x: &[Corners<V>; 2]) -> Rates<V> {
+    rates(section.about_axis(), operator, v, x, V::splat(section.turn()))
+}
+
+impl<V: Lanes> Start<V> {
+    /// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
+    #[inline(always)]
+    pub fn of<K: Kernel>(
+        section: Section,
+        [x, v]: [&[Corners<V>; 2]; 2],
+        state: &[Row],
+        part: usize,
+        settings: &Settings,
+    ) -> Start<V> {
+        let time_step = V::splat(settings.time_step);
+        let before: [Corners<V>; 2] =
+            [array![i in 4 => x[0][i] - time_step * v[0][i]], array![i in 4 => x[1][i] - time_step * v[1][i]]];
+        let flow_before = flow(section, &section.operator(&before), v, &before);
+        let flow = flow(section, &section.operator(x), v, x);
+        let growth = trace(&flow);
+
+        let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
+        let stress = rotated(&solid(load(state, rows::STRESS, part)), &frame, V::splat(0.0));
+        let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
+        let of_stress = power_of_stress(&stress, &flow_before);
+        let mut of_modes = V::splat(0.0);
+        if K::FLUID {
+            let resistance = [V::load(&state[rows::HOURGLASS], part), V::load(&state[rows::HOURGLASS + 1], part)];
+            of_modes = fluid::power_of_modes(&resistance, &flow_before.hourglass)
+                + fluid::power(&before, v, &state[corner_rows::<K>()], part);
+        }
+        let half_kick = V::splat(0.5 * settings.kick);
+        let end_power = V::load(&state[rows::LAW + K::STATE.len() - 1], part);
+        let overdue = V::splat(0.5 * (settings.time_step - settings.kick)) * end_power;
+        let works = [half_kick * of_stress + overdue, half_kick * viscous * trace(&flow_before), half_kick * of_modes];
+
+        let mut energy = V::load(&state[rows::INTERNAL_ENERGY], part) + V::load(&state[rows::VISCOUS_ENERGY], part);
+        energy = energy + (works[0] + works[1]) + V::splat(0.5 * settings.time_step) * viscous * growth;
+        if K::FLUID {
+            energy = energy + V::load(&state[rows::HOURGLASS_ENERGY], part) + (works[2] + works[2]);
+        }
+        Start { energy, swept: time_step * growth, flow, growth, works }
+    }
+
+    /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
+    #[inline(always)]
+    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [Row], part: usize, settings: &Settings) {
+        let half_step = V::splat(0.5 * settings.time_step);
+        for account in 0..if K::FLUID { 3 } else { 2 } {
+            accumulate(self.works[account] + half_step * powers[account], &mut state[ACCOUNTS[account]], part);
+        }
+        let sum = powers[0] + powers[1];
+        let sum = if K::FLUID { sum + powers[2] } else { sum };
+        sum.store(&mut state[rows::LAW + K::STATE.len() - 1], part);
+    }
+}
+
+#[inline(always)]
+fn trace<V: Lanes>(flow: &Rates<V>) -> V {
+    (flow.gradient[0][0] + flow.gradient[1][1]) + flow.hoop
+}
