@@ -23,6 +23,11 @@ fn cube() -> Mesh {
 
 /// Results at some times: KE = t, BAD = NaN or -t, VELX = t at the first node, VELY = 2t, VELZ = 2t; EQPS = t².
 fn results(desk: &Desk, name: &str, times: &[f64]) {
+    results_of(desk, name, times, "00:00:00");
+}
+
+/// The same of a run that began at this time of the day.
+fn results_of(desk: &Desk, name: &str, times: &[f64], begun: &str) {
     let names = |list: &str| list.split(' ').map(str::to_owned).collect::<Vec<_>>();
     let header = ResultsHeader {
         mesh: &cube(),
@@ -30,7 +35,7 @@ fn results(desk: &Desk, name: &str, times: &[f64]) {
         global: names("KE BAD ONE"),
         nodal: names("VELX VELY VELZ"),
         element: names("EQPS"),
-        qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+        qa: ["urto", "0", "01/01/26", begun].map(str::to_owned),
         info: Vec::new(),
     };
     let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
@@ -69,6 +74,19 @@ fn continued_runs_are_one_and_replace_what_they_went_back_behind() {
     let times: Vec<f64> = csv(&desk, &["run.e", "-v", "KE"]).iter().map(|row| row[0]).collect();
     assert_eq!(times, [0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0]);
     assert_eq!(csv(&desk, &["run.e-s0002", "-v", "KE"]).len(), 4);
+}
+
+/// What an earlier run of the same name was continued into is older than the fresh run beside which it lies.
+#[test]
+fn what_an_earlier_run_left_is_no_part_of_a_fresh_one() {
+    let desk = Desk::new();
+    results_of(&desk, "run.e-s0002", &[2.0, 3.0], "08:00:00");
+    results_of(&desk, "run.e", &[0.0, 1.0, 2.5], "09:00:00");
+    let times = |desk: &Desk| -> Vec<f64> { csv(desk, &["run.e", "-v", "KE"]).iter().map(|row| row[0]).collect() };
+    assert_eq!(times(&desk), [0.0, 1.0, 2.5]);
+    // The fresh run goes on: its part takes the place of the old one.
+    results_of(&desk, "run.e-s0002", &[2.0, 4.0], "10:00:00");
+    assert_eq!(times(&desk), [0.0, 1.0, 2.0, 4.0]);
 }
 
 #[test]
