@@ -5,6 +5,7 @@ use super::terminal::{complain, say};
 use super::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::mesh::{Dimension, plane};
+use crate::model::StepEstimate;
 use crate::needs;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
@@ -110,7 +111,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let stopped = |stop| Failure::run(format_args!("error: the run would stop at once: {stop}"));
     solver.prepare(Request::Continue, comm).map_err(stopped)?;
     let place = solver.controlling_element(comm);
-    let first = solver.time_step;
+    let (first, own_step) = (solver.time_step, solver.own_step);
     if let Some(endless) = Endless::at(solver.time, first, model.termination_time) {
         let place = format!("set by element {} of block {}", place.element, place.block);
         return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
@@ -129,8 +130,13 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let of_pronto = pronto_step(given, body).map_or(String::new(), |step| {
         format!("PRONTO2D's own estimate of it, by lengths in the plane: {}\n", scientific(step, 4))
     });
+    let own = model.time_step.scale * own_step;
+    let of_mesh = match model.step_estimate {
+        StepEstimate::Element => String::new(),
+        StepEstimate::Global => format!("of the mesh as a whole; by its elements alone {}, ", scientific(own, 4)),
+    };
     Ok(format!(
-        "first time step {}, set by element {} of block {} at ({x}, {y}, {z})\n{of_pronto}\
+        "first time step {}, {of_mesh}set by element {} of block {} at ({x}, {y}, {z})\n{of_pronto}\
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          about {} of memory, {:.0} bytes per element\n\

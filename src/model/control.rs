@@ -1,7 +1,7 @@
 //! Title, times, time step, hourglass control, bulk viscosity.
 
 use super::{
-    Analysis, BulkViscosity, Hourglass, MassScaling, ScaleMass, StepModuli,
+    Analysis, BulkViscosity, Hourglass, MassScaling, ScaleMass, StepEstimate, StepModuli,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, language};
@@ -14,6 +14,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TIME STEP SCALE", time_step_scale),
     ("TIME STEP GROWTH", time_step_growth),
     ("TIME STEP MODULI", time_step_moduli),
+    ("TIME STEP ESTIMATE", time_step_estimate),
     ("MASS SCALING", mass_scaling),
     ("HOURGLASS STIFFENING", hourglass),
     ("HOURGLASS CONTROL", hourglass),
@@ -62,6 +63,11 @@ fn time_step_growth(card: &Card, draft: &mut Draft) {
 fn time_step_moduli(card: &Card, draft: &mut Draft) {
     draft.model.time_step.moduli =
         if card.text("moduli") == "EFFECTIVE" { StepModuli::Effective } else { StepModuli::Elastic };
+}
+
+fn time_step_estimate(card: &Card, draft: &mut Draft) {
+    draft.model.step_estimate =
+        if card.text("estimate") == "GLOBAL" { StepEstimate::Global } else { StepEstimate::Element };
 }
 
 fn mass_scaling(card: &Card, draft: &mut Draft) {

@@ -48,6 +48,8 @@ pub struct Model {
     pub plot: PlotSchedule,
     /// How the time step follows from the stable one.
     pub time_step: TimeStepControl,
+    /// What bounds the time step.
+    pub step_estimate: StepEstimate,
     /// Masses added so that the run may take longer steps.
     pub mass_scalings: Vec<MassScaling>,
     /// Bulk viscosity coefficients.
@@ -205,6 +207,16 @@ pub enum StepModuli {
     Elastic,
     /// PRONTO's effective moduli of the last increment: larger steps in plastic flow, no longer a bound.
     Effective,
+}
+
+/// TIME STEP ESTIMATE: what bounds the time step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StepEstimate {
+    /// The bound of each element alone: rigorous.
+    #[default]
+    Element,
+    /// The largest frequency of the mesh, by iterations every so many steps.
+    Global,
 }
 
 /// MASS SCALING: mass that is added to the elements of a block.

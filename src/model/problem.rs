@@ -1,9 +1,9 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepModuli,
-    TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output, restart,
-    section,
+    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepEstimate,
+    StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output,
+    restart, section,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -129,6 +129,7 @@ impl Default for Model {
                 growth: f64::NAN,
                 moduli: StepModuli::default(),
             },
+            step_estimate: StepEstimate::default(),
             mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
             hourglass: DEFAULT_HOURGLASS,

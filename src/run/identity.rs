@@ -5,7 +5,7 @@
 
 use crate::exodus::Restart;
 use crate::mesh::{Block, Mesh};
-use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model};
+use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, StepEstimate};
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
@@ -32,6 +32,13 @@ pub fn identity(model: &Model) -> String {
         Hourglass::AssumedStrain { .. } => "ASSUMED STRAIN",
     };
     lines.push(("HOURGLASS CONTROL".into(), hourglass.into()));
+    if model.step_estimate == StepEstimate::Global {
+        lines.push(("TIME STEP ESTIMATE".into(), "GLOBAL".into()));
+    }
+    for section in model.sections.iter().filter(|section| section.command == "ELEMENT") {
+        let formulation = section.word("formulation").unwrap_or_default();
+        lines.push((format!("ELEMENT {}", section.block), formulation.to_string()));
+    }
     // Masses are of the start; the same commands find the same ones.
     for MassScaling { block, scale, .. } in &model.mass_scalings {
         let of = block.map_or("ALL".to_string(), |block| block.to_string());

@@ -11,6 +11,7 @@ mod domain;
 pub mod elements;
 mod erosion;
 mod exchange;
+mod frequency;
 mod function;
 mod health;
 pub mod loads;
@@ -36,11 +37,12 @@ pub use totals::Totals;
 
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
-use crate::mesh::Mesh;
-use crate::model::{Function, Model, MotionKind, TimeStepControl, Unknown};
+use crate::mesh::{Mesh, Shape};
+use crate::model::{Function, Model, MotionKind, StepEstimate, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
+use frequency::{GlobalStep, Votes};
 use health::Watch;
 use std::collections::BTreeSet;
 
@@ -68,6 +70,8 @@ pub struct Solver {
     pub whole_step: f64,
     /// Largest stable step of the present state, a time.
     pub stable_step: f64,
+    /// The largest that every element alone allows.
+    pub own_step: f64,
     /// Kinetic energy at the start.
     pub initial_energy: f64,
     /// What histories compare the present state with.
@@ -78,6 +82,8 @@ pub struct Solver {
     last_totals: Option<(u64, Totals)>,
     kick: f64,
     first_stable_step: Option<f64>,
+    /// The stable step of the mesh as a whole, where the deck asks for it.
+    global_step: Option<GlobalStep>,
     /// What the run has found out about itself.
     watch: Watch,
     local: PassOutcome,
@@ -119,7 +125,20 @@ impl Request {
 /// Why blocks of a mesh cannot be computed as the model has them, each with the number of the block.
 pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
     let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
-    mesh.blocks.iter().filter_map(unfit).collect()
+    let all = mesh.blocks.iter().filter_map(unfit);
+    all.chain(without_eight_points(mesh, model)).collect()
+}
+
+/// Blocks that are to have eight points and whose elements have not eight corners.
+fn without_eight_points(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let asked = |block: &&crate::mesh::Block| elements::eight_points::asked_for(block.id, model);
+    let others = mesh.blocks.iter().filter(|block| block.shape != Shape::Hexahedron).filter(asked);
+    let unfit = |block: &crate::mesh::Block| {
+        let [_, shapes] = block.shape.names();
+        let reason = format!("ELEMENT, EIGHT POINTS is for hexahedra, and these are {shapes}");
+        (block.id, elements::Unfit { reason, help: "take the line out".to_string() })
+    };
+    others.map(unfit).collect()
 }
 
 /// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.
@@ -150,7 +169,8 @@ fn prescribed_at_start(domain: &Domain, functions: &[Function]) -> Vec<(u32, usi
 impl Solver {
     /// One rank's share of the problem in its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Solver {
-        let domain = Domain::new(mesh, model, body, share, comm);
+        let mut domain = Domain::new(mesh, model, body, share, comm);
+        let global_step = (model.step_estimate == StepEstimate::Global).then(|| GlobalStep::new(&mut domain));
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
         Solver {
             prescribed: prescribed_at_start(&domain, &model.functions),
@@ -163,12 +183,14 @@ impl Solver {
             time_step: 0.0,
             whole_step: 0.0,
             stable_step: 0.0,
+            own_step: 0.0,
             initial_energy,
             remembered: Remembered::default(),
             slivers: None,
             last_totals: None,
             kick: 0.0,
             first_stable_step: None,
+            global_step,
             local: PassOutcome::NOTHING,
             control: model.time_step,
             end: None,
@@ -354,6 +376,7 @@ impl Solver {
         self.clock.start();
         if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
             loads::all(pressure_faces, loads).for_each(|load| load.lose(&dead, false));
+            self.global_step.iter_mut().for_each(GlobalStep::forget);
             if let Some(contact) = contact {
                 comm.enter(Traffic::ContactSearch);
                 contact.erode(&dead, erosion, nodes, comm);
@@ -410,21 +433,30 @@ impl Solver {
     /// The step that all ranks take, the wish that all ranks follow, and whether any element has failed.
     fn agree(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         let failed = self.local.failed.map_or(f64::INFINITY, |place| self.canonical(place));
-        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8)];
+        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8), f64::INFINITY, 1.0];
         self.clock.start();
-        comm.all_min(&mut votes);
+        let of_mesh = self.global_step.as_ref().map(|global| global.votes(&self.domain));
+        let cast = match of_mesh {
+            Some(Votes { rest, ratio }) => {
+                (votes[3], votes[4]) = (rest, ratio);
+                5
+            }
+            None => 3,
+        };
+        comm.all_min(&mut votes[..cast]);
         self.clock.stop(Section::Communication);
-        let [stable_step, failed, wish] = votes;
-        self.stable_step = stable_step;
+        let [stable_step, failed, wish, rest, ratio] = votes;
+        (self.stable_step, self.own_step) = (stable_step, stable_step);
         if failed.is_finite() {
             let place = self.locate(failed, comm);
             // Positions may be sound while velocities are not; a volume that is not finite says nothing of inversion.
             let inverted = place.volume.is_finite() && place.centre.iter().all(|x| x.is_finite());
             return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
         }
+        self.estimate(Votes { rest, ratio }, comm);
         self.check_step(comm)?;
         let last = self.time_step;
-        let wanted = self.control.scale * stable_step;
+        let wanted = self.control.scale * self.stable_step;
         self.whole_step = if self.step == 0 { wanted } else { wanted.min(self.control.growth * self.whole_step) };
         let agreed = Request::from_number(-wish);
         // A run that is stopped before its end goes on with the step that it would have taken.
@@ -452,6 +484,19 @@ impl Solver {
             // What whole steps bring within reach is of the run without an end, to the bit.
             steps => (left / steps).min(self.whole_step),
         }
+    }
+
+    /// Lets the mesh as a whole bound the step, where the deck asks for it.
+    fn estimate(&mut self, mut votes: Votes, comm: &mut dyn Communicator) {
+        let Some(global) = &mut self.global_step else { return };
+        self.clock.start();
+        let own = self.stable_step;
+        if global.is_due(self.step, votes) {
+            global.estimate(&mut self.domain, self.step, own, &self.pass, comm);
+            votes.ratio = 1.0;
+        }
+        self.stable_step = global.step(own, votes);
+        self.clock.stop(Section::Elements);
     }
 
     /// Forces from outside, from constraints, and from contact on what the constraints leave free.

@@ -27,12 +27,14 @@ impl Solver {
             initial_energy,
             first_stable_step,
             watch,
+            global_step,
             last_totals,
             remembered,
             // Nothing is written once the end has made steps shorter.
             whole_step,
             // Of the step: found anew by `prepare`.
             stable_step: _,
+            own_step: _,
             local: _,
             pass: _,
             // Of the problem.
@@ -62,6 +64,7 @@ impl Solver {
         }
         remembered.visit_state(archive);
         domain.visit_state(archive);
+        global_step.iter_mut().for_each(|global| global.visit_state(archive, domain));
         watch.visit_state(archive);
     }
 

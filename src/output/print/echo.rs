@@ -2,7 +2,7 @@
 
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
-use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepModuli};
+use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepEstimate, StepModuli};
 use crate::solver::BlockMass;
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
@@ -117,6 +117,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
         StepModuli::Effective => "EFFECTIVE",
     };
     out += &leader("MODULI OF THE TIME STEP", moduli);
+    if model.step_estimate == StepEstimate::Global {
+        out += &leader("ESTIMATE OF THE TIME STEP", "GLOBAL");
+    }
     match model.hourglass {
         Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
             out += &leader("HOURGLASS CONTROL", "FLANAGAN-BELYTSCHKO");

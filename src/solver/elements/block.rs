@@ -1,7 +1,7 @@
 //! Storage of one element block on one rank: chunks of eight elements, each quantity a row of eight numbers.
 
-use super::Element;
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
+use super::{Element, Probe};
 use crate::lanes::{CHUNK, Row};
 use crate::material::{END_POWER, Law};
 use crate::solver::domain::state_names;
@@ -259,6 +259,17 @@ impl ElementBlock {
     pub fn end_power(&self) -> Option<usize> {
         let last = self.state_names.len().checked_sub(1)?;
         (self.state_names[last] == END_POWER).then_some(self.first_of_law(0) + last)
+    }
+
+    /// Lets one group answer a probe; nodes have displacements for velocities.
+    pub fn probe(&mut self, probe: Probe, nodes: &[Row], sink: Sink, settings: &PassSettings) {
+        let ElementBlock { element, law, border, interior, .. } = self;
+        // The steps of the elements are not to be overwritten.
+        let kept = [&mut *border, &mut *interior].map(|group| std::mem::take(&mut group.steps));
+        let pass =
+            Pass { border: &mut *border, interior: &mut *interior, nodes, sink, instructions: settings.instructions };
+        element.probe(probe, pass, law, settings);
+        [border.steps, interior.steps] = kept;
     }
 
     /// Advances one group: the border elements when the sink keeps forces apart, else the interior.

@@ -46,6 +46,15 @@ pub struct PointEntry {
     pub layered: bool,
 }
 
+/// What the search for the largest frequency of a mesh asks of a pass over elements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Probe {
+    /// Forces of the elastic stiffness, with displacements in the place of velocities.
+    Stiffness,
+    /// In the place of the forces along x, the masses that the corners have at least of the element.
+    Mass,
+}
+
 /// One number that an element stores.
 pub struct StoredRow {
     /// Name in restart files.
@@ -118,6 +127,14 @@ pub trait Formulation: Sized {
 
     /// Advances one group of a block by a step: stresses, energies, corner forces, and the largest stable step.
     fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome;
+
+    /// Whether [`Formulation::probe`] answers for elements of this law. Of others the elements' own stable steps hold.
+    fn vibrates(&self, _law: &Law) -> bool {
+        false
+    }
+
+    /// Gives forces as [`Formulation::run`] does, but those that a probe asks for, and changes nothing.
+    fn probe(&self, _probe: Probe, _pass: Pass, _law: &Law, _settings: &PassSettings) {}
 
     /// Fills in the rows of what stands in for an element that is gone, unstressed and at rest between the first corners of a
     /// cube of this edge; returns its mass. `own` is zero.

@@ -4,6 +4,7 @@
 
 pub mod beam;
 mod block;
+pub mod eight_points;
 pub mod fields;
 mod fluid;
 mod formulation;
@@ -22,7 +23,7 @@ use crate::model::Model;
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
-pub use formulation::{Energies, Entry, Formulation, PointEntry, Sample, StoredRow, Touch, Unfit};
+pub use formulation::{Energies, Entry, Formulation, PointEntry, Probe, Sample, StoredRow, Touch, Unfit};
 pub use pass::{Masses, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 
 macro_rules! elements {
@@ -63,6 +64,16 @@ macro_rules! elements {
             /// See [`Formulation::run`].
             pub fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome {
                 match self { $(Element::$element(own) => own.run(pass, law, density, settings),)+ }
+            }
+
+            /// See [`Formulation::vibrates`].
+            pub fn vibrates(&self, law: &Law) -> bool {
+                match self { $(Element::$element(own) => own.vibrates(law),)+ }
+            }
+
+            /// See [`Formulation::probe`].
+            pub fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
+                match self { $(Element::$element(own) => own.probe(probe, pass, law, settings),)+ }
             }
 
             /// See [`Formulation::stand_in`].
@@ -134,6 +145,7 @@ macro_rules! elements {
 }
 
 elements! {
+    eight_points::EightPoints,
     hexahedron::Hexahedron,
     quadrilateral::Quadrilateral,
     beam::Beam,

@@ -15,7 +15,7 @@ impl Solver {
 
     /// The element that sets the stable step; of several the first in canonical order.
     pub fn controlling_element(&self, comm: &mut dyn Communicator) -> ElementPlace {
-        let mine = self.local.controlling.filter(|_| self.local.stable_step == self.stable_step);
+        let mine = self.local.controlling.filter(|_| self.local.stable_step == self.own_step);
         let mut first = [mine.map_or(f64::INFINITY, |place| self.canonical(place))];
         comm.all_min(&mut first);
         self.locate(first[0], comm)

@@ -52,7 +52,12 @@ pub struct Physics<'a, K, H> {
 
 /// Writes consecutive rows.
 #[inline(always)]
-fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usize, part: usize) {
+pub(in crate::solver::elements) fn store<V: Lanes, const N: usize>(
+    values: [V; N],
+    state: &mut [Row],
+    first: usize,
+    part: usize,
+) {
     let rows = &mut state[first..first + N];
     for i in 0..N {
         values[i].store(&mut rows[i], part);
@@ -60,7 +65,7 @@ fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usi
 }
 
 #[inline(always)]
-pub(super) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
+pub(in crate::solver::elements) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
     (V::load(row, part) + value).store(row, part);
 }
 
@@ -110,7 +115,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
     let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
     let Motion { strain, frame: r, middle: r_middle } =
-        kinematics::advance(&velocity_gradient, &mut frame, &mut stretch, time_step);
+        kinematics::advance::<V, false>(&velocity_gradient, &mut frame, &mut stretch, time_step);
     store(frame, state, rows::FRAME, part);
     store(stretch.to_array(), state, rows::STRETCH, part);
 
@@ -224,7 +229,7 @@ fn volume<V: Lanes>(x: &[geometry::Modes<V>; 3]) -> V {
 
 /// Hourglass rates q̇_iα = v_iI γ_αI, in space: γ is the mode made orthogonal to linear fields.
 #[inline(always)]
-pub(super) fn hourglass_rates<V: Lanes>(
+pub(in crate::solver::elements) fn hourglass_rates<V: Lanes>(
     v: &[geometry::Modes<V>; 3],
     x: &[geometry::Modes<V>; 3],
     l: &Matrix3<V>,
@@ -271,7 +276,11 @@ fn resist<V: Lanes, H: hourglass::Control>(
 /// They are also kept above L_j L_k V/(8 B:B), which every box exceeds. An element drawn out to a needle across its
 /// frame would otherwise be stiffer in bending than its own stable step allows.
 #[inline(always)]
-fn lengths<V: Lanes>(x: &[geometry::Modes<V>; 3], r: &Matrix3<V>, stiffness_measure: V) -> [V; 3] {
+pub(in crate::solver::elements) fn lengths<V: Lanes>(
+    x: &[geometry::Modes<V>; 3],
+    r: &Matrix3<V>,
+    stiffness_measure: V,
+) -> [V; 3] {
     let along: [V; 3] = array![a in 3 => x[0][a] * r[0][a] + x[1][a] * r[1][a] + x[2][a] * r[2][a]];
     let floor = along[0].max(along[1]).max(along[2]) * V::splat(1e-3);
     let [l1, l2, l3] = array![i in 3 => along[i].max(floor)];
@@ -289,7 +298,7 @@ fn quadratic_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
 /// f_iI = T_ij B_jI + Q_iα γ_αI at the end of the step. The part of γ that makes it orthogonal to linear fields
 /// joins the stress, so the gradient is applied once; corners are seen last.
 #[inline(always)]
-fn corner_forces<V: Lanes>(
+pub(in crate::solver::elements) fn corner_forces<V: Lanes>(
     stress: &Sym3<V>,
     resistance: &Resistance<V>,
     x: &[geometry::Modes<V>; 3],

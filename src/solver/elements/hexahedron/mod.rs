@@ -4,11 +4,12 @@ mod exact;
 mod fluid;
 pub mod geometry;
 pub mod hourglass;
-mod kernel;
+pub(super) mod kernel;
 pub mod kinematics;
+pub(super) mod vibration;
 
 use super::{
-    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Sample, StoredRow, Unfit,
+    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Probe, Sample, StoredRow, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
@@ -24,6 +25,7 @@ use geometry::{corners, gradient, modes};
 use hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
 use kernel::{Physics, Settings};
 use kinematics::rotation_matrix;
+use vibration::{FrameRows, Vibration};
 
 /// Rows of an element's state, in the order in which they are stored; the law's own rows follow.
 pub mod rows {
@@ -144,6 +146,23 @@ impl Formulation for Hexahedron {
         law.accept(OfLaw { control: self.hourglass, pass, settings })
     }
 
+    /// A viscosity of hourglass control and laws whose stiffness changes would need more than a stiffness.
+    fn vibrates(&self, law: &Law) -> bool {
+        let viscous = matches!(self.hourglass, Hourglass::FlanaganBelytschko { viscosity, .. } if viscosity > 0.0);
+        !viscous && law.accept(HasConstantStiffness)
+    }
+
+    fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
+        pass.over(&Vibration {
+            probe,
+            moduli: law.moduli(),
+            control: either(self.hourglass),
+            least_share: self.least_share,
+            viscosity: settings.bulk_viscosity,
+            rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
+        });
+    }
+
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
         unstressed(&[1.0, 0.0, 0.0, 0.0], own);
         density * edge * edge * edge
@@ -173,26 +192,30 @@ impl Formulation for Hexahedron {
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
         let viscous = group.value(i, rows::VISCOUS_STRESS);
         let total = self.stress(group, i).add_diagonal(viscous).rotate(&self.frame(group, i, nodes)).matrix();
-        let v: [[f64; 3]; 8] = group.velocities(i, nodes);
-        let before: [[f64; 3]; 8] = group.positions(i, nodes);
-        let operator = gradient(&[0, 1, 2].map(|axis| {
-            modes(
-                &[0, 1, 2, 3, 4, 5, 6, 7]
-                    .map(|n: usize| (before[n][axis] - before[0][axis]) - time_step * (v[n][axis] - v[0][axis])),
-            )
-        }));
-        let mut work = 0.0;
-        for j in 0..3 {
-            let g = operator.g24[j];
-            let b = corners(&[g[0], g[1], g[2], g[3], g[4], g[5], 0.0]);
-            for n in 0..8 {
-                work += (0..3).map(|k| total[k][j] * v[n][k]).sum::<f64>() * b[n] / 192.0;
-            }
-        }
-        let work = 0.5 * time_step * work;
+        let (now, v) = (group.positions(i, nodes), group.velocities(i, nodes));
+        let work = 0.5 * time_step * mean_power(&total, &now, &v, time_step);
         // An element that dies inverted may have moved beyond all measure.
         if work.is_finite() { work } else { 0.0 }
     }
+}
+
+/// Power of a stress in space that is uniform in an element, with these velocities, where its corners were a step before.
+pub(super) fn mean_power(stress: &Matrix3<f64>, now: &[[f64; 3]; 8], v: &[[f64; 3]; 8], time_step: f64) -> f64 {
+    let operator = gradient(&[0, 1, 2].map(|axis| {
+        modes(
+            &[0, 1, 2, 3, 4, 5, 6, 7]
+                .map(|n: usize| (now[n][axis] - now[0][axis]) - time_step * (v[n][axis] - v[0][axis])),
+        )
+    }));
+    let mut power = 0.0;
+    for j in 0..3 {
+        let g = operator.g24[j];
+        let b = corners(&[g[0], g[1], g[2], g[3], g[4], g[5], 0.0]);
+        for n in 0..8 {
+            power += (0..3).map(|k| stress[k][j] * v[n][k]).sum::<f64>() * b[n] / 192.0;
+        }
+    }
+    power
 }
 
 /// Rows of an element in this frame that has not been strained.
@@ -217,12 +240,7 @@ impl KernelVisitor for OfLaw<'_> {
     type Output = PassOutcome;
 
     fn visit<K: Kernel>(self, law: K) -> PassOutcome {
-        let control = match self.control {
-            Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
-                Either::FlanaganBelytschko(FlanaganBelytschko { stiffness, viscosity })
-            }
-            Hourglass::AssumedStrain { factor } => Either::AssumedStrain(AssumedStrain { factor }),
-        };
+        let control = either(self.control);
         if !K::FREQUENT {
             return self.with_control(&law, &control);
         }
@@ -230,6 +248,25 @@ impl KernelVisitor for OfLaw<'_> {
             Either::FlanaganBelytschko(control) => self.with_control(&law, &control),
             Either::AssumedStrain(control) => self.with_control(&law, &control),
         }
+    }
+}
+
+/// A control that is chosen at run time.
+fn either(control: Hourglass) -> Either {
+    match control {
+        Hourglass::FlanaganBelytschko { stiffness, viscosity } => {
+            Either::FlanaganBelytschko(FlanaganBelytschko { stiffness, viscosity })
+        }
+        Hourglass::AssumedStrain { factor } => Either::AssumedStrain(AssumedStrain { factor }),
+    }
+}
+
+/// Whether the elastic moduli of a law bound its stiffness.
+pub(super) struct HasConstantStiffness;
+impl KernelVisitor for HasConstantStiffness {
+    type Output = bool;
+    fn visit<K: Kernel>(self, _: K) -> bool {
+        !K::STIFFNESS && !K::VOLUME && !K::EQUATION
     }
 }
 
@@ -241,7 +278,7 @@ impl OfLaw<'_> {
 
 /// The element's own axes as a unit quaternion: e₁ along ξ, e₂ in the plane of ξ and η. The fixed axes where an
 /// element is too degenerate to have any.
-fn own_axes(corners: &[[f64; 3]; 8]) -> [f64; 4] {
+pub(super) fn own_axes(corners: &[[f64; 3]; 8]) -> [f64; 4] {
     let along = |minus: [usize; 4], plus: [usize; 4]| {
         (0..4).fold([0.0; 3], |sum, i| add(sum, subtract(corners[plus[i]], corners[minus[i]])))
     };

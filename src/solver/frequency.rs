@@ -1,0 +1,396 @@
+//! TIME STEP ESTIMATE, GLOBAL: the stable step of the mesh as a whole.
+//!
+//! The bound of an element is that of an element alone. In a mesh neighbours share their nodes and cannot all swing as each would
+//! like to, and the largest ω of M⁻¹K is smaller. Lanczos iterations find it from below: θ ≤ λ = ω². From a start that is uniform on
+//! the sphere of M^½ v the chance that θ < (1 − ε) λ after k of them is at most
+//!
+//! ```text
+//! 1.648 √n exp(−√ε (2k − 1))            (Kuczyński and Woźniakowski 1992, for n unknowns, whatever the spectrum)
+//! ```
+//!
+//! so that k follows from the chance that is granted, and 2/ω ≥ Δt = 2 √((1 − ε)/θ) but for that chance. It is no proof: none is to be had
+//! for less than a factorisation. It is kept small enough for a run to be estimated a million times, every estimate begins with
+//! numbers of its own, and the step never falls below the elements' own bound, which is proved.
+//!
+//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one: squeezing
+//! and shocks are answered at once.
+
+use super::domain::{ABSENT, Domain};
+use super::elements::{PassSettings, Probe, Sink};
+use crate::comm::{Communicator, ExactSum};
+use crate::lanes::{CHUNK, Force, Row};
+use crate::restart::Archive;
+
+/// ε: share of λ that the iterations may miss; the step gives away half of it.
+const MISSED: f64 = 0.1;
+
+/// Chance of an estimate that misses more.
+const CHANCE: f64 = 1e-8;
+
+/// Steps between estimates, and at most where they gain nothing.
+const INTERVAL: u64 = 250;
+const LONGEST_INTERVAL: u64 = 4000;
+
+/// Steps between estimates at least, whatever happens.
+const SHORTEST_INTERVAL: u64 = 25;
+
+/// An estimate that is better than the elements' by less is not worth its price.
+const WORTH: f64 = 1.03;
+
+/// Ratio of elements' steps below which the estimate is made again.
+const CHANGED: f64 = 0.9;
+
+/// The stable step of the mesh, and when it was found.
+pub struct GlobalStep {
+    /// Which blocks take part; of the others the elements' own steps hold.
+    takes_part: Vec<bool>,
+    /// Stable step of these blocks when it was found last; 0 while it is not known.
+    found: f64,
+    /// Step at which it was found.
+    at: u64,
+    /// Steps until it is found again.
+    interval: u64,
+    /// Whether elements have gone since.
+    stale: bool,
+    /// The elements' own steps then, in each block by group.
+    then: Vec<[Vec<Row>; 2]>,
+    /// Estimates so far.
+    pub estimates: u64,
+}
+
+/// What the elements say of the step.
+#[derive(Debug, Clone, Copy)]
+pub struct Votes {
+    /// Least own step of elements that take no part.
+    pub rest: f64,
+    /// Least ratio of own steps now and when the estimate was made.
+    pub ratio: f64,
+}
+
+impl GlobalStep {
+    /// For the blocks of a rank; their elements' steps are kept from now on.
+    pub fn new(domain: &mut Domain) -> GlobalStep {
+        domain.blocks.iter_mut().for_each(|block| block.keeps_steps = true);
+        GlobalStep {
+            takes_part: domain.blocks.iter().map(|block| block.element.vibrates(&block.law)).collect(),
+            found: 0.0,
+            at: 0,
+            interval: 0,
+            stale: true,
+            then: domain
+                .blocks
+                .iter()
+                .map(|block| [&block.border, &block.interior].map(|g| none(g.mass.len())))
+                .collect(),
+            estimates: 0,
+        }
+    }
+
+    /// Learns that elements have gone: others have lost mass that they leant on.
+    pub fn forget(&mut self) {
+        self.stale = true;
+    }
+
+    /// What this rank's elements say.
+    pub fn votes(&self, domain: &Domain) -> Votes {
+        let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0 };
+        for ((block, takes_part), then) in domain.blocks.iter().zip(&self.takes_part).zip(&self.then) {
+            for (group, then) in block.groups().into_iter().zip(then) {
+                for i in (0..group.len()).filter(|&i| group.is_alive(i)) {
+                    let now = group.steps[i / CHUNK].0[i % CHUNK];
+                    if *takes_part {
+                        votes.ratio = votes.ratio.min(now / then[i / CHUNK].0[i % CHUNK]);
+                    } else {
+                        votes.rest = votes.rest.min(now);
+                    }
+                }
+            }
+        }
+        votes
+    }
+
+    /// Whether an estimate is due, by what all ranks have agreed on.
+    pub fn is_due(&self, step: u64, votes: Votes) -> bool {
+        let since = step - self.at;
+        let wanted = self.stale || since >= self.interval || votes.ratio < CHANGED;
+        self.estimates == 0 || (wanted && since >= SHORTEST_INTERVAL.min(self.interval))
+    }
+
+    /// The stable step, by what all ranks have agreed on and the elements' own bound.
+    pub fn step(&self, own: f64, votes: Votes) -> f64 {
+        if self.stale {
+            return own;
+        }
+        own.max((self.found * votes.ratio).min(votes.rest))
+    }
+
+    /// Finds the stable step anew. All ranks call it, when the elements have had their pass.
+    pub fn estimate(
+        &mut self,
+        domain: &mut Domain,
+        step: u64,
+        own: f64,
+        settings: &PassSettings,
+        comm: &mut dyn Communicator,
+    ) {
+        let mut operator = Operator::new(domain, &self.takes_part, settings, comm);
+        self.found = operator.stable_step(step, comm);
+        (self.at, self.stale) = (step, false);
+        self.estimates += 1;
+        let gains = self.found > WORTH * own;
+        self.interval = if gains { INTERVAL } else { (2 * self.interval).clamp(INTERVAL, LONGEST_INTERVAL) };
+        for (block, then) in domain.blocks.iter().zip(&mut self.then) {
+            for (group, then) in block.groups().into_iter().zip(then) {
+                then.clone_from(&group.steps);
+                then.resize(group.mass.len(), Row([f64::INFINITY; CHUNK]));
+            }
+        }
+    }
+
+    /// Visits what the next steps need.
+    pub(super) fn visit_state(&mut self, archive: &mut dyn Archive, domain: &Domain) {
+        let GlobalStep { takes_part: _, found, at, interval, stale, then, estimates } = self;
+        archive.number("GLOBALSTEP", found);
+        archive.count("GLOBALAT", at);
+        archive.count("GLOBALEVERY", interval);
+        archive.count("GLOBALCOUNT", estimates);
+        let mut gone = u64::from(*stale);
+        archive.count("GLOBALSTALE", &mut gone);
+        *stale = gone > 0;
+        let mut values = vec![0.0; domain.element_file.len()];
+        for (block, then) in domain.blocks.iter().zip(&*then) {
+            for (group, then) in block.groups().into_iter().zip(then) {
+                for (i, &place) in group.places.iter().enumerate() {
+                    values[place as usize] = then[i / CHUNK].0[i % CHUNK];
+                }
+            }
+        }
+        archive.element("GLOBALTHEN", &mut values);
+        if !archive.loading() {
+            return;
+        }
+        for (block, then) in domain.blocks.iter().zip(then) {
+            for (group, then) in block.groups().into_iter().zip(then) {
+                for (i, &place) in group.places.iter().enumerate() {
+                    then[i / CHUNK].0[i % CHUNK] = values[place as usize];
+                }
+            }
+        }
+    }
+}
+
+fn none(chunks: usize) -> Vec<Row> {
+    vec![Row([f64::INFINITY; CHUNK]); chunks]
+}
+
+/// M^-½ K M^-½ of the blocks that take part, on what is free to move.
+struct Operator<'a> {
+    domain: &'a mut Domain,
+    takes_part: &'a [bool],
+    settings: PassSettings,
+    /// 1/√m by unknown, 0 where nothing moves.
+    scale: Vec<[f64; 3]>,
+    /// Nodes as passes see them, with displacements for velocities.
+    rows: Vec<Row>,
+    forces: Vec<Force>,
+}
+
+impl<'a> Operator<'a> {
+    fn new(
+        domain: &'a mut Domain,
+        takes_part: &'a [bool],
+        settings: &PassSettings,
+        comm: &mut dyn Communicator,
+    ) -> Operator<'a> {
+        let mut scale = vec![[1.0; 3]; domain.nodes.len()];
+        for constraint in &domain.constraints {
+            scale[constraint.node as usize][constraint.axis] = 0.0;
+        }
+        let of_mesh = domain.nodes.file.iter().map(|&file| file != ABSENT);
+        scale.iter_mut().zip(of_mesh).filter(|(_, of_mesh)| !of_mesh).for_each(|(scale, _)| *scale = [0.0; 3]);
+        let rows = domain.nodes.rows.clone();
+        let forces = vec![Force::default(); rows.len()];
+        let mut operator = Operator { domain, takes_part, settings: *settings, scale, rows, forces };
+        operator.pass(Probe::Mass, comm);
+        for (scale, force) in operator.scale.iter_mut().zip(&operator.forces) {
+            let mass = force.0[0];
+            let root = if mass > 0.0 { 1.0 / mass.sqrt() } else { 0.0 };
+            *scale = scale.map(|free| free * root);
+        }
+        operator
+    }
+
+    /// Lets all elements give their forces on displacements `rows`, and sums them over ranks.
+    fn pass(&mut self, probe: Probe, comm: &mut dyn Communicator) {
+        self.forces.fill(Force::default());
+        let Domain { blocks, exchange, .. } = &mut *self.domain;
+        exchange.slots.fill(Force::default());
+        let mut slots = &mut exchange.slots[..];
+        for (block, takes_part) in blocks.iter_mut().zip(self.takes_part) {
+            let (own, rest) = slots.split_at_mut(block.border.force_count());
+            if *takes_part {
+                block.probe(probe, &self.rows, Sink::Apart(own), &self.settings);
+                // What stands in for an element that is gone has no part in its nodes, of which other ranks would sum it up.
+                let group = &block.border;
+                for i in (0..group.len()).filter(|&i| !group.is_alive(i)) {
+                    own[i * group.unknowns..(i + 1) * group.unknowns].fill(Force::default());
+                }
+            }
+            slots = rest;
+        }
+        exchange.start(comm);
+        let mut slots = &exchange.slots[..];
+        for (block, takes_part) in blocks.iter_mut().zip(self.takes_part) {
+            let (border, rest) = slots.split_at(block.border.force_count());
+            if *takes_part {
+                let sink = Sink::Nodes { forces: &mut self.forces, border };
+                block.probe(probe, &self.rows, sink, &self.settings);
+            }
+            slots = rest;
+        }
+        exchange.finish(comm, &mut self.forces);
+    }
+
+    /// Replaces a vector by the operator's image of it.
+    fn apply(&mut self, v: &[[f64; 3]], image: &mut [[f64; 3]], comm: &mut dyn Communicator) {
+        for ((row, v), scale) in self.rows.iter_mut().zip(v).zip(&self.scale) {
+            for i in 0..3 {
+                row.0[4 + i] = v[i] * scale[i];
+            }
+        }
+        self.pass(Probe::Stiffness, comm);
+        for ((image, force), scale) in image.iter_mut().zip(&self.forces).zip(&self.scale) {
+            for i in 0..3 {
+                // Passes subtract.
+                image[i] = -force.0[i] * scale[i];
+            }
+        }
+    }
+
+    /// a · b over all ranks, each node once.
+    fn product(&self, a: &[[f64; 3]], b: &[[f64; 3]], comm: &mut dyn Communicator) -> f64 {
+        let mut sum = [ExactSum::new()];
+        for ((a, b), _) in a.iter().zip(b).zip(&self.domain.nodes.owned).filter(|(_, owned)| **owned) {
+            (0..3).for_each(|i| sum[0].add(a[i] * b[i]));
+        }
+        ExactSum::merge_ranks(&mut sum, comm);
+        sum[0].value()
+    }
+
+    /// Normal numbers that depend on unknown and step alone, 0 where nothing moves.
+    fn start(&self, step: u64) -> Vec<[f64; 3]> {
+        let normal = |file: u32, axis: usize| {
+            let mut dice = Dice(step.wrapping_mul(0xd134_2543_de82_ef95) ^ (3 * u64::from(file) + axis as u64));
+            let (radius, angle) = (libm::sqrt(-2.0 * libm::log(dice.next())), std::f64::consts::TAU * dice.next());
+            radius * libm::cos(angle)
+        };
+        let unknowns = self.domain.nodes.file.iter().zip(&self.scale);
+        unknowns.map(|(&file, scale)| [0, 1, 2].map(|i| if scale[i] > 0.0 { normal(file, i) } else { 0.0 })).collect()
+    }
+
+    /// 2 √((1 − ε)/θ) after as many Lanczos iterations as the number of unknowns asks for; infinite where nothing moves.
+    fn stable_step(&mut self, step: u64, comm: &mut dyn Communicator) -> f64 {
+        let mut v = self.start(step);
+        let mut free = [self.domain.nodes.owned.iter().zip(&self.scale).fold(0u64, |count, (owned, scale)| {
+            count + if *owned { scale.iter().filter(|scale| **scale > 0.0).count() as u64 } else { 0 }
+        })];
+        comm.all_sum(&mut free);
+        let length = self.product(&v, &v, comm).sqrt();
+        if length == 0.0 {
+            return f64::INFINITY;
+        }
+        v.iter_mut().flatten().for_each(|v| *v /= length);
+        let mut before = vec![[0.0; 3]; v.len()];
+        let mut image = vec![[0.0; 3]; v.len()];
+        let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
+        for _ in 0..iterations(free[0]) {
+            self.apply(&v, &mut image, comm);
+            let along = self.product(&v, &image, comm);
+            let last = beside.last().copied().unwrap_or(0.0);
+            for ((image, v), before) in image.iter_mut().zip(&v).zip(&before) {
+                for i in 0..3 {
+                    image[i] -= along * v[i] + last * before[i];
+                }
+            }
+            diagonal.push(along);
+            let rest = self.product(&image, &image, comm).sqrt();
+            // What is left is round-off: the whole space has been seen.
+            if rest.partial_cmp(&(1e-10 * along.abs())) != Some(std::cmp::Ordering::Greater) {
+                break;
+            }
+            beside.push(rest);
+            std::mem::swap(&mut before, &mut v);
+            for (v, image) in v.iter_mut().zip(&image) {
+                *v = image.map(|image| image / rest);
+            }
+        }
+        let largest = largest_eigenvalue(&diagonal, &beside);
+        if largest > 0.0 { 2.0 * ((1.0 - MISSED) / largest).sqrt() } else { f64::INFINITY }
+    }
+}
+
+/// Iterations after which the chance of missing more than ε of the largest eigenvalue of so many unknowns is small enough.
+fn iterations(unknowns: u64) -> u64 {
+    let wanted = libm::log(1.648 * (unknowns as f64).sqrt() / CHANCE) / MISSED.sqrt();
+    ((0.5 * (wanted + 1.0)).ceil() as u64).clamp(1, unknowns.max(1))
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix, from above by bisection with Sturm's sequence.
+fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
+    let at = |i: usize| beside.get(i).copied().unwrap_or(0.0);
+    let reach = |i: usize| at(i) + if i > 0 { at(i - 1) } else { 0.0 };
+    let count = diagonal.len();
+    // The last of `beside` leads out of the matrix.
+    let inner = |i: usize| if i + 1 < count { at(i) } else { 0.0 };
+    let (mut low, mut high) = (0.0f64, 0.0f64);
+    for (i, d) in diagonal.iter().enumerate() {
+        low = low.max(*d);
+        high = high.max(d + reach(i));
+    }
+    let is_above = |x: f64| {
+        let mut q = 1.0;
+        (0..count).all(|i| {
+            let square = if i > 0 { inner(i - 1) * inner(i - 1) / q } else { 0.0 };
+            q = diagonal[i] - x - square;
+            q < 0.0
+        })
+    };
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if is_above(middle) { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// Numbers that look random and follow from a seed, above 0 and below 1 (splitmix64: Steele, Lea and Flood 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The matrix with 2 on its diagonal and −1 beside it has the eigenvalues 2 − 2 cos(kπ/(n + 1)).
+    #[test]
+    fn the_largest_eigenvalue_of_a_chain() {
+        for n in [1usize, 2, 5, 40] {
+            let found = largest_eigenvalue(&vec![2.0; n], &vec![1.0; n]);
+            let exact = 2.0 + 2.0 * (std::f64::consts::PI / (n as f64 + 1.0)).cos();
+            assert!((found / exact - 1.0).abs() < 1e-12, "{n}: {found} is not {exact}");
+        }
+    }
+
+    #[test]
+    fn iterations_grow_with_the_logarithm_of_the_unknowns() {
+        assert_eq!([1, 100, 10_000, 3_000_000].map(iterations), [1, 35, 38, 43]);
+    }
+}
