@@ -250,7 +250,8 @@ impl Solver {
         comm.enter(Traffic::Erosion);
         self.erode(comm);
         comm.enter(Traffic::Elements);
-        let kept = (self.step == 0).then(|| self.keep_steps());
+        // Where the mesh as a whole bounds the step, a few elements do not.
+        let kept = (self.step == 0 && self.global_step.is_none()).then(|| self.keep_steps());
         self.internal_forces(comm);
         comm.enter(Traffic::Step);
         let agreed = match self.agree(request, comm) {

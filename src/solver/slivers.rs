@@ -70,7 +70,7 @@ impl Solver {
             ExactSum::merge_ranks(&mut sum, comm);
             sum[0].value()
         };
-        let least = self.stable_step;
+        let least = self.own_step;
         let all = sum(&mut own.iter().map(|(_, mass, _)| *mass), comm);
         let added = |gain: f64, comm: &mut dyn Communicator| {
             sum(&mut own.iter().filter(|(step, ..)| *step < gain * least).map(|one| missing(one, gain * least)), comm)
