@@ -69,8 +69,7 @@ fn spin_correction<V: Lanes>(u: &Sym3<V>, z: &[V; 3]) -> [V; 3] {
 /// ∂v_i/∂x_j, and returns the strain increment in the frame.
 ///
 /// The spin takes the stretch at the start of the step, and its error falls with the step. With `MIDDLE` a first try finds the
-/// stretch in the middle, from which the spin is taken anew: the error falls with the square of the step, for a fortieth
-/// of what an element with one point costs.
+/// stretch in the middle, from which the spin is taken anew: the error falls with the square of the step.
 #[inline(always)]
 pub fn advance<V: Lanes, const MIDDLE: bool>(
     velocity_gradient: &Matrix3<V>,
