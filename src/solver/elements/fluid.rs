@@ -11,13 +11,13 @@ const LARGEST_GROWTH: f64 = 0.1;
 const LARGEST_SHRINKAGE: f64 = 0.2;
 
 /// A corner is held when its Jacobian is below this part of the volume.
-pub const CLOSE: f64 = 0.3;
+const CLOSE: f64 = 0.3;
 
 /// Strength of the brake on a closing corner, and of what brings one back, at a Jacobian of zero. They are those of an
 /// element alone; its neighbours make nodes eight times as heavy.
-pub const BRAKE: f64 = 20.0;
+const BRAKE: f64 = 20.0;
 /// See [`BRAKE`].
-pub const BACK: f64 = 100.0;
+const BACK: f64 = 100.0;
 
 /// By how much the stable step is shortened by them.
 const SHORTER: f64 = 12.0;
@@ -25,10 +25,10 @@ const SHORTER: f64 = 12.0;
 /// A corner may close by this part of its Jacobian in a step, or of a tenth of the volume where it is less.
 const LARGEST_CLOSING: f64 = 0.5;
 /// See [`LARGEST_CLOSING`].
-pub const LEAST_ROOM: f64 = 0.1;
+const LEAST_ROOM: f64 = 0.1;
 
 /// The areas of a corner do not count as less than this part of B:B, that a flat corner is not given a boundless force.
-pub const LEAST_REACH: f64 = 0.05;
+const LEAST_REACH: f64 = 0.05;
 
 /// The largest step in which a volume that grows at `rate` times itself does so by no more than it may; `otherwise` where that
 /// is smaller, or no number.
@@ -41,14 +41,60 @@ pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
     growing.min(shrinking).min(otherwise)
 }
 
-/// The stable step of an element whose corners are held with a weight of at most `most`, 0 where none is, while one closes by the part
-/// `closing` of its room in a unit of time.
-#[inline(always)]
-pub fn held_step<V: Lanes>(stable_step: V, most: V, closing: V) -> V {
-    let limit = V::splat(LARGEST_CLOSING) / closing.max(V::splat(f64::MIN_POSITIVE));
-    let slower = stable_step / (V::splat(1.0) + V::splat(SHORTER) * most);
-    // In this order a NaN of the element's own step stays.
-    V::select_less(V::splat(0.0), most, limit.min(slower), stable_step)
+/// What holds the corners of an element, and what that costs its stable step.
+pub struct Brake<V> {
+    volume: V,
+    share: V,
+    inverse_step: V,
+    start: V,
+    inverse: V,
+    least_reach: V,
+    most: V,
+    closing: V,
+}
+
+impl<V: Lanes> Brake<V> {
+    /// Of an element with this volume, mass at a corner, stable step and B_iI B_iI.
+    #[inline(always)]
+    pub fn new([volume, mass, stable_step, b_squared]: [V; 4]) -> Brake<V> {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
+        let inverse_step = one / stable_step;
+        Brake {
+            volume,
+            share: mass * inverse_step,
+            inverse_step,
+            start: V::splat(CLOSE) * volume,
+            inverse: one / (volume * V::splat(CLOSE)),
+            least_reach: b_squared * V::splat(LEAST_REACH),
+            most: zero,
+            closing: zero,
+        }
+    }
+
+    /// Force Λ on the Jacobian of a corner, given its rate and `reach`, the sum of the squares of its derivatives.
+    #[inline(always)]
+    pub fn force(&mut self, jacobian: V, rate: V, reach: V) -> V {
+        let zero = V::splat(0.0);
+        let missing = (self.start - jacobian).max(zero);
+        let weight = (missing * self.inverse).min(V::splat(1.0));
+        self.most = weight.max(self.most);
+        let brake = rate.min(zero) * V::splat(BRAKE);
+        let back = missing * self.inverse_step * V::splat(BACK);
+        let force = weight * (brake - back) * self.share / reach.max(self.least_reach);
+        let room = jacobian.max(self.volume * V::splat(LEAST_ROOM));
+        self.closing = (-(rate / room)).max(self.closing);
+        // A zero has the sign that it has where no lane came here.
+        force + zero
+    }
+
+    /// The stable step with the forces that have been found.
+    #[inline(always)]
+    pub fn stable_step(&self, without: V) -> V {
+        let limit = V::splat(LARGEST_CLOSING) / self.closing.max(V::splat(f64::MIN_POSITIVE));
+        let slower = without / (V::splat(1.0) + V::splat(SHORTER) * self.most);
+        // In this order a NaN of the element's own step stays.
+        V::select_less(V::splat(0.0), self.most, limit.min(slower), without)
+    }
 }
 
 /// Whether a row has a number below the start of the resistance in this part.

@@ -5,6 +5,7 @@
 pub mod beam;
 mod block;
 pub mod eight_points;
+mod exact;
 pub mod fields;
 mod fluid;
 mod formulation;

@@ -1,29 +1,23 @@
-//! Energy of elements with an equation of state: the work of their corner forces, exactly as the nodes feel it.
-//!
-//! Central differences change the kinetic energy ½ m v⁻·v⁺ between two states by v·½ (Δt̄ₙ fₙ + Δt̄ₙ₊₁ fₙ₊₁), where v is the
-//! velocity between them and Δt̄ the mean of the steps before and after a state. That much, with its sign turned, is booked,
-//! whatever the steps do: forces of both states with the velocities of the one step, at the geometry where they acted. Δt̄ₙ₊₁
-//! is not known when fₙ₊₁ is; Δtₙ stands in for it, and the power that was booked so is kept to make good in the next step.
+//! What an element with an equation of state knows of its step before the law has found its stress; its accounts are those of
+//! [`AccountRows`].
 
 use super::fluid;
 use super::geometry::{Corners, Gradient, Modes, dot, gradient};
 use super::hourglass::Resistance;
-use super::kernel::{Settings, accumulate, hourglass_rates};
+use super::kernel::{Settings, hourglass_rates};
 use super::kinematics::rotation_matrix;
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::Kernel;
+use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
 
-/// Accounts in the order of [`Works`]: internal energy, bulk viscosity, hourglass resistance.
-const ACCOUNTS: [usize; 3] = [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY];
-
-/// Work or power of stress, bulk viscosity and, in fluids, hourglass resistance.
-pub type Works<V> = [V; 3];
+/// Where the accounts are.
+const ROWS: AccountRows =
+    AccountRows { accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY], law: rows::LAW };
 
 /// Rows of the forces on corners, of fluids.
 pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
-    let end = rows::LAW + K::STATE.len() - 1;
-    end - 9..end
+    ROWS.of_corners::<K>()
 }
 
 /// What is known of a step's work before the law has found its stress.
@@ -104,28 +98,15 @@ impl<V: Lanes> Start<V> {
                 array![i in 3 => array![n in 8 => positions[i][n] - time_step * velocities[i][n]]];
             of_modes = of_modes + fluid::power(&before, velocities, &state[corner_rows::<K>()], part);
         }
-        let half_kick = V::splat(0.5 * settings.kick);
-        let end_power = V::load(&state[rows::LAW + K::STATE.len() - 1], part);
-        let overdue = V::splat(0.5 * (settings.time_step - settings.kick)) * end_power;
-        let works = [half_kick * of_stress + overdue, half_kick * viscous * trace(&flow_before), half_kick * of_modes];
-
-        let mut energy = V::load(&state[rows::INTERNAL_ENERGY], part) + V::load(&state[rows::VISCOUS_ENERGY], part);
-        energy = energy + (works[0] + works[1]) + V::splat(0.5 * settings.time_step) * viscous * growth;
-        if K::FLUID {
-            energy = energy + V::load(&state[rows::HOURGLASS_ENERGY], part) + (works[2] + works[2]);
-        }
+        let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
+        let works = ROWS.begin::<V, K>(&powers, state, part, settings.steps());
+        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, settings.steps());
         Start { energy, swept: time_step * growth, flow, growth, works }
     }
 
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
     #[inline(always)]
     pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [Row], part: usize, settings: &Settings) {
-        let half_step = V::splat(0.5 * settings.time_step);
-        for account in 0..if K::FLUID { 3 } else { 2 } {
-            accumulate(self.works[account] + half_step * powers[account], &mut state[ACCOUNTS[account]], part);
-        }
-        let sum = powers[0] + powers[1];
-        let sum = if K::FLUID { sum + powers[2] } else { sum };
-        sum.store(&mut state[rows::LAW + K::STATE.len() - 1], part);
+        ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
     }
 }

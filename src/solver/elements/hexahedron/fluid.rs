@@ -6,7 +6,7 @@ use super::geometry::Corners;
 use super::hourglass::Resistance;
 use crate::lanes::{Lanes, Row, array};
 use crate::mesh::corners::NEIGHBOURS;
-use crate::solver::elements::fluid::{BACK, BRAKE, CLOSE, LEAST_REACH, LEAST_ROOM, SLOWED, any_close, held_step};
+use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
 
 /// Q = α (M/64) q̇/Δt, in space: a mode weighs M/64 per unit of its rate, and is slowed by the part α in a stable step Δt of its
 /// element, whatever its shape.
@@ -94,7 +94,7 @@ pub fn hold<V: Lanes>(
     part: usize,
     [volume, mass, stable_step, b_squared]: [V; 4],
 ) -> Held<V> {
-    let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    let zero = V::splat(0.0);
     let mut held = Held { force: [[zero; 8]; 3], power: zero, stable_step };
     let mut least = Corner::jacobian_of(x, 0);
     for corner in 1..8 {
@@ -106,27 +106,15 @@ pub fn hold<V: Lanes>(
     if !before && !any_close::<V>(&rows[8], part) {
         return held;
     }
-    let inverse_step = one / stable_step;
-    let share = mass * V::splat(0.125) * inverse_step;
-    let (start, inverse) = (V::splat(CLOSE) * volume, one / (volume * V::splat(CLOSE)));
-    let (mut most, mut closing) = (zero, zero);
+    let mut brake = Brake::new([volume, mass * V::splat(0.125), stable_step, b_squared]);
     for corner in 0..8 {
         let c = Corner::of(x, v, corner);
         let own = c.own();
         let reach = (dot(&c.areas[0], &c.areas[0]) + dot(&c.areas[1], &c.areas[1]))
             + (dot(&c.areas[2], &c.areas[2]) + dot(&own, &own));
-        let missing = (start - c.jacobian).max(zero);
-        let weight = (missing * inverse).min(one);
-        most = weight.max(most);
-        let brake = c.rate.min(zero) * V::splat(BRAKE);
-        let back = missing * inverse_step * V::splat(BACK);
-        let force = weight * (brake - back) * share / reach.max(b_squared * V::splat(LEAST_REACH));
-        // A zero has the sign that it has where no lane came here.
-        let force = force + zero;
+        let force = brake.force(c.jacobian, c.rate, reach);
         force.store(&mut rows[corner], part);
         held.power = held.power + force * c.rate;
-        let room = c.jacobian.max(volume * V::splat(LEAST_ROOM));
-        closing = (-(c.rate / room)).max(closing);
         for i in 0..3 {
             held.force[i][corner] = held.force[i][corner] - force * own[i];
             for k in 0..3 {
@@ -135,6 +123,6 @@ pub fn hold<V: Lanes>(
             }
         }
     }
-    held.stable_step = held_step(stable_step, most, closing);
+    held.stable_step = brake.stable_step(stable_step);
     held
 }

@@ -8,6 +8,7 @@ use super::kinematics::{self, Motion};
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
+use crate::solver::elements::exact::Steps;
 use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -37,6 +38,13 @@ pub struct Settings {
     pub quadratic_viscosity: f64,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
+}
+
+impl Settings {
+    /// The step that is booked.
+    pub fn steps(&self) -> Steps {
+        Steps { time_step: self.time_step, kick: self.kick }
+    }
 }
 
 /// What holds for a whole block: numbers, law and hourglass control.

@@ -3,7 +3,7 @@
 
 use super::sections::Corners;
 use crate::lanes::{Lanes, Row, array};
-use crate::solver::elements::fluid::{BACK, BRAKE, CLOSE, LEAST_REACH, LEAST_ROOM, SLOWED, any_close, held_step};
+use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
 
 /// Q = α (M/16) q̇/Δt, in space: the mode weighs M/16 per unit of its rate, and is slowed by the part α in a stable step Δt of its
 /// element, whatever its shape. `mass` is four times that of the lightest corner.
@@ -101,7 +101,6 @@ pub fn hold<V: Lanes>(
     part: usize,
     [area, mass, stable_step, b_squared]: [V; 4],
 ) -> Held<V> {
-    let (zero, one) = (V::splat(0.0), V::splat(1.0));
     let mut held = Held::nothing(stable_step);
     let corners: Corners<V> = array![i in 4 => Corner::jacobian_of(x, i)];
     let least = corners[0].min(corners[1]).min(corners[2].min(corners[3])) / area;
@@ -110,26 +109,14 @@ pub fn hold<V: Lanes>(
     if !before && !any_close::<V>(&rows[8], part) {
         return held;
     }
-    let inverse_step = one / stable_step;
-    let share = mass * V::splat(0.25) * inverse_step;
-    let (start, inverse) = (V::splat(CLOSE) * area, one / (area * V::splat(CLOSE)));
-    let (mut most, mut closing) = (zero, zero);
+    let mut brake = Brake::new([area, mass * V::splat(0.25), stable_step, b_squared]);
     for corner in 0..4 {
         let c = Corner::of(x, v, corner);
         let own = c.own();
         let reach = dot(&c.normals[0], &c.normals[0]) + dot(&c.normals[1], &c.normals[1]) + dot(&own, &own);
-        let missing = (start - c.jacobian).max(zero);
-        let weight = (missing * inverse).min(one);
-        most = weight.max(most);
-        let brake = c.rate.min(zero) * V::splat(BRAKE);
-        let back = missing * inverse_step * V::splat(BACK);
-        let force = weight * (brake - back) * share / reach.max(b_squared * V::splat(LEAST_REACH));
-        // A zero has the sign that it has where no lane came here.
-        let force = force + zero;
+        let force = brake.force(c.jacobian, c.rate, reach);
         force.store(&mut rows[corner], part);
         held.power = held.power + force * c.rate;
-        let room = c.jacobian.max(area * V::splat(LEAST_ROOM));
-        closing = (-(c.rate / room)).max(closing);
         for i in 0..2 {
             held.force[i][corner] = held.force[i][corner] - force * own[i];
             for (k, to) in [(corner + 1) % 4, (corner + 3) % 4].into_iter().enumerate() {
@@ -137,6 +124,6 @@ pub fn hold<V: Lanes>(
             }
         }
     }
-    held.stable_step = held_step(stable_step, most, closing);
+    held.stable_step = brake.stable_step(stable_step);
     held
 }

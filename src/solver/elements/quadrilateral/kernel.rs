@@ -9,6 +9,7 @@ use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::Hourglass;
+use crate::solver::elements::exact::Steps;
 use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -38,6 +39,13 @@ pub struct Settings {
     pub effective_moduli: bool,
     /// Hourglass control.
     pub control: Hourglass,
+}
+
+impl Settings {
+    /// The step that is booked.
+    pub fn steps(&self) -> Steps {
+        Steps { time_step: self.time_step, kick: self.kick }
+    }
 }
 
 /// What holds for a whole block: numbers and law.
