@@ -5,6 +5,7 @@
 //! whatever the steps do: forces of both states with the velocities of the one step, at the geometry where they acted. Δt̄ₙ₊₁
 //! is not known when fₙ₊₁ is; Δtₙ stands in for it, and the power that was booked so is kept to make good in the next step.
 
+use super::state_rows::accumulate;
 use crate::lanes::{Lanes, Row};
 use crate::material::Kernel;
 
@@ -99,7 +100,7 @@ impl AccountRows {
         let half_step = V::splat(0.5 * steps.time_step);
         for account in 0..if K::FLUID { 3 } else { 2 } {
             let row = &mut state[self.accounts[account]];
-            (V::load(row, part) + (works[account] + half_step * powers[account])).store(row, part);
+            accumulate(works[account] + half_step * powers[account], row, part);
         }
         let sum = powers[0] + powers[1];
         let sum = if K::FLUID { sum + powers[2] } else { sum };

@@ -4,6 +4,7 @@
 
 pub mod beam;
 mod block;
+mod bulk_viscosity;
 pub mod eight_points;
 mod exact;
 pub mod fields;
@@ -13,6 +14,7 @@ pub mod hexahedron;
 mod pass;
 pub mod quadrilateral;
 pub mod shell;
+mod state_rows;
 mod step_modulus;
 pub mod truss;
 mod uniaxial;

@@ -5,11 +5,13 @@ use super::{point_rows, rows};
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
+use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, dot, gradient, modes};
 use crate::solver::elements::hexahedron::hourglass::Resistance;
-use crate::solver::elements::hexahedron::kernel::{accumulate, corner_forces, hourglass_rates, lengths, store};
+use crate::solver::elements::hexahedron::kernel::{corner_forces, hourglass_rates, lengths};
 use crate::solver::elements::hexahedron::kinematics::{self, Motion};
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
@@ -114,13 +116,12 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         };
         let bound = (light * operator.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
         let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
-        let quadratic = V::splat(-settings.viscosity.quadratic * settings.viscosity.quadratic) * bound * rate.min(zero);
-        let damping = V::splat(settings.viscosity.linear) + quadratic;
+        let damping = damping(settings.viscosity, bound, rate);
         let viscous = damping * modulus * bound * rate;
         let last = V::load(&state[rows::VISCOUS_STRESS], part);
         viscous.store(&mut state[rows::VISCOUS_STRESS], part);
         accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut state[rows::VISCOUS_ENERGY], part);
-        let stable_step = bound * ((one + damping * damping).sqrt() - damping);
+        let stable_step = damped_step(bound, damping);
         // An element that passed through itself within the step has failed, even if it looks sound at the end.
         let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
 

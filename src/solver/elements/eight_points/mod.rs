@@ -11,7 +11,7 @@ mod kernel;
 use super::hexahedron::hourglass::{AssumedStrain, Either};
 use super::hexahedron::kinematics::rotation_matrix;
 use super::hexahedron::vibration::{FrameRows, Vibration};
-use super::hexahedron::{HasConstantStiffness, mean_power, own_axes};
+use super::hexahedron::{HasConstantStiffness, begin, mean_power, weigh};
 use super::{
     Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Probe, Sample,
     StoredRow, Unfit,
@@ -20,10 +20,8 @@ use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
 use crate::mesh::corners::least_corner;
-use crate::mesh::hexahedron::{least_share, mass_shares};
 use crate::mesh::{Block, Shape};
 use crate::model::{Model, StepModuli};
-use crate::solver::body::centroid;
 use crate::solver::nodes::Nodes;
 use kernel::{EightPointStep, Settings};
 
@@ -144,18 +142,13 @@ impl Formulation for EightPoints {
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
-        let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
-        let own = mass_shares(nodes, corners);
-        shares.copy_from_slice(&own);
-        self.least_share = self.least_share.min(least_share(nodes, &own));
-        density * hexahedron_volume(corners)
+        weigh(element, density, shares, &mut self.least_share)
     }
 
     fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
-        let corners: [[f64; 3]; 8] = element.corners[..].try_into().unwrap_or_default();
-        let axes = own_axes(&corners);
+        let (axes, start) = begin(element);
         unstressed(&axes, own);
-        Start { centre: centroid(&corners), volume: hexahedron_volume(&corners), frame: rotation_matrix(&axes) }
+        start
     }
 
     fn run(&self, pass: Pass, law: &Law, _: f64, settings: &PassSettings) -> PassOutcome {

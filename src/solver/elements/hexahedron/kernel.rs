@@ -8,9 +8,12 @@ use super::kinematics::{self, Motion};
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, Step};
+use crate::model::BulkViscosity;
+use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
 use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
@@ -32,10 +35,8 @@ pub struct Settings {
     pub mu: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Linear bulk viscosity b₁, without dimension.
-    pub linear_viscosity: f64,
-    /// Quadratic bulk viscosity b₂, without dimension.
-    pub quadratic_viscosity: f64,
+    /// Bulk viscosity.
+    pub viscosity: BulkViscosity,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
 }
@@ -56,25 +57,6 @@ pub struct Physics<'a, K, H> {
     pub law: &'a K,
     /// Hourglass control.
     pub control: &'a H,
-}
-
-/// Writes consecutive rows.
-#[inline(always)]
-pub(in crate::solver::elements) fn store<V: Lanes, const N: usize>(
-    values: [V; N],
-    state: &mut [Row],
-    first: usize,
-    part: usize,
-) {
-    let rows = &mut state[first..first + N];
-    for i in 0..N {
-        values[i].store(&mut rows[i], part);
-    }
-}
-
-#[inline(always)]
-pub(in crate::solver::elements) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
-    (V::load(row, part) + value).store(row, part);
 }
 
 impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
@@ -169,15 +151,14 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
     let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
-    let quadratic = quadratic_damping(settings, bound, rate);
-    let damping = V::splat(settings.linear_viscosity) + quadratic;
+    let damping = damping(settings.viscosity, bound, rate);
     let viscous = damping * modulus * bound * rate;
     let last = V::load(&own[rows::VISCOUS_STRESS], part);
     viscous.store(&mut own[rows::VISCOUS_STRESS], part);
     if !K::EQUATION {
         accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
     }
-    let stable_step = bound * ((V::splat(1.0) + damping * damping).sqrt() - damping);
+    let stable_step = damped_step(bound, damping);
 
     // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
     let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
@@ -294,13 +275,6 @@ pub(in crate::solver::elements) fn lengths<V: Lanes>(
     let [l1, l2, l3] = array![i in 3 => along[i].max(floor)];
     let share = V::splat(0.125) / stiffness_measure;
     [l1.max(l2 * l3 * share), l2.max(l3 * l1 * share), l3.max(l1 * l2 * share)]
-}
-
-/// −b₂² Δt̂ min(0, tr D): with b₁ the damping ratio of the element's highest mode.
-#[inline(always)]
-fn quadratic_damping<V: Lanes>(settings: &Settings, bound: V, rate: V) -> V {
-    let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity);
-    quadratic * bound * rate.min(V::splat(0.0))
 }
 
 /// f_iI = T_ij B_jI + Q_iα γ_αI at the end of the step. The part of γ that makes it orthogonal to linear fields

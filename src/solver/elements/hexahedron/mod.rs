@@ -114,18 +114,13 @@ impl Formulation for Hexahedron {
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
-        let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
-        let own = mass_shares(nodes, corners);
-        shares.copy_from_slice(&own);
-        self.least_share = self.least_share.min(least_share(nodes, &own));
-        density * hexahedron_volume(corners)
+        weigh(element, density, shares, &mut self.least_share)
     }
 
     fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
-        let corners: [[f64; 3]; 8] = element.corners[..].try_into().unwrap_or_default();
-        let axes = own_axes(&corners);
+        let (axes, start) = begin(element);
         unstressed(&axes, own);
-        Start { centre: centroid(&corners), volume: hexahedron_volume(&corners), frame: rotation_matrix(&axes) }
+        start
     }
 
     fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome {
@@ -139,8 +134,7 @@ impl Formulation for Hexahedron {
             dilatational: moduli.dilatational(),
             mu: 0.5 * moduli.two_mu,
             poisson: moduli.poisson(),
-            linear_viscosity: settings.bulk_viscosity.linear,
-            quadratic_viscosity: settings.bulk_viscosity.quadratic,
+            viscosity: settings.bulk_viscosity,
             effective_moduli: settings.moduli == StepModuli::Effective,
         };
         law.accept(OfLaw { control: self.hourglass, pass, settings })
@@ -197,6 +191,22 @@ impl Formulation for Hexahedron {
         // An element that dies inverted may have moved beyond all measure.
         if work.is_finite() { work } else { 0.0 }
     }
+}
+
+/// Mass of an element; its shares of the corners, and the least of them that any element has had.
+pub(super) fn weigh(element: &Sample, density: f64, shares: &mut [f64], least: &mut f64) -> f64 {
+    let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
+    let own = mass_shares(nodes, corners);
+    shares.copy_from_slice(&own);
+    *least = least.min(least_share(nodes, &own));
+    density * hexahedron_volume(corners)
+}
+
+/// The frame of an element in its mesh, as a quaternion, and what its law begins with.
+pub(super) fn begin(element: &NewElement) -> ([f64; 4], Start) {
+    let corners: [[f64; 3]; 8] = element.corners[..].try_into().unwrap_or_default();
+    let axes = own_axes(&corners);
+    (axes, Start { centre: centroid(&corners), volume: hexahedron_volume(&corners), frame: rotation_matrix(&axes) })
 }
 
 /// Power of a stress in space that is uniform in an element, with these velocities, where its corners were a step before.

@@ -8,10 +8,12 @@ use super::rows;
 use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Step};
-use crate::model::Hourglass;
+use crate::model::{BulkViscosity, Hourglass};
+use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
 use crate::solver::elements::fluid::gentle_step;
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
 /// Numbers that hold for a whole block and step.
@@ -31,10 +33,8 @@ pub struct Settings {
     pub mu: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Linear bulk viscosity b₁.
-    pub linear_viscosity: f64,
-    /// Quadratic bulk viscosity b₂.
-    pub quadratic_viscosity: f64,
+    /// Bulk viscosity.
+    pub viscosity: BulkViscosity,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
     /// Hourglass control.
@@ -57,20 +57,6 @@ pub struct Physics<'a, K> {
     pub law: &'a K,
     /// Plane strain or axisymmetry. Asked at run time: kernels of each would take twice as long to compile.
     pub section: Section,
-}
-
-/// Writes consecutive rows.
-#[inline(always)]
-fn store<V: Lanes, const N: usize>(values: [V; N], state: &mut [Row], first: usize, part: usize) {
-    let rows = &mut state[first..first + N];
-    for i in 0..N {
-        values[i].store(&mut rows[i], part);
-    }
-}
-
-#[inline(always)]
-pub(super) fn accumulate<V: Lanes>(value: V, row: &mut Row, part: usize) {
-    (V::load(row, part) + value).store(row, part);
 }
 
 #[inline(always)]
@@ -197,15 +183,14 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         };
         let bound = (V::splat(4.0) * elastic / (square * modulus)).sqrt();
         let rate = gradient[0][0] + gradient[1][1] + hoop;
-        let quadratic = V::splat(-settings.quadratic_viscosity * settings.quadratic_viscosity) * bound * rate.min(zero);
-        let damping = V::splat(settings.linear_viscosity) + quadratic;
+        let damping = damping(settings.viscosity, bound, rate);
         let viscous = damping * modulus * bound * rate;
         let last = V::load(&own[rows::VISCOUS_STRESS], part);
         viscous.store(&mut own[rows::VISCOUS_STRESS], part);
         if !K::EQUATION {
             accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
         }
-        let stable_step = bound * ((one + damping * damping).sqrt() - damping);
+        let stable_step = damped_step(bound, damping);
 
         // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
         let total = rotated(&stress, &frame, zero);

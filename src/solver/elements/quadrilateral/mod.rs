@@ -139,8 +139,7 @@ impl Formulation for Quadrilateral {
             dilatational: moduli.dilatational(),
             mu: 0.5 * moduli.two_mu,
             poisson: moduli.poisson(),
-            linear_viscosity: settings.bulk_viscosity.linear,
-            quadratic_viscosity: settings.bulk_viscosity.quadratic,
+            viscosity: settings.bulk_viscosity,
             effective_moduli: settings.moduli == StepModuli::Effective,
             control: self.hourglass,
         };

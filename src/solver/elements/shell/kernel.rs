@@ -8,7 +8,9 @@ use super::{point_rows, rows};
 use crate::lanes::{CHUNK, Lanes, Row, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
+use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::state_rows::accumulate;
 
 /// What holds for all shells of a block in a step.
 #[derive(Debug, Clone, Copy)]
@@ -206,7 +208,7 @@ impl<K: Kernel> ShellStep<K> {
             stiffest,
         };
         let volume = area * half * (old_thickness + thickness);
-        add(half * work * volume, &mut own[rows::INTERNAL_ENERGY], part);
+        accumulate(half * work * volume, &mut own[rows::INTERNAL_ENERGY], part);
         found.store(own, part);
         found
     }
@@ -277,7 +279,7 @@ impl<K: Kernel> ShellStep<K> {
             now[i] = elastic + viscous;
             work = work + (old + last + now[i]) * conjugate[i];
         }
-        add(work * step * V::splat(0.5), &mut state[rows::HOURGLASS_ENERGY], part);
+        accumulate(work * step * V::splat(0.5), &mut state[rows::HOURGLASS_ENERGY], part);
         Resistance {
             membrane: [now[0], now[1]],
             bending: [now[2], now[3]],
@@ -291,20 +293,13 @@ impl<K: Kernel> ShellStep<K> {
     fn viscous<V: Lanes>(&self, rates: &Rates<V>, area: V, found: &Found<V>, state: &mut [Row], part: usize) -> V {
         let rate = rates.strain[0] + rates.strain[1];
         let bound = V::load(&state[rows::STEP], part);
-        let damping = self.damping(rate, bound);
+        let damping = damping(self.viscosity, bound, rate);
         let viscous = damping * V::splat(self.plane_modulus()) * bound * rate;
         let last = V::load(&state[rows::VISCOUS_STRESS], part);
         viscous.store(&mut state[rows::VISCOUS_STRESS], part);
         let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;
-        add(work, &mut state[rows::VISCOUS_ENERGY], part);
+        accumulate(work, &mut state[rows::VISCOUS_ENERGY], part);
         viscous
-    }
-
-    /// b₁ − b₂² Δt min(0, tr d), the damping ratio of the highest mode.
-    #[inline(always)]
-    fn damping<V: Lanes>(&self, rate: V, bound: V) -> V {
-        let quadratic = V::splat(-self.viscosity.quadratic * self.viscosity.quadratic);
-        V::splat(self.viscosity.linear) + quadratic * bound * rate.min(V::splat(0.0))
     }
 
     /// E/(1 − ν²).
@@ -338,8 +333,8 @@ impl<K: Kernel> ShellStep<K> {
         }
         let changed = V::load(&state[rows::CHANGED], part);
         let bound = V::load(&state[rows::STEP], part) * (one - changed) / found.stiffest.sqrt();
-        let damping = self.damping(e11 + e22, bound);
-        bound * ((one + damping * damping).sqrt() - damping)
+        let damping = damping(self.viscosity, bound, e11 + e22);
+        damped_step(bound, damping)
     }
 
     /// Finds the steps of those lanes again that have changed much.
@@ -399,11 +394,6 @@ impl<V: Lanes> Found<V> {
 #[inline(always)]
 fn magnitude<V: Lanes>(a: V) -> V {
     a.max(V::splat(0.0) - a)
-}
-
-#[inline(always)]
-fn add<V: Lanes>(value: V, row: &mut Row, part: usize) {
-    (V::load(row, part) + value).store(row, part);
 }
 
 /// Drill resistance over G t A/4. Bending moments destabilise the drill of a strip that rolls up, so that it grows with them:
