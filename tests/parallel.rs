@@ -215,6 +215,35 @@ fn a_plate_erodes() {
     on_any_number_of_ranks(&lighter("perforation", 120e-6, &words));
 }
 
+/// In two dimensions, about the axis: contact of side sets with friction, foam, plasticity, histories.
+#[test]
+fn a_container_drops() {
+    let words =
+        [("  24, 2\n", "  12, 1\n"), ("2, 58", "1, 29"), ("2, 2", "1, 1"), ("24, 10", "12, 5"), ("6, 38", "3, 19")];
+    let desk = lighter("container_drop", 1.2e-3, &words);
+    on_any_number_of_ranks(&desk);
+    however_contact_is_shared_out(&desk, &["2", "3", "7"]);
+}
+
+/// In plane strain: a ring that folds on itself and on a block that stands on a rough line, and erodes.
+#[test]
+fn a_ring_folds_in_the_plane() {
+    let recipe = "TITLE\n ring\nRING, 1, 0.04, 0.05, 3, 48\nTRANSLATE, 1, 0.12, 0.0905\n\
+                  RECTANGLE, 2, 0., 0., 0.24, 0.04, 20, 4\nSIDE SET FACE, 300, 2, FRONT\nSIDE SET FACE, 400, 2, RIGHT\n";
+    let metal =
+        "YOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nYIELD STRESS = 1.E8\nHARDENING MODULUS = 2.E8\nBETA = 1.\nEND\n";
+    let deck = format!(
+        "TITLE\n ring\nPLANE STRAIN\nTERMINATION TIME, 6.E-4\nOUTPUT TIME, 5.E-5\nPLOT TIME, 1.E-4\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, REACTION, CONTACT\nPLOT ELEMENT, STRESS, STRAIN, ENERGY\nPLOT STATE, EQPS\n\
+         CONTACT MATERIAL\nCONTACT DATA, ALL, ALL, 0.2\nDEATH, 1, EQPS, MAX, 0.15\nSILENT BC, 400\nHISTORY BLOCK, 1\n\
+         INITIAL VELOCITY MATERIAL, 1, 5., -150.\nRIGID SURFACE, 300, 0., 0., 0., 1., 0.1\n\
+         MATERIAL, 1, ELASTIC PLASTIC, 2700.\n{metal}MATERIAL, 2, ELASTIC PLASTIC, 2700.\n{metal}EXIT\n"
+    );
+    let desk = desk_of(&deck, recipe);
+    on_any_number_of_ranks(&desk);
+    however_contact_is_shared_out(&desk, &["2", "7"]);
+}
+
 #[test]
 fn more_ranks_than_elements() {
     let desk = Desk::new();

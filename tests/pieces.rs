@@ -7,7 +7,7 @@ use program::{Desk, box_mesh};
 use std::collections::BTreeMap;
 use std::fs;
 use urto::exodus::{self, Tolerance};
-use urto::mesh::{HEX_SIDES, Mesh};
+use urto::mesh::{Mesh, Shape};
 
 /// Two blocks that fly apart from a floor, with contact, friction and elements that go.
 const DECK: &str = "TITLE\n  two blocks  \nTERMINATION TIME, 2.E-5\nPLOT TIME, 2.E-6\n\
@@ -22,10 +22,36 @@ fn two_blocks() -> Mesh {
     box_mesh([2, 3, 4], [0.02, 0.03, 0.05], true)
 }
 
+/// The same in the plane, about an axis or of unit thickness.
+fn plane_deck(analysis: &str) -> String {
+    DECK.replace("100, 0., 0., 0., 0., 0., 1., 0.1", "100, 0., 0., 0., 1., 0.1")
+        .replace("1., -2., -300.", "0., -300.")
+        .replace("3., 0.5, -300.", "3., -300.")
+        .replace("EXIT", &format!("{analysis}\nEXIT"))
+}
+
+/// Two rectangles above each other and a triangle beside them, with a node of no element.
+fn two_rectangles() -> Mesh {
+    let recipe = "TITLE\n two\nRECTANGLE, 1, 0., 0., 0.02, 0.02, 4, 4\nRECTANGLE, 2, 0., 0.02, 0.02, 0.03, 3, 5\n\
+                  NODE SET PLANE, 1, X, 0.\nNODE SET BLOCK, 7, 2\nSIDE SET FACE, 100, 1, FRONT\nSIDE SET FACE, 200, 2, RIGHT\n";
+    let mut mesh = urto::mesher::make(recipe, "two.mesh", 1).unwrap_or_else(|found| panic!("{}", found.render(false)));
+    let last = mesh.coordinates.len() as u32;
+    mesh.coordinates.extend([[0.03, 0.0, 0.0], [0.04, 0.0, 0.0], [0.03, 0.01, 0.0], [1.0, 1.0, 0.0]]);
+    mesh.node_ids.extend((1..=4).map(|n| i64::from(last) + n));
+    // Behind the elements of the second block, so that sides keep their elements.
+    mesh.blocks[1].nodes.extend([last, last + 1, last + 2, last + 2]);
+    mesh.element_ids.push(mesh.element_ids.len() as i64 + 1);
+    mesh
+}
+
 /// A desk with the deck and a mesh, and the results of an unsplit run, `whole.e`.
 fn desk(mesh: &Mesh) -> Desk {
+    desk_of(DECK, mesh)
+}
+
+fn desk_of(deck: &str, mesh: &Mesh) -> Desk {
     let desk = Desk::new();
-    desk.put("two.i", DECK);
+    desk.put("two.i", deck);
     desk.put_mesh("two.g", mesh);
     desk.urto(&["two.i", "-q", "--ranks", "2", "-o", "whole"]).with(0);
     desk
@@ -63,6 +89,23 @@ fn joined_pieces_are_the_unsplit_file() {
         let base = format!("split{ranks}");
         split(&desk, ranks, &base);
         assert_joined(&desk, &base);
+    }
+}
+
+/// In two dimensions, with two coordinates, sides that are edges, and a triangle.
+#[test]
+fn joined_pieces_of_the_plane_are_the_unsplit_file() {
+    for analysis in ["AXISYMMETRIC", "PLANE STRAIN"] {
+        let desk = desk_of(&plane_deck(analysis), &two_rectangles());
+        assert!(
+            !desk.results("whole.e").nodal_names().iter().any(|name| name == "VELZ"),
+            "the plane has two directions"
+        );
+        for ranks in [1, 3, 8] {
+            let base = format!("split{ranks}");
+            split(&desk, ranks, &base);
+            assert_joined(&desk, &base);
+        }
     }
 }
 
@@ -113,11 +156,24 @@ fn list(piece: &netcdf::File, name: &str) -> Vec<i64> {
     piece.variable(name).map_or(Vec::new(), |variable| variable.get_values(..).expect("integers"))
 }
 
-/// For each other rank the faces across which a piece says that it has elements, by the numbers of their nodes.
-fn across(path: &std::path::Path) -> BTreeMap<i64, Vec<[u32; 4]>> {
+/// Nodes of a side of an element, by their numbers, ascending: of a face, or of an edge in the plane.
+fn side(mesh: &Mesh, shape: Shape, nodes: &[u32], side: usize) -> Vec<i64> {
+    let mut numbers: Vec<i64> =
+        shape.sides()[side].iter().map(|&corner| mesh.node_ids[nodes[corner] as usize]).collect();
+    numbers.sort_unstable();
+    numbers
+}
+
+/// Every element with its shape.
+fn shaped(mesh: &Mesh) -> impl Iterator<Item = (Shape, &[u32])> {
+    mesh.blocks.iter().flat_map(|block| block.nodes.chunks(block.shape.corners()).map(|nodes| (block.shape, nodes)))
+}
+
+/// For each other rank the sides across which a piece says that it has elements.
+fn across(path: &std::path::Path) -> BTreeMap<i64, Vec<Vec<i64>>> {
     let piece = netcdf::open(path).expect("a piece");
     let mesh = exodus::Results::open(path).expect("a piece").mesh().expect("its mesh");
-    let elements: Vec<[u32; 8]> = mesh.hexahedra().copied().collect();
+    let elements: Vec<(Shape, &[u32])> = shaped(&mesh).collect();
     let [sides, given, ranks] = ["e_comm_sids", "e_comm_eids", "e_comm_proc"].map(|name| list(&piece, name));
     let mut start = 0;
     let mut map = BTreeMap::new();
@@ -125,25 +181,20 @@ fn across(path: &std::path::Path) -> BTreeMap<i64, Vec<[u32; 4]>> {
         let entries = start..end as usize;
         start = end as usize;
         assert!(ranks[entries.clone()].iter().all(|&told| told == rank), "entries stand under their rank");
-        let face = |entry: usize| {
-            let corners = HEX_SIDES[sides[entry] as usize - 1];
-            let mut nodes = corners.map(|c| mesh.node_ids[elements[given[entry] as usize - 1][c] as usize] as u32);
-            nodes.sort_unstable();
-            nodes
+        let side = |entry: usize| {
+            let (shape, nodes) = elements[given[entry] as usize - 1];
+            side(&mesh, shape, nodes, sides[entry] as usize - 1)
         };
-        map.insert(rank, entries.map(face).collect());
+        map.insert(rank, entries.map(side).collect());
     }
     assert_eq!(start, given.len(), "every entry belongs to a rank");
     map
 }
 
-/// The element maps of Nemesis against all faces of the whole mesh that elements of two pieces have.
-#[test]
-fn pieces_know_whose_elements_are_across() {
-    let mesh = two_blocks();
-    let desk = desk(&mesh);
+/// The element maps of Nemesis against all sides of the whole mesh that elements of two pieces have.
+fn assert_across(desk: &Desk, mesh: &Mesh) {
     for ranks in [1, 3, 8] {
-        split(&desk, ranks, "map");
+        split(desk, ranks, "map");
         let paths: Vec<_> = (0..ranks).map(|r| exodus::pieces::piece_path(&desk.path("map.e"), ranks, r)).collect();
         let owners: BTreeMap<i64, i64> = (0..)
             .zip(&paths)
@@ -152,31 +203,35 @@ fn pieces_know_whose_elements_are_across() {
                 numbers.into_iter().map(move |number| (number, rank))
             })
             .collect();
-        let mut sharers: BTreeMap<[u32; 4], Vec<i64>> = BTreeMap::new();
-        for (nodes, number) in mesh.hexahedra().zip(&mesh.element_ids) {
-            for side in HEX_SIDES {
-                let mut face = side.map(|corner| mesh.node_ids[nodes[corner] as usize] as u32);
-                face.sort_unstable();
-                sharers.entry(face).or_default().push(owners[number]);
+        let mut sharers: BTreeMap<Vec<i64>, Vec<i64>> = BTreeMap::new();
+        for ((shape, nodes), number) in shaped(mesh).zip(&mesh.element_ids) {
+            for place in 0..shape.sides().len() {
+                sharers.entry(side(mesh, shape, nodes, place)).or_default().push(owners[number]);
             }
         }
-        let mut expected: BTreeMap<(i64, i64), Vec<[u32; 4]>> = BTreeMap::new();
-        for (face, ranks) in sharers {
+        let mut expected: BTreeMap<(i64, i64), Vec<Vec<i64>>> = BTreeMap::new();
+        for (side, ranks) in sharers {
             if let [a, b] = ranks[..]
                 && a != b
             {
-                expected.entry((a, b)).or_default().push(face);
-                expected.entry((b, a)).or_default().push(face);
+                expected.entry((a, b)).or_default().push(side.clone());
+                expected.entry((b, a)).or_default().push(side);
             }
         }
-        let told: BTreeMap<(i64, i64), Vec<[u32; 4]>> = (0..)
+        let told: BTreeMap<(i64, i64), Vec<Vec<i64>>> = (0..)
             .zip(&paths)
-            .flat_map(|(rank, path)| across(path).into_iter().map(move |(other, faces)| ((rank, other), faces)))
+            .flat_map(|(rank, path)| across(path).into_iter().map(move |(other, sides)| ((rank, other), sides)))
             .collect();
         // Ascending by nodes in the whole, on both sides.
         assert_eq!(told, expected, "on {ranks} ranks");
         assert_eq!(told.is_empty(), ranks == 1);
     }
+}
+
+#[test]
+fn pieces_know_whose_elements_are_across() {
+    assert_across(&desk(&two_blocks()), &two_blocks());
+    assert_across(&desk_of(&plane_deck("PLANE STRAIN"), &two_rectangles()), &two_rectangles());
 }
 
 #[test]

@@ -54,6 +54,139 @@ fn q6_rods_swap_their_velocities() {
     }
 }
 
+/// A bar along y in two dimensions: what it is, its analysis, its x from and to, and the area of its section. They are so
+/// thin that the step, and the viscosity that goes with it, are about those of the hexahedra's bar of 10 mm.
+const BARS: [(&str, &str, [f64; 2], f64); 3] = [
+    ("rod", "AXISYMMETRIC", [0.0, 0.01], std::f64::consts::PI * 1e-4),
+    ("ring", "AXISYMMETRIC", [0.1, 0.107], std::f64::consts::PI * (0.107 * 0.107 - 0.1 * 0.1)),
+    ("strip", "PLANE STRAIN", [0.1, 0.107], 0.007),
+];
+
+/// Speed of a wave along a bar of the rods' steel.
+fn bar_speed() -> f64 {
+    (200e9f64 / 7850.0).sqrt()
+}
+
+/// V-20: a bar on a rigid line: pressure ρ c v for 2 L/c, then it flies back.
+#[test]
+fn v20_bars_rebound_from_a_rigid_line() {
+    for (what, analysis, [from, to], area) in BARS {
+        let mesh =
+            recipe(&format!("RECTANGLE, 1, {from}, 0., {}, 1., 1, 50\nSIDE SET FACE, 100, 1, FRONT\n", to - from));
+        let deck = format!(
+            "TITLE\n bar\n{analysis}\nTERMINATION TIME, 5.E-4\nOUTPUT TIME, 1.E-6\nPLOT TIME, 1.E-8\nPLOT NODAL, REACTION\n\
+             RIGID SURFACE, 100, 0., 0., 0., 1.\nINITIAL VELOCITY MATERIAL, 1, 0., -5.\nMATERIAL, 1, ELASTIC, 7850.\n{STEEL}"
+        );
+        let hit = run(&deck, &mesh);
+        let (mass, speed) = (7850.0 * area, bar_speed());
+        let force: Vec<(f64, f64)> = hit.states.iter().map(|s| (s.time, s.nodal("RY").iter().sum())).collect();
+        let duration = force.iter().rev().find(|(_, f)| *f > 0.0).map_or(0.0, |(time, _)| *time);
+        close("V-20", &format!("{what}: duration 2L/c [s]"), duration, 2.0 / speed, 0.01);
+        let impulse: f64 = force.windows(2).map(|w| 0.5 * (w[1].0 - w[0].0) * (w[0].1 + w[1].1)).sum();
+        close("V-20", &format!("{what}: mean force [N]"), impulse / duration, 7850.0 * speed * 5.0 * area, 0.02);
+        let momentum = hit.last().totals.momentum[1];
+        close(
+            "V-20",
+            &format!("{what}: impulse over the change of momentum"),
+            impulse / (momentum + 5.0 * mass),
+            1.0,
+            1e-10,
+        );
+        between("V-20", &format!("{what}: restitution"), momentum / (5.0 * mass), 0.97, 1.0);
+        let turn = hit.lines.iter().min_by(|a, b| a.totals.kinetic.total_cmp(&b.totals.kinetic)).expect("lines");
+        close("V-20", &format!("{what}: time of rest L/c [s]"), turn.time, 1.0 / speed, 0.02);
+        between("V-20", &format!("{what}: energy balance"), hit.worst_balance(), 0.0, 1e-3);
+    }
+}
+
+/// Two bars of these lengths and elements in a line, the first with a speed of `v`; the second of another metal if one is given.
+fn two_bars(bar: usize, lengths: [f64; 2], n: [usize; 2], v: f64, end: &str, second: Option<&str>) -> (Run, Mesh) {
+    let (_, analysis, [from, to], _) = BARS[bar];
+    let width = to - from;
+    let mesh = recipe(&format!(
+        "RECTANGLE, 1, {from}, 0., {width}, {:?}, 1, {}\nRECTANGLE, 2, {from}, {0:?}, {width}, {:?}, 1, {}\n\
+         SIDE SET FACE, 100, 1, BACK\nSIDE SET FACE, 200, 2, FRONT\n",
+        lengths[0], n[0], lengths[1], n[1]
+    ));
+    let steel = format!("ELASTIC, 7850.\n{STEEL}");
+    let deck = format!(
+        "TITLE\n bars\n{analysis}\nTERMINATION TIME, {end}\nOUTPUT TIME, 1.E-5\nPLOT TIME, 1.E-5\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nPLOT ELEMENT, STRESS\nCONTACT SURFACE, 100, 200\n\
+         INITIAL VELOCITY MATERIAL, 1, 0., {v:?}\nMATERIAL, 1, {steel}MATERIAL, 2, {}",
+        second.unwrap_or(&steel)
+    );
+    (run(&deck, &mesh), mesh)
+}
+
+fn momentum_drift(run: &Run) -> f64 {
+    let first = run.lines[0].totals.momentum[1];
+    run.lines.iter().map(|line| (line.totals.momentum[1] / first - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// V-21 with the default viscosity: of equal bars the second goes on with the speed of the first. References are those of the same
+/// bars of hexahedra, a third of h/c a step.
+#[test]
+fn v21_equal_bars() {
+    for (bar, (what, ..)) in BARS.iter().enumerate() {
+        let (hit, mesh) = two_bars(bar, [1.0, 1.0], [50, 50], 5.0, "6.E-4", None);
+        close("V-21", &format!("{what}: second bar over v"), mean(hit.end(), &mesh, 1, "VELY") / 5.0, 0.98, 0.01);
+        close(
+            "V-21",
+            &format!("{what}: contact loss"),
+            -hit.last().totals.contact / hit.initial_energy,
+            1.0 / 200.0,
+            1e-6,
+        );
+        between("V-21", &format!("{what}: drift of momentum"), momentum_drift(&hit), 0.0, 1e-12);
+        let (hit, _) = two_bars(bar, [1.0, 1.0], [50, 20], 5.0, "6.E-4", None);
+        close(
+            "V-21",
+            &format!("{what}: contact loss, 50 on 20"),
+            -hit.last().totals.contact / hit.initial_energy,
+            1.0 / 140.0,
+            1e-6,
+        );
+    }
+}
+
+/// V-22: a short bar stops when its wave is back, and the long one has L₁/L₂ of the speed.
+#[test]
+fn v22_bars_of_unequal_length() {
+    for (bar, (what, ..)) in BARS.iter().enumerate() {
+        for (ratio, n) in [(2.0, 50), (3.0, 50)] {
+            let (hit, mesh) = two_bars(bar, [1.0, ratio], [n, (n as f64 * ratio) as usize], 5.0, "1.E-3", None);
+            let [short, long] = [0, 1].map(|block| mean(hit.end(), &mesh, block, "VELY") / 5.0);
+            between("V-22", &format!("{what} 1:{ratio}: short bar over v"), short, -0.2 / n as f64, 0.2 / n as f64);
+            close("V-22", &format!("{what} 1:{ratio}: long bar over v"), long, 1.0 / ratio, 0.005);
+            between("V-22", &format!("{what}: drift of momentum"), momentum_drift(&hit), 0.0, 1e-12);
+        }
+    }
+}
+
+/// V-23: steel on aluminium: 7.424 m/s and −102.06 MPa behind both waves.
+#[test]
+fn v23_bars_of_unequal_impedance() {
+    let aluminium = "ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.\nEND\n";
+    for (bar, (what, ..)) in BARS.iter().enumerate() {
+        let (hit, mesh) = two_bars(bar, [1.0, 1.0], [200, 200], 10.0, "1.5E-4", Some(aluminium));
+        // Between the interface and the fronts, 0.76 m away.
+        let inside = |y: f64| (y - 1.0).abs() > 0.1 && (y - 1.0).abs() < 0.5;
+        let average = |values: Vec<f64>| values.iter().sum::<f64>() / values.len() as f64;
+        let nodes = mesh.coordinates.iter().zip(hit.end().nodal("VELY")).filter(|(x, _)| inside(x[1]));
+        close(
+            "V-23",
+            &format!("{what}: interface velocity [m/s]"),
+            average(nodes.map(|(_, v)| *v).collect()),
+            7.424,
+            0.01,
+        );
+        let centre = |nodes: &[u32]| nodes.iter().map(|&n| mesh.coordinates[n as usize][1]).sum::<f64>() / 4.0;
+        let elements = mesh.elements().zip(hit.end().element("SIGYY")).filter(|((_, nodes), _)| inside(centre(nodes)));
+        close("V-23", &format!("{what}: stress [Pa]"), average(elements.map(|(_, s)| *s).collect()), -102.06e6, 0.01);
+        between("V-23", &format!("{what}: drift of momentum"), momentum_drift(&hit), 0.0, 1e-12);
+    }
+}
+
 /// Found by itself, on other meshes and turned in its plane: the same collision.
 #[test]
 fn rods_that_contact_material_finds() {

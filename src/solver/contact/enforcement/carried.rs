@@ -21,9 +21,9 @@ impl Carried {
     /// Of a contact that is new.
     pub const NOTHING: Carried = Carried { penetration: 0.0, normal_force: 0.0, tangential_force: [0.0; 3] };
 
-    /// As numbers.
+    /// As numbers; zeros have no sign, which would tell in a restart file on how many ranks a force had been summed.
     pub fn to_array(self) -> [f64; WIDTH] {
-        let [x, y, z] = self.tangential_force;
+        let [x, y, z] = self.tangential_force.map(|force| force + 0.0);
         [self.penetration, self.normal_force, x, y, z]
     }
 
