@@ -183,6 +183,55 @@ fn histories_are_sums_over_full_states() {
     }
 }
 
+/// A block strikes two others obliquely, with friction, and one of these lies on a floor.
+const STRIKES: &str = "TITLE\n a block strikes two\nTERMINATION TIME, 30.E-6\nPLOT TIME, 1.E-6\nHISTORY TIME, 1.E-6\n\
+     OUTPUT TIME, 1.E-6\nPLOT NODAL, VELOCITY\nPLOT GLOBAL, BLOCK ENERGY\nHISTORY, CONTACT, 1, 2\nHISTORY, CONTACT, 1, 3\n\
+     HISTORY, CONTACT, 1\nHISTORY, CONTACT, 2, 1\nHISTORY, RIGID SURFACE, 100\nCONTACT MATERIAL\nCONTACT DATA, ALL, ALL, 0.3\n\
+     RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.2\nINITIAL VELOCITY MATERIAL, 1, 30., 10., -60.\n\
+     MATERIAL, 1, ELASTIC, 7800.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n\
+     MATERIAL, 2, ELASTIC, 7800.\nYOUNGS MODULUS = 100.E9\nPOISSONS RATIO = 0.3\nEND\n\
+     MATERIAL, 3, ELASTIC, 7800.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.2\nEND\nEXIT\n";
+
+/// Momentum and energy of blocks that strike each other and a floor against what contact is said to do to them, by another program;
+/// and the same bits on any number of ranks, split or not, and after a restart.
+#[test]
+fn contact_forces_change_momentum_and_works_change_energy() {
+    let desk = Desk::new();
+    desk.put("strikes.i", STRIKES);
+    desk.put(
+        "strikes.mesh",
+        "BOX, 2, 0., 0., 0., 0.02, 0.02, 0.01, 4, 4, 2\nBOX, 3, 0.021, 0., 0.0005, 0.02, 0.02, 0.0095, 3, 3, 2\n\
+         BOX, 1, 0.007, 0.004, 0.0101, 0.02, 0.01, 0.01, 5, 3, 3\nSIDE SET FACE, 100, 2, BOTTOM\n",
+    );
+    desk.urto(&["mesh", "strikes.mesh", "-o", "strikes.g"]).with(0);
+    desk.urto(&["strikes.i", "-q", "--ranks", "1"]).with(0);
+    let values = |name: &str| {
+        let file = desk.results(name);
+        let states = 0..file.times().len();
+        states.flat_map(|s| file.global(s).expect("a state")).map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let bits = values("strikes.h");
+    for more in [&["--ranks", "2"][..], &["--ranks", "5", "--split"]] {
+        desk.urto(&[&["strikes.i", "-q", "-o", "more"], more].concat()).with(0);
+        assert_eq!(values("more.h"), bits, "{more:?}");
+    }
+    // The state in the middle is no plot state: sums, impulses and times of the last one are carried.
+    desk.put("first.i", &STRIKES.replace("PLOT TIME", "WRITE RESTART, 10.3E-6, 9\nPLOT TIME"));
+    desk.urto(&["first.i", "-q", "-m", "strikes.g", "--ranks", "3"]).with(0);
+    desk.put("second.i", &STRIKES.replace("PLOT TIME", "READ RESTART, 10.3E-6\nPLOT TIME"));
+    desk.urto(&["second.i", "-q", "-m", "strikes.g", "--ranks", "2", "--restart", "first.rsout"]).with(0);
+    let again = values("second.h");
+    assert!(bits.ends_with(&again[again.len() / 3..]) && again.len() > 10, "{} {}", again.len(), bits.len());
+    let (plot, history) = (desk.path("strikes.e"), desk.path("strikes.h"));
+    match run_script("tests/python/contact_histories.py", &[plot.as_path(), history.as_path(), Path::new("7800")]) {
+        Ok(out) => {
+            let compared: usize = out.split_whitespace().next().and_then(|n| n.parse().ok()).unwrap_or(0);
+            assert!(compared >= 31 * (5 * 3 + 7), "{out}");
+        }
+        Err(why) => skipped("netCDF4", &why),
+    }
+}
+
 /// By the calls of programs that join pieces: load balance, maps, and what pieces share.
 #[test]
 fn the_exodus_library_finds_what_our_pieces_share() {

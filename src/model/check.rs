@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Analysis, Direction, Problem, RigidSurface, boundary::direction, problem::those_there_are};
+use super::{
+    Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface, boundary::direction,
+    problem::those_there_are,
+};
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
     mesh::{Mesh, locate::locate},
@@ -37,6 +40,9 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     }
     for card in problem.deck.cards_of("HISTORY RIGID SURFACE").filter(|card| card.complete) {
         walls_there(card, problem, &mut found);
+    }
+    for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
+        contact_there(card, problem, mesh, &mut found);
     }
     found
 }
@@ -109,6 +115,51 @@ fn walls_there(card: &Card, problem: &Problem, found: &mut Diagnostics) {
             );
         }
     }
+}
+
+/// Reports blocks whose contact is to be watched and that touch nothing.
+fn contact_there(card: &Card, problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let contact = &problem.model.contact;
+    if !contact.is_some() {
+        found.push(
+            Diagnostic::error("HISTORY CONTACT: the deck has no contact between blocks")
+                .at(card.record, "nothing touches")
+                .help("CONTACT MATERIAL, 1, 2 lets blocks 1 and 2 touch; HISTORY RIGID SURFACE watches rigid surfaces"),
+        );
+        return;
+    }
+    for item in ["first", "second"].into_iter().flat_map(|field| card.items(field)) {
+        let (Some(id), Some(span)) = (item.value.integer(), item.span) else { continue };
+        let Some(block) = mesh.block_index(id) else { continue };
+        if !takes_part(contact, id, block, mesh) {
+            found.push(
+                Diagnostic::error(format!("HISTORY CONTACT: block {id} takes part in no contact"))
+                    .at(span, "no CONTACT MATERIAL or CONTACT SURFACE lets this block touch anything"),
+            );
+        }
+    }
+}
+
+/// Whether faces or nodes of a block may touch something.
+fn takes_part(contact: &Contact, id: i64, block: usize, mesh: &Mesh) -> bool {
+    let named = match &contact.materials {
+        Some(ContactMaterials::All) => true,
+        Some(ContactMaterials::Blocks(blocks)) => blocks.contains(&id),
+        None => false,
+    };
+    let blocks: Vec<usize> = mesh.elements().map(|(block, _)| block).collect();
+    let of_block = |&(element, _): &(u32, u8)| blocks.get(element as usize) == Some(&block);
+    let mut sets = contact.surfaces.iter().flat_map(|pair| pair.side_sets).filter_map(|id| mesh.side_set(id));
+    let mut of_sets: Vec<u32> =
+        contact.node_sets.iter().flat_map(|(id, _)| mesh.node_set(*id)).fold(Vec::new(), |mut all, set| {
+            all.extend(&set.nodes);
+            all
+        });
+    of_sets.sort_unstable();
+    let nodes = &mesh.blocks[block].nodes;
+    named
+        || sets.any(|set| set.sides.iter().any(of_block))
+        || nodes.iter().any(|node| of_sets.binary_search(node).is_ok())
 }
 
 /// Warns of a point to watch where there is no material.

@@ -171,8 +171,11 @@ pub enum Watched {
     NodeSet(i64),
     /// The node with this number.
     Node(i64),
-    /// The force of rigid surfaces on the nodes of the side set with this number.
+    /// The force of rigid surfaces on the nodes of the side set with this number, and its work.
     RigidSurface(i64),
+    /// The force of the block with the second number on that with the first, or of all others where there is none, and their
+    /// works.
+    Contact(i64, Option<i64>),
 }
 
 /// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.

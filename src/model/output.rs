@@ -23,6 +23,10 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("HISTORY NODE SET", |card, draft| watch(card, draft, "node_set", Watched::NodeSet)),
     ("HISTORY NODE", |card, draft| watch(card, draft, "node", Watched::Node)),
     ("HISTORY RIGID SURFACE", |card, draft| watch(card, draft, "side_set", Watched::RigidSurface)),
+    ("HISTORY CONTACT", |card, draft| {
+        let second = card.items("second").first().and_then(|item| item.value.integer());
+        add_new(&mut draft.model.histories, [Watched::Contact(card.integer("first"), second)]);
+    }),
 ];
 
 /// Lines of the print log when OUTPUT TIME does not say.
@@ -151,7 +155,7 @@ fn check_histories(draft: &mut Draft) {
         draft.report(
             Diagnostic::warning("HISTORY TIME: nothing is watched, so that nothing follows from this")
                 .at(card.record, "interval of histories")
-                .help("HISTORY BLOCK, HISTORY NODE SET, HISTORY NODE, HISTORY RIGID SURFACE and MATERIAL POINT say what to watch"),
+                .help("HISTORY BLOCK, HISTORY NODE SET, HISTORY NODE, HISTORY RIGID SURFACE, HISTORY CONTACT and MATERIAL POINT say what to watch"),
         );
     }
 }

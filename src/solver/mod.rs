@@ -337,6 +337,13 @@ impl Solver {
         }
     }
 
+    /// What HISTORY watches of contact, in the order of the deck; see [`Contact::resultants`](contact::Contact::resultants). All
+    /// ranks call it.
+    pub fn contact_resultants(&mut self, due: bool, comm: &mut dyn Communicator) -> Vec<[f64; 6]> {
+        let time = self.time;
+        self.domain.contact.as_mut().map(|contact| contact.resultants(time, due, comm)).unwrap_or_default()
+    }
+
     /// Forces of constraints, prescribed motions and rigid surfaces now, one per local node.
     pub fn reactions(&self) -> Vec<[f64; 3]> {
         let mut reactions = vec![[0.0; 3]; self.domain.nodes.len()];

@@ -1,13 +1,13 @@
 //! Histories: what happens to what the analyst watches, as global variables of an EXODUS file.
 //!
-//! Points of the material, nodes, node sets and blocks. Each rank contributes what it computes; sums go through
+//! Points of the material, nodes, node sets, blocks, and the forces of contact. Each rank contributes what it computes; sums go through
 //! [`ExactSum`], so that the file has the same bits on any number of ranks. Accelerations are the change of velocity since
 //! the state before.
 
 mod blocks;
 mod points;
+mod resultants;
 mod sets;
-mod walls;
 
 use blocks::{Motion, block_motions};
 pub use blocks::{block_energies, block_energy_names};
@@ -19,7 +19,6 @@ use crate::model::{Model, Watched};
 use crate::solver::{Remembered, Solver};
 use points::Points;
 use sets::NodeGroup;
-use walls::Wall;
 
 /// Kinds of what is watched, as [`Remembered`] tells them apart.
 const POINT: u8 = 1;
@@ -34,7 +33,8 @@ pub struct HistoryPlan {
     /// Positions and numbers of blocks in the mesh.
     blocks: Vec<(usize, i64)>,
     groups: Vec<NodeGroup>,
-    walls: Vec<Wall>,
+    /// Commands that watch contact.
+    contacts: Vec<Watched>,
     dimension: Dimension,
 }
 
@@ -45,7 +45,7 @@ impl HistoryPlan {
             points: Points::new(mesh, model, solver),
             blocks: Vec::new(),
             groups: Vec::new(),
-            walls: Vec::new(),
+            contacts: Vec::new(),
             dimension: mesh.dimension,
         };
         for watched in &model.histories {
@@ -54,7 +54,7 @@ impl HistoryPlan {
                 Watched::Block(id) => plan.blocks.extend(mesh.block_index(id).map(|index| (index, id))),
                 Watched::NodeSet(id) => plan.groups.extend(NodeGroup::of_set(mesh, id)),
                 Watched::Node(id) => plan.groups.extend(NodeGroup::of_node(mesh, id)),
-                Watched::RigidSurface(id) => plan.walls.push(Wall::new(mesh, id)),
+                Watched::RigidSurface(_) | Watched::Contact(..) => plan.contacts.push(*watched),
             }
         }
         plan.blocks.sort_unstable();
@@ -64,10 +64,10 @@ impl HistoryPlan {
 
     /// Whether nothing is watched.
     pub fn is_empty(&self) -> bool {
-        self.points.is_empty() && self.blocks.is_empty() && self.groups.is_empty() && self.walls.is_empty()
+        self.points.is_empty() && self.blocks.is_empty() && self.groups.is_empty() && self.contacts.is_empty()
     }
 
-    /// Names of the variables: points, then blocks, then nodes and their sets, then rigid surfaces.
+    /// Names of the variables: points, then blocks, then nodes and their sets, then contact.
     pub fn names(&self) -> Vec<String> {
         self.all_names().into_iter().filter(|name| plane::is_in(self.dimension, name)).collect()
     }
@@ -76,8 +76,8 @@ impl HistoryPlan {
     fn all_names(&self) -> Vec<String> {
         let blocks = self.blocks.iter().flat_map(|(_, id)| Motion::NAMES.map(|name| format!("{name}_BLOCK{id}")));
         let groups = self.groups.iter().flat_map(NodeGroup::names);
-        let walls = self.walls.iter().flat_map(Wall::names);
-        self.points.names().into_iter().chain(blocks).chain(groups).chain(walls).collect()
+        let contacts = self.contacts.iter().flat_map(resultants::names);
+        self.points.names().into_iter().chain(blocks).chain(groups).chain(contacts).collect()
     }
 
     /// Lines for the records: where points are.
@@ -96,7 +96,7 @@ impl HistoryPlan {
         let points = self.points.values(solver, comm);
         let blocks = block_motions(&self.blocks.iter().map(|(index, _)| *index).collect::<Vec<_>>(), solver, comm);
         let groups = sets::values(&self.groups, solver, comm);
-        let walls = walls::forces(&self.walls, solver, comm);
+        let contacts = if self.contacts.is_empty() { Vec::new() } else { solver.contact_resultants(due, comm) };
         let mut points = points?;
         let time = solver.time;
         let kept = &mut solver.remembered;
@@ -114,7 +114,9 @@ impl HistoryPlan {
             accelerate(kept, group.key(), time, due, &mut of_group, 6);
             values.append(&mut of_group);
         }
-        values.extend(walls.concat());
+        let mut found = contacts.into_iter();
+        let of_contact = self.contacts.iter();
+        values.extend(of_contact.flat_map(|watched| resultants::values(watched, found.next().unwrap_or_default())));
         if self.dimension == Dimension::Two {
             let mut names = self.all_names().into_iter();
             values.retain(|_| names.next().is_some_and(|name| plane::is_in(self.dimension, &name)));

@@ -13,6 +13,7 @@ use super::enforcement::enforcer::Enforcer;
 use super::enforcement::iterations::{Limits, Outcome};
 use super::enforcement::ledger::Ledger;
 use super::enforcement::other_ranks::OtherRanks;
+use super::enforcement::resultants::{Resultants, Share, Side};
 use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::NodeMotion;
@@ -402,6 +403,55 @@ impl LocalProblem {
                     node.into_iter().for_each(|node| seen.push(planes[node].plane));
                 }
                 Origin::Face(..) => (),
+            }
+        }
+    }
+
+    /// Books what the contacts of this step do to whom the deck watches. `mine` says for which points this rank answers, `ids` are
+    /// the numbers of the blocks.
+    pub fn book(
+        &self,
+        resultants: &mut Resultants,
+        (planes, ids): (&[RigidSurface], &[i64]),
+        step: &StepTimes,
+        mine: impl Fn(usize) -> bool,
+    ) {
+        let id = |block: u32| Side::Block(ids.get(block as usize).copied().unwrap_or_default());
+        resultants.begin_step();
+        for (c, state) in self.enforcer.pushing(&self.constraints) {
+            let Some((sides, others)) = self.sides(c, planes, id).filter(|_| mine(c.members[0] as usize)) else {
+                continue;
+            };
+            let mut shares = [Share::default(); 2];
+            for (place, (point, weight)) in c.parts().enumerate() {
+                let before = self.motion.velocity_before(point as u32);
+                let after = self.enforcer.velocity_after(point, state, &self.motion);
+                shares[usize::from(place >= others)].add(c, weight, [before, after], step.kick);
+            }
+            resultants.book(sides, &shares, step);
+        }
+    }
+
+    /// Whose members a constraint joins, and the place of the first member of the second side.
+    fn sides(&self, c: &Constraint, planes: &[RigidSurface], id: impl Fn(u32) -> Side) -> Option<([Side; 2], usize)> {
+        let LocalProblem { faces, edges, history, numbering, point_block, .. } = self;
+        let point = c.members[0] as usize;
+        match c.origin {
+            Origin::Face(_, place) => {
+                let face = history.get(point)?.get(place as usize)?.face;
+                Some(([id(*point_block.get(point)?), id(*faces.block.get(face as usize)?)], 1))
+            }
+            Origin::Edges(first, second) => {
+                let block = |edge: u32| {
+                    let edge = &edges[numbering.edges.binary_search(&edge).ok()?];
+                    faces.block.get(edge.faces[0] as usize).copied()
+                };
+                Some(([id(block(first)?), id(block(second)?)], 2))
+            }
+            Origin::Plane(number) => {
+                let node = self.planes.binary_search_by_key(&number, |node| node.number).ok()?;
+                let wall = planes.get(self.planes[node].plane as usize)?.side_set;
+                Some(([id(*point_block.get(point)?), Side::Wall(wall)], 1))
             }
         }
     }

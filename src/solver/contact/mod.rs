@@ -28,7 +28,7 @@ use super::erosion::Erosion;
 use super::nodes::Nodes;
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
-use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface};
+use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface, Watched};
 use check::edge_edge;
 use check::edge_edge::EdgeContact;
 use check::node_face::{self, FaceContact, NONE};
@@ -38,6 +38,7 @@ use enforcement::certificate::Bank;
 use enforcement::gain::Gain;
 use enforcement::iterations::{Limits, Outcome};
 use enforcement::other_ranks::NoOtherRanks;
+use enforcement::resultants::{Resultants, Subject};
 use layout::{ABSENT, Layout};
 use local_problem::{History, LocalProblem, Numbering, StepInput};
 use pairings::Pairings;
@@ -95,6 +96,9 @@ pub struct Contact {
     pub tally: Tally,
     /// What has been met so far.
     seen: Seen,
+    /// Forces and works that the deck watches, and the numbers of the blocks.
+    resultants: Resultants,
+    block_ids: Vec<i64>,
     /// Number of searches so far.
     searches: u64,
     /// Number of steps so far.
@@ -140,6 +144,8 @@ impl Contact {
             gain: Gain::default(),
             tally: Tally::default(),
             seen: Seen::nothing(mesh.blocks.len(), model.rigid_surfaces.len()),
+            resultants: Resultants::new(model.histories.iter().filter_map(subject)),
+            block_ids: mesh.blocks.iter().map(|block| block.id).collect(),
             searches: 0,
             age: 0,
             counts: [0; 2],
@@ -217,6 +223,7 @@ impl Contact {
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
         self.problem.teach(&mut self.seen, (step.time, self.age));
+        self.book_resultants(step);
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
         self.bring_forces(comm);
@@ -315,6 +322,18 @@ impl Contact {
         }
     }
 
+    /// Books what the deck watches.
+    fn book_resultants(&mut self, step: &StepTimes) {
+        let Contact { problem, resultants, planes, block_ids, contact_nodes, remote, .. } = self;
+        if resultants.is_empty() {
+            return;
+        }
+        // Of planes alone each rank knows its nodes, and those that it shares are known twice.
+        let alone = remote.is_none();
+        let mine = |point: usize| !alone || contact_nodes.list.get(point).is_none_or(|node| node.owned);
+        problem.book(resultants, (planes, block_ids), step, mine);
+    }
+
     fn count(&mut self, Outcome { iterations, residual, deepest, depth, travel }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
@@ -330,6 +349,12 @@ impl Contact {
     /// Books half the step's work with the present velocities.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
         self.contact_nodes.book(nodes, half_step);
+    }
+
+    /// For each that HISTORY watches, in the order of the deck: the mean force since the last state that was `due`, the works on
+    /// both sides so far and what friction has dissipated between them. All ranks call it.
+    pub fn resultants(&mut self, time: f64, due: bool, comm: &mut dyn Communicator) -> Vec<[f64; 6]> {
+        self.resultants.values(time, due, comm)
     }
 
     /// Forgets the forces of this step.
@@ -376,6 +401,16 @@ fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
         edges: edges.collect(),
         planes: history.planes,
+    }
+}
+
+/// Whose contact forces a command watches, if any.
+fn subject(watched: &Watched) -> Option<Subject> {
+    match *watched {
+        Watched::RigidSurface(id) => Some(Subject::Wall(id)),
+        Watched::Contact(first, Some(second)) => Some(Subject::Pair(first, second)),
+        Watched::Contact(block, None) => Some(Subject::Others(block)),
+        Watched::Blocks | Watched::Block(_) | Watched::NodeSet(_) | Watched::Node(_) => None,
     }
 }
 

@@ -47,6 +47,7 @@ impl Contact {
             tally: Tally { steps, iterations, capped, left, deepest, motions, farthest },
             bank: Bank { balance, asked, work, gain: excess, growth },
             gain,
+            resultants,
             searches,
             age,
             skin,
@@ -57,6 +58,7 @@ impl Contact {
             counts: _,
             search: _,
             // Of the problem.
+            block_ids: _,
             pairings: _,
             held: _,
             elements: _,
@@ -69,6 +71,7 @@ impl Contact {
             decomposition: _,
         } = self;
         gain.visit_state(archive);
+        resultants.visit_state(archive);
         // Of planes alone each rank knows its own, and the log tells nothing.
         if !layout.interfaces.is_empty() {
             archive.count("CONTSTEPS", steps);

@@ -109,6 +109,8 @@ pub struct ConstraintState {
     /// How far the constraint would stay behind that velocity over the step without contact forces: a length, negative
     /// where it would.
     pub closing: f64,
+    /// How far the forces went along their ray, without dimension.
+    pub ray: f64,
     /// Whether this rank has made it.
     pub own: bool,
     /// Normal and friction force of the last iteration.

@@ -150,8 +150,9 @@ impl Enforcer {
             }
             _ => 1.0,
         };
-        for (c, state) in constraints.iter_mut().zip(&self.states) {
+        for (c, state) in constraints.iter_mut().zip(&mut self.states) {
             let ray = self.rays.get(c.members[0] as usize).map_or(ray, |terms| terms.ray(granted).min(1.0));
+            state.ray = ray;
             c.scale_along_ray(state, c.velocity_change(&self.responses), ray, times.drift);
         }
     }
@@ -160,6 +161,20 @@ impl Enforcer {
     pub fn velocity_change(&self, point: usize, motion: &NodeMotion, kick: f64) -> [f64; 3] {
         let (force, m) = (add(self.normal_force[point], self.friction_force[point]), motion.inverse_mass[point]);
         [0, 1, 2].map(|i| kick * (force[i] * m[i]))
+    }
+
+    /// Constraints of this rank that have ended with a force, with their states; `constraints` are those of the last solution.
+    pub fn pushing<'a>(
+        &'a self,
+        constraints: &'a [Constraint],
+    ) -> impl Iterator<Item = (&'a Constraint, &'a ConstraintState)> {
+        let all = constraints.iter().zip(&self.states);
+        all.filter(|(c, state)| state.own && c.carried.normal_force > 0.0)
+    }
+
+    /// Velocity of a member of a constraint after the step: that without contact, and what all forces along their ray change.
+    pub fn velocity_after(&self, point: usize, state: &ConstraintState, motion: &NodeMotion) -> [f64; 3] {
+        add(motion.velocity(point as u32), scaled(self.responses[point].velocity_change, state.ray))
     }
 
     /// What is known of each constraint in the course of the iterations.

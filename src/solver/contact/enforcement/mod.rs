@@ -9,3 +9,4 @@ pub mod gain;
 pub mod iterations;
 pub mod ledger;
 pub mod other_ranks;
+pub mod resultants;
