@@ -166,14 +166,14 @@ fn contact_gives_no_energy_in_confined_scenes() {
 
 #[test]
 fn contact_of_shells_gives_no_energy() {
-    // Found: 6.
-    try_all(0..120, shell_scene, 6);
+    try_all(0..120, shell_scene, 0);
 }
 
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
-    try_all(120..1200, shell_scene, 80);
+    // Found: 16, see docs/verification.md.
+    try_all(120..1200, shell_scene, 16);
 }
 
 #[test]

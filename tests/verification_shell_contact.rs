@@ -82,30 +82,32 @@ fn sheets_stop_each_other_at_their_thickness() {
         );
         let run = on_ranks(&deck(5e-4, &more, 2), &mesh);
         let least = sound("sheets", &run, &mesh, T);
-        between("sheets", "least distance over that at which they touch", least / factor, 0.97, 1.02);
+        between("sheets", "least distance over that at which they touch", least / factor, 0.999, 1.001);
         close("sheets", "momentum", run.last().totals.momentum[2], run.lines[0].totals.momentum[2], 1e-10);
     }
 }
 
-/// Sheets so thin and so fast that each goes by several thicknesses in a step: none passes the other unseen.
+/// Sheets so thin and so fast that each goes by several thicknesses in a step: none passes the other unseen. They would pass with
+/// all nodes in the same step, with nothing through anything before and after it: then the lower one would not be pushed.
 #[test]
 fn a_fast_thin_sheet_does_not_pass_through_another() {
-    let thin = 5e-5;
-    for flipped in [false, true] {
+    for (thin, speed, flipped) in [(5e-5, 100.0, false), (5e-5, 100.0, true), (1e-4, 300.0, false), (1e-4, 300.0, true)]
+    {
         let mesh = two_sheets(7.3e-3, flipped);
         let more = format!(
-            "SHELL THICKNESS, 1, {thin}\nSHELL THICKNESS, 2, {thin}\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -100.\n"
+            "SHELL THICKNESS, 1, {thin}\nSHELL THICKNESS, 2, {thin}\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -{speed}\n"
         );
         let run = on_ranks(&deck(2e-4, &more, 2), &mesh);
-        println!(
-            "fast sheets: {} edges are through at the end",
-            Surfaces::new(&mesh).pierced(&run.end().positions(&mesh)).len()
-        );
-        let height = |block| {
-            let (nodes, at) = (nodes_of(&mesh, block), run.end().positions(&mesh));
-            nodes.iter().map(|&n| at[n][2]).sum::<f64>() / nodes.len() as f64
+        let surfaces = Surfaces::new(&mesh);
+        for state in &run.states {
+            assert_eq!(surfaces.pierced(&state.positions(&mesh)), [], "{speed} m/s, time {}", state.time);
+        }
+        let speeds = run.end().nodal("VELZ");
+        let mean = |block| {
+            let nodes = nodes_of(&mesh, block);
+            nodes.iter().map(|&n| speeds[n]).sum::<f64>() / nodes.len() as f64
         };
-        assert!(height(2) > height(1) - 2e-3, "it has passed: {} below {}", height(2), height(1));
+        between("fast sheets", "speed of the lower over that of the upper", mean(1) / mean(2), 0.7, 1e3);
     }
 }
 
@@ -124,7 +126,7 @@ fn sheets_without_room_stay_as_near_as_they_are() {
     let pressed = format!("{more}INITIAL VELOCITY MATERIAL, 2, 0., 0., -5.\n");
     let run = on_ranks(&deck(3e-4, &pressed, 2), &mesh);
     let least = sound("sheets without room", &run, &mesh, T);
-    between("sheets without room", "least distance", least, 0.3, 0.401);
+    between("sheets without room", "least distance", least, 0.399, 0.401);
 }
 
 /// A sheet on a block of hexahedra keeps half of its thickness, from above and with its edge.
@@ -145,7 +147,7 @@ fn a_sheet_rests_on_a_solid() {
             nodes_of(&mesh, 1).into_iter().map(move |n| at[n][2] - top).collect::<Vec<_>>()
         });
         let least = lowest.fold(f64::INFINITY, f64::min);
-        between("sheet on a block", "least height over half the thickness", least / (0.5 * T), 0.95, 1.2);
+        between("sheet on a block", "least height over half the thickness", least / (0.5 * T), 0.99, 1.01);
     }
 }
 
@@ -172,7 +174,7 @@ fn edges_of_sheets_meet_at_their_thickness() {
         middle(2, 1, 4e-3) - middle(1, 0, 0.0)
     });
     let least = least.fold(f64::INFINITY, f64::min);
-    between("edges", "least distance over thickness", least / T, 0.97, 1.1);
+    between("edges", "least distance over thickness", least / T, 0.999, 1.001);
 }
 
 /// A tube that is pressed flat between plates: its walls come to lie upon each other, one thickness apart.
@@ -202,7 +204,7 @@ fn walls_of_a_flat_tube_are_a_thickness_apart() {
         assert_eq!(surfaces.pierced(&at), [], "time {}", state.time);
         least = least.min(surfaces.nearest(&at));
     }
-    between("flat tube", "least distance over thickness", least / thick, 0.8, 1.2);
+    between("flat tube", "least distance over thickness", least / thick, 0.98, 1.02);
     between("flat tube", "energy balance", run.worst_balance(), 0.0, 0.02);
     assert!(run.last().totals.contact < 0.01 * run.last().totals.internal, "contact makes energy");
 }
@@ -229,7 +231,7 @@ fn bars_touch_at_their_radius() {
                 least = least.min(x[2] - under[2]);
             }
         }
-        between("bars", "least height over radius and half the thickness", least / (radius + 0.5 * T), 0.9, 1.05);
+        between("bars", "least height over radius and half the thickness", least / (radius + 0.5 * T), 0.99, 1.01);
         between(
             "bars",
             "work of contact over the initial energy",

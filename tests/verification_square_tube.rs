@@ -54,7 +54,7 @@ fn check(case: &str, run: &Run, mesh: &Mesh, folds: f64) {
         assert_eq!(surfaces.pierced(&at), [], "{case}: time {}", state.time);
         least = least.min(surfaces.nearest(&at));
     }
-    at_least(case, "least distance of walls over the thickness", least / T, 0.5);
+    at_least(case, "least distance of walls over the thickness", least / T, 0.97);
 }
 
 #[test]

@@ -19,6 +19,13 @@ use crate::vector::{add, cross, dot, scaled, subtract};
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
 const CROSSING: f64 = 0.05;
 
+/// The same of edges of surfaces, which have no inside: ends that lie on both sides of an edge are apart by this part of it, and the
+/// side on which they stay must be known by then.
+const CROSSING_OF_SURFACES: f64 = 0.01;
+
+/// Least cosine between the way from one edge of a surface to another at the beginning of a step and the normal to both at its end.
+const SAME_SIDE: f64 = 0.5;
+
 /// A pair that has parted by less than this part of an edge is still watched.
 const KEEP: f64 = 0.01;
 
@@ -77,10 +84,15 @@ struct Crossing {
 impl Crossing {
     /// `None` for edges that are nearly parallel or have no length.
     fn of(a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> Option<Crossing> {
+        Crossing::with([a, b], CROSSING)
+    }
+
+    /// The same of edges with at least this sine of the angle between them.
+    fn with([a, b]: [[[f64; 3]; 2]; 2], least: f64) -> Option<Crossing> {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let (uu, vv, square) = (dot(u, u), dot(v, v), dot(product, product));
-        if square.is_nan() || square <= CROSSING * CROSSING * uu * vv {
+        if square.is_nan() || square <= least * least * uu * vv {
             return None;
         }
         let places = [dot(cross(r, v), product) / square, dot(cross(r, u), product) / square];
@@ -198,18 +210,25 @@ impl EdgeCheck<'_> {
         if !self.swept_box(pair[0]).grown(margin + distance).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
-        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
+        let of_surface = self.is_of_surface(pair);
+        let least = if of_surface { CROSSING_OF_SURFACES } else { CROSSING };
+        let end = Crossing::with(pair.map(|edge| self.end(edge)), least)?;
         let now = match past {
-            // What has opened does not close again for nothing.
             Some(past) => {
-                EdgeContact { tolerated: past.tolerated.max((past.sense * end.gap - distance).min(0.0)), ..*past }
+                let sense = past.sense * self.turned(pair, &end);
+                // What has opened does not close again for nothing.
+                EdgeContact { sense, tolerated: past.tolerated.max((sense * end.gap - distance).min(0.0)), ..*past }
             }
-            None if self.is_of_surface(pair) => self.comes_near(pair, &end, distance)?,
+            None if of_surface => self.comes_near(pair, &end, distance)?,
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - distance - now.tolerated;
         let reach = end.shorter();
-        if !end.between_ends((-gap).max(0.0)) || gap > KEEP * reach || gap < -DEEP * reach {
+        // Edges of a surface are known to have come from their side, however deep they are; nothing else holds the ends of those
+        // that go over its border.
+        let (depth, deepest) =
+            if of_surface { (0.0, DEEP * reach + distance) } else { ((-gap).max(0.0), DEEP * reach) };
+        if !end.between_ends(depth) || gap > KEEP * reach || gap < -deepest {
             return None;
         }
         Some((now, self.constraint(pair, &end, &now, gap, pairing)))
@@ -297,21 +316,29 @@ impl EdgeCheck<'_> {
         pair.iter().map(|&edge| self.edges[edge as usize].distance(self.faces)).sum()
     }
 
+    /// −1 where the normal of two edges of surfaces has turned over within the step, as they went through parallel; else 1.
+    fn turned(&self, pair: [u32; 2], end: &Crossing) -> f64 {
+        if !self.is_of_surface(pair) {
+            return 1.0;
+        }
+        let start = Crossing::with(pair.map(|edge| self.start(edge)), 0.0);
+        start.map_or(1.0, |start| if dot(start.normal, end.normal) < 0.0 { -1.0 } else { 1.0 })
+    }
+
     /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
     /// stays. Where the mesh or a way from beside has brought them nearer, they stay as near.
     fn comes_near(&self, pair: [u32; 2], end: &Crossing, distance: f64) -> Option<EdgeContact> {
-        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
-        if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
+        let way = between(self.start(pair[0]), self.start(pair[1]));
+        let (length, along) = (dot(way, way).sqrt(), dot(way, end.normal));
+        if along.abs() <= SAME_SIDE * length {
             return None;
         }
-        let sense = start.gap.signum();
-        let before = sense * start.gap - distance;
+        let (sense, before) = (along.signum(), length - distance);
         // Into its own body no edge of a solid is pushed.
-        let outwards = [-sense, sense].iter().zip(pair).all(|(sense, edge)| {
-            self.edges[edge as usize].is_of_surface(self.faces) || sense * dot(start.normal, self.outwards(edge)) > 0.0
+        let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
+            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(way, self.outwards(edge)) > 0.0
         });
-        let touches = sense * end.gap < distance && (before >= 0.0 || start.between_ends(0.0) || self.meets(pair));
-        (outwards && touches).then_some(EdgeContact {
+        (outwards && sense * end.gap < distance).then_some(EdgeContact {
             pair,
             sense,
             tolerated: before.min(0.0),
@@ -385,6 +412,18 @@ impl EdgeCheck<'_> {
             origin: Origin::Edges(pair[0], pair[1]),
         }
     }
+}
+
+/// Shortest way from the second of two edges to the first, between their ends (Ericson 2005).
+fn between(a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> [f64; 3] {
+    let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(a[0], b[0]));
+    let (uu, uv, vv, ur, vr) = (dot(u, u), dot(u, v), dot(v, v), dot(u, r), dot(v, r));
+    let within = |place: f64| if place > 0.0 { place.min(1.0) } else { 0.0 };
+    // Of edges that are parallel any place of the first will do; what is no number becomes 0.
+    let s = within((uv * vr - ur * vv) / (uu * vv - uv * uv));
+    let t = within((uv * s + vr) / vv);
+    let s = within((uv * t - ur) / uu);
+    subtract(add(r, scaled(u, s)), scaled(v, t))
 }
 
 /// How far around itself an edge looks for others, a length.

@@ -39,6 +39,9 @@ const SEAM: f64 = 1e-4;
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
 
+/// A face whose middle is higher than this part of its size above the face beside it folds towards what is in front of that.
+const HOLLOW: f64 = 0.05;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -116,11 +119,14 @@ impl NodeFaceCheck<'_> {
             self.blend(near, contact);
             let (corners, start) = (self.faces.start(contact.face, self.motion), self.motion.start(point));
             if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
-                let end = self.faces.end(contact.face, self.motion);
-                let foot = projection::foot(&end, &shares);
                 contact.projection.weights = shares;
-                let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
-                contact.projection.gap = apart - self.faces.distance(point, contact.face);
+                // Around a border only the nearest point of it is so far away: another one would let the point sink in a little
+                // in every step in which it goes around.
+                if !contact.projection.rounded {
+                    let foot = projection::foot(&self.faces.end(contact.face, self.motion), &shares);
+                    let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
+                    contact.projection.gap = apart - self.faces.distance(point, contact.face);
+                }
             }
         }
     }
@@ -225,10 +231,23 @@ impl NodeFaceCheck<'_> {
                 left = Some((past.face, past.tolerated, projection));
             }
         }
-        let Some((old, tolerated, projection)) = left.filter(|_| contacts.is_empty()) else {
-            // Held where it was; of the faces around only those that fold towards the point can hold it as well.
-            return self.folds(point, near, contacts);
-        };
+        if let Some(left) = left.filter(|_| contacts.is_empty()) {
+            self.moved_on(point, near, past, left, contacts);
+        }
+        self.still_around(point, near, past, contacts);
+        // Of the faces around those that hold the point only those that fold towards it can hold it as well.
+        self.folds(point, near, contacts);
+    }
+
+    /// A point that has left its faces: on to a face around the first of them, or held by that as it was.
+    fn moved_on(
+        &self,
+        point: u32,
+        near: &[u32],
+        past: &[FaceContact; MAX_FACES],
+        (old, tolerated, projection): (u32, f64, Projection),
+        contacts: &mut Vec<DetectedContact>,
+    ) {
         let slightly = projection.outside <= HOLD * self.faces.size[old as usize];
         let mut behind = 0;
         let mut next: Option<(u32, Projection)> = None;
@@ -264,6 +283,22 @@ impl NodeFaceCheck<'_> {
         }
     }
 
+    /// A point that a surface has held around its border is so as long as it is near the border, whatever else holds it.
+    fn still_around(
+        &self,
+        point: u32,
+        near: &[u32],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
+        for past in past.iter().filter(|past| past.face != NONE && self.faces.is_two_sided(past.face)) {
+            let another = contacts.iter().all(|contact| contact.face != past.face);
+            if another && near.contains(&past.face) {
+                contacts.extend(self.held_around(point, past.face, past.tolerated));
+            }
+        }
+    }
+
     /// A point that is held around the border of the face that it leaves, or of none.
     fn held_around(&self, point: u32, old: u32, tolerated: f64) -> Option<DetectedContact> {
         let end = self.around_border(point, old, true)?;
@@ -292,7 +327,7 @@ impl NodeFaceCheck<'_> {
                 if !self.stays_outside(point, old.face, face) {
                     continue;
                 }
-                let Some(projection) = self.projection_at_end(point, face) else { continue };
+                let Some(projection) = self.around_border(point, face, true) else { continue };
                 if projection.outside == 0.0 && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, 0.0));
                 }
@@ -464,7 +499,10 @@ impl NodeFaceCheck<'_> {
             return true;
         }
         let middle = |face| projection::centre(&self.faces.end(face, self.motion));
-        dot(subtract(middle(second.face), middle(first.face)), first.projection.normal) > 0.0
+        let rise = dot(subtract(middle(second.face), middle(first.face)), first.projection.normal);
+        // What is flat on both sides of an edge is not round there.
+        let round = first.projection.rounded || second.projection.rounded;
+        rise > if round { HOLLOW * self.faces.size[second.face as usize] } else { 0.0 }
     }
 }
 

@@ -218,8 +218,12 @@ impl Faces {
     }
 
     /// Whether two faces with a common edge look the same way across it, as neighbours on one side of a surface do: they run
-    /// along it in opposite directions. `None` for faces that have no edge in common.
+    /// along it in opposite directions. Both sides of one element look opposite ways, although they run around it so. `None` for
+    /// faces that have no edge in common.
     pub fn go_on(&self, a: u32, b: u32) -> Option<bool> {
+        if self.number[a as usize] / 6 == self.number[b as usize] / 6 {
+            return Some(false);
+        }
         let (a, b) = (self.corners[a as usize], self.corners[b as usize]);
         let runs = |of: [u32; 4], from: u32, to: u32| (0..4).any(|i| of[i] == from && of[(i + 1) % 4] == to);
         let ways = (0..4).map(|i| (a[i], a[(i + 1) % 4])).filter(|(from, to)| from != to);
