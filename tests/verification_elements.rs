@@ -44,7 +44,13 @@ fn model(hourglass: Hourglass, scale: f64, velocity: [f64; 3], omega: f64) -> Mo
         termination_time: 1.0,
         output_interval: 1.0,
         plot: PlotSchedule { interval: None, start: 0.0, stop: 1.0 },
-        time_step: TimeStepControl { scale, softening: 1.0, growth: 1.05, moduli: StepModuli::Elastic },
+        time_step: TimeStepControl {
+            scale,
+            softening: 1.0,
+            growth: 1.05,
+            moduli: StepModuli::Elastic,
+            longest: f64::INFINITY,
+        },
         bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
         hourglass,
         materials: vec![BlockMaterial {

@@ -86,6 +86,10 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific((modulus / material.density).sqrt(), 4)
         );
     }
+    for (number, rigid) in body.rigid.iter().enumerate() {
+        out +=
+            &format!("  rigid body {}: {} nodes, mass {}\n", number + 1, rigid.nodes.len(), scientific(rigid.mass, 4));
+    }
     for added in &body.added_mass.blocks {
         out += &format!(
             "  block {}: MASS SCALING adds {}, {} of its mass, to {} elements; one of them has {} times its mass\n",

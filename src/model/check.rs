@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{
     Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface, boundary::direction,
-    problem::those_there_are,
+    problem::those_there_are, rigid,
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
@@ -44,6 +44,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
+    rigid::check(problem, mesh, &mut found);
     found
 }
 

@@ -15,6 +15,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TIME STEP GROWTH", time_step_growth),
     ("TIME STEP MODULI", time_step_moduli),
     ("TIME STEP ESTIMATE", time_step_estimate),
+    ("TIME STEP MAXIMUM", time_step_maximum),
     ("MASS SCALING", mass_scaling),
     ("HOURGLASS STIFFENING", hourglass),
     ("HOURGLASS CONTROL", hourglass),
@@ -63,6 +64,10 @@ fn time_step_growth(card: &Card, draft: &mut Draft) {
 fn time_step_moduli(card: &Card, draft: &mut Draft) {
     draft.model.time_step.moduli =
         if card.text("moduli") == "EFFECTIVE" { StepModuli::Effective } else { StepModuli::Elastic };
+}
+
+fn time_step_maximum(card: &Card, draft: &mut Draft) {
+    draft.model.time_step.longest = card.number("t");
 }
 
 fn time_step_estimate(card: &Card, draft: &mut Draft) {

@@ -16,6 +16,7 @@ mod output;
 mod problem;
 mod properties;
 mod restart;
+mod rigid;
 mod section;
 
 pub use check::check;
@@ -50,6 +51,8 @@ pub struct Model {
     pub time_step: TimeStepControl,
     /// What bounds the time step.
     pub step_estimate: StepEstimate,
+    /// Blocks that move as one, a list for each body.
+    pub rigid_bodies: Vec<Vec<i64>>,
     /// Masses added so that the run may take longer steps.
     pub mass_scalings: Vec<MassScaling>,
     /// Bulk viscosity coefficients.
@@ -200,6 +203,8 @@ pub struct TimeStepControl {
     pub growth: f64,
     /// Which moduli make the wave speed.
     pub moduli: StepModuli,
+    /// No step is longer, a time.
+    pub longest: f64,
 }
 
 /// Which moduli the stable step is computed from.

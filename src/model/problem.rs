@@ -3,7 +3,7 @@
 use super::{
     Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepEstimate,
     StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output,
-    restart, section,
+    restart, rigid, section,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -35,6 +35,7 @@ const FAMILIES: &[&[Setter]] = &[
     initial::COMMANDS,
     contact::COMMANDS,
     deletion::COMMANDS,
+    rigid::COMMANDS,
     output::COMMANDS,
     restart::COMMANDS,
 ];
@@ -128,7 +129,9 @@ impl Default for Model {
                 softening: f64::NAN,
                 growth: f64::NAN,
                 moduli: StepModuli::default(),
+                longest: f64::INFINITY,
             },
+            rigid_bodies: Vec::new(),
             step_estimate: StepEstimate::default(),
             mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },

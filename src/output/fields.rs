@@ -135,6 +135,7 @@ impl FieldList {
 
     /// Nodal values of the owned nodes of a rank, variable by variable. All ranks call it.
     pub fn nodal_values(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Vec<f64> {
+        solver.refresh();
         if [NodalField::Contact, NodalField::Reaction].iter().any(|field| self.nodal.contains(field)) {
             solver.complete_contact(comm);
         }

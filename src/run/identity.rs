@@ -39,6 +39,10 @@ pub fn identity(model: &Model) -> String {
         let formulation = section.word("formulation").unwrap_or_default();
         lines.push((format!("ELEMENT {}", section.block), formulation.to_string()));
     }
+    for (number, blocks) in model.rigid_bodies.iter().enumerate() {
+        let blocks: Vec<String> = blocks.iter().map(i64::to_string).collect();
+        lines.push((format!("RIGID BODY {}", number + 1), blocks.join(" ")));
+    }
     // Masses are of the start; the same commands find the same ones.
     for MassScaling { block, scale, .. } in &model.mass_scalings {
         let of = block.map_or("ALL".to_string(), |block| block.to_string());

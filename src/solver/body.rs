@@ -9,6 +9,7 @@ use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
 use crate::solver::contact::{self, Overlap};
 use crate::solver::elements::{Element, Sample};
 use crate::solver::mass_scaling::AddedMass;
+use crate::solver::rigid::{self, BodyShape};
 use crate::solver::rotations::Rotations;
 use crate::vector::add;
 use std::sync::Arc;
@@ -43,6 +44,10 @@ pub struct Body {
     pub block_material: Vec<usize>,
     /// Overlaps between contact surfaces that were taken out of the mesh by moving nodes.
     pub overlap: Overlap,
+    /// Rigid bodies, in the order of the deck.
+    pub rigid: Vec<BodyShape>,
+    /// Of each block of the mesh, which of them it belongs to.
+    pub block_body: Vec<Option<usize>>,
 }
 
 /// A face under pressure.
@@ -134,12 +139,15 @@ impl Body {
             faces: Vec::new(),
             block_material,
             overlap: Overlap::default(),
+            rigid: Vec::new(),
+            block_body: rigid::bodies_of_blocks(mesh, model),
         };
         body.take_elements(mesh, model);
         body.overlap = contact::remove_overlap(mesh, model, &mut body);
         if body.overlap.nodes > 0 {
             body.weigh(mesh, model);
         }
+        body.rigid = rigid::shapes(mesh, model, &body);
         body.take_faces(mesh, model);
         Ok(body)
     }

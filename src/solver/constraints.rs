@@ -22,7 +22,7 @@ pub struct Constraint {
 }
 
 /// A prescribed motion.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Which derivative is given.
     pub kind: MotionKind,

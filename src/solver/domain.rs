@@ -8,6 +8,7 @@ use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
+use super::rigid::RigidBodies;
 use super::rotations::Rotations;
 use crate::comm::Communicator;
 use crate::lanes::Row;
@@ -43,6 +44,8 @@ pub struct Domain {
     pub pressure_faces: PressureFaces,
     /// All other loads, in the order in which they act.
     pub loads: Vec<Box<dyn Load>>,
+    /// Rigid bodies, when there are any.
+    pub rigid: Option<RigidBodies>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
@@ -137,6 +140,7 @@ impl Domain {
             layered: body.elements.iter().map(|element| element.layers().is_some()).collect(),
             pressure_faces: pressure_faces(model, body, share, &local),
             loads: Vec::new(),
+            rigid: None,
             constraints: Vec::new(),
             carried_work: Vec::new(),
             contact: None,
@@ -146,11 +150,15 @@ impl Domain {
             exchange: Exchange::new(share),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
+        domain.rigid = RigidBodies::new(mesh, model, body, &local, &domain.nodes);
         domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, body, &local);
         domain.contact =
             Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
+        if let Some(rigid) = &mut domain.rigid {
+            rigid.set_off(&mut domain.nodes, comm);
+        }
         domain
     }
 
@@ -158,6 +166,7 @@ impl Domain {
     pub fn forget_reactions(&mut self) {
         self.constraints.iter_mut().for_each(|constraint| constraint.reaction = 0.0);
         self.contact.iter_mut().for_each(Contact::forget);
+        self.rigid.iter_mut().for_each(RigidBodies::forget);
     }
 
     /// Returns which constraint takes each direction of each node, [`ABSENT`] where none does.
@@ -171,6 +180,11 @@ impl Domain {
         for (set, (of, direction), motion) in still.chain(moving) {
             let axis = direction.axis();
             for node in unknowns_of_set(mesh, set, of, &body.rotations, local) {
+                // What is said of a node of a rigid body is said of the body.
+                let place = local_of_rotation(&self.rotations, node, of);
+                if self.rigid.as_ref().is_some_and(|rigid| rigid.of_node(place).is_some()) {
+                    continue;
+                }
                 // Sets overlap; a node is held once in each direction, the first command counts.
                 if taken[node as usize][axis] == ABSENT {
                     taken[node as usize][axis] = self.constraints.len() as u32;
@@ -277,6 +291,12 @@ pub(super) fn unknowns_of_set<'a>(
     nodes.iter().filter_map(move |&node| number(node)).map(|n| local[n as usize]).filter(|&n| n != ABSENT)
 }
 
+/// The node itself, of its rotation or of its position.
+fn local_of_rotation(rotations: &[(u32, u32)], unknown: u32, of: Unknown) -> u32 {
+    let found = rotations.iter().find(|(_, rotation)| of == Unknown::Rotation && *rotation == unknown);
+    found.map_or(unknown, |(node, _)| *node)
+}
+
 /// Local nodes of a block, each once, ascending.
 fn nodes_of_block(mesh: &Mesh, block: i64, local: &[u32]) -> Vec<u32> {
     let Some(index) = mesh.block_index(block) else { return Vec::new() };
@@ -337,6 +357,7 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
             element: body.elements[index].clone(),
             state_names,
             keeps_steps: Erosion::watches_steps(model, mesh.blocks[index].id),
+            rigid: body.block_body[index].is_some(),
             border: group(border),
             interior: group(interior),
         }

@@ -72,7 +72,7 @@ impl GlobalStep {
     pub fn new(domain: &mut Domain) -> GlobalStep {
         domain.blocks.iter_mut().for_each(|block| block.keeps_steps = true);
         GlobalStep {
-            takes_part: domain.blocks.iter().map(|block| block.element.vibrates(&block.law)).collect(),
+            takes_part: domain.blocks.iter().map(|block| !block.rigid && block.element.vibrates(&block.law)).collect(),
             found: 0.0,
             at: 0,
             interval: 0,
@@ -94,7 +94,8 @@ impl GlobalStep {
     /// What this rank's elements say.
     pub fn votes(&self, domain: &Domain) -> Votes {
         let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0 };
-        for ((block, takes_part), then) in domain.blocks.iter().zip(&self.takes_part).zip(&self.then) {
+        let blocks = domain.blocks.iter().zip(&self.takes_part).zip(&self.then);
+        for ((block, takes_part), then) in blocks.filter(|((block, _), _)| !block.rigid) {
             for (group, then) in block.groups().into_iter().zip(then) {
                 for i in (0..group.len()).filter(|&i| group.is_alive(i)) {
                     let now = group.steps[i / CHUNK].0[i % CHUNK];

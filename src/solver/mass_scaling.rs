@@ -59,7 +59,8 @@ impl AddedMass {
             let own = first..first + block.len();
             first = own.end;
             let rules: Vec<&MassScaling> = model.mass_scalings.iter().filter(|rule| rule.names(block.id)).collect();
-            if rules.is_empty() {
+            // What is rigid sets no step.
+            if rules.is_empty() || body.block_body[index].is_some() {
                 continue;
             }
             let steps = if rules.iter().any(|rule| matches!(rule.scale, ScaleMass::Step(_))) {
@@ -204,6 +205,7 @@ fn steps_of(mesh: &Mesh, model: &Model, body: &Body, batch: &[usize]) -> Vec<f64
         border: group(&[]),
         interior: group(&elements),
         keeps_steps: true,
+        rigid: false,
     };
     let mut forces = vec![Force::default(); rows.len()];
     let settings = PassSettings {

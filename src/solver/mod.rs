@@ -18,6 +18,7 @@ pub mod loads;
 mod mass_scaling;
 pub mod nodes;
 mod remembered;
+pub mod rigid;
 mod rotations;
 mod slivers;
 mod state;
@@ -30,6 +31,7 @@ pub use domain::{Domain, state_names};
 pub use health::{Evidence, Finding, Spot};
 pub use mass_scaling::{AddedMass, BlockMass};
 pub use remembered::Remembered;
+pub use rigid::{BodyShape, RigidBodies};
 pub use rotations::Rotations;
 pub use slivers::Slivers;
 pub use stop::{ElementPlace, Stop};
@@ -249,6 +251,7 @@ impl Solver {
     pub fn prepare(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         comm.enter(Traffic::Erosion);
         self.erode(comm);
+        self.domain.rigid.iter_mut().for_each(RigidBodies::begin);
         comm.enter(Traffic::Elements);
         // Where the mesh as a whole bounds the step, a few elements do not.
         let kept = (self.step == 0 && self.global_step.is_none()).then(|| self.keep_steps());
@@ -267,14 +270,14 @@ impl Solver {
         self.external_forces(comm);
         // Until the next step, all that is said is for sums, log and files.
         comm.enter(Traffic::Output);
-        if let Some(kept) = kept {
+        if let Some(kept) = kept.filter(|_| self.own_step.is_finite()) {
             self.weigh_steps(&kept, comm);
         }
         if self.step == 0 {
             // The first state is the initial condition itself; its velocities stand at time zero, not half a step before.
             self.last_totals = Some((0, totals::totals(&mut self.domain, [0.0; 2], comm)));
         }
-        self.book_work();
+        self.book_work(false);
         self.glance(comm)?;
         Ok(agreed)
     }
@@ -284,7 +287,12 @@ impl Solver {
         self.clock.start();
         self.domain.nodes.integrate(self.kick, self.time_step);
         self.clock.stop(Section::Integration);
-        self.book_work();
+        self.book_work(true);
+        if let Some(rigid) = &mut self.domain.rigid {
+            self.clock.start();
+            rigid.drift(&mut self.domain.nodes, self.time_step);
+            self.clock.stop(Section::Integration);
+        }
         self.previous_time = self.time;
         self.time += self.time_step;
         if self.ending {
@@ -295,11 +303,20 @@ impl Solver {
         self.step += 1;
     }
 
+    /// Brings what nobody asks for in a step up to the present, prepared state: nodes inside rigid bodies. Whoever looks at nodes
+    /// one by one needs it.
+    pub fn refresh(&mut self) {
+        if let Some(rigid) = &self.domain.rigid {
+            rigid.refresh(&mut self.domain.nodes);
+        }
+    }
+
     /// Energies and momenta of the present, prepared state.
     pub fn totals(&mut self, comm: &mut dyn Communicator) -> Totals {
         match self.last_totals {
             Some((step, totals)) if step == self.step => totals,
             _ => {
+                self.refresh();
                 let totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
                 self.last_totals = Some((self.step, totals));
                 totals
@@ -332,6 +349,7 @@ impl Solver {
     /// Brings what contact has found beside its forces to the nodes, where it is computed elsewhere; before
     /// [`Solver::reactions`] and [`Contact::node_values`](contact::Contact::node_values). All ranks call it.
     pub fn complete_contact(&mut self, comm: &mut dyn Communicator) {
+        self.refresh();
         if let Some(contact) = &mut self.domain.contact {
             contact.complete(comm);
         }
@@ -349,6 +367,10 @@ impl Solver {
         let mut reactions = vec![[0.0; 3]; self.domain.nodes.len()];
         for constraint in &self.domain.constraints {
             reactions[constraint.node as usize][constraint.axis] += constraint.reaction;
+        }
+        for (file, axis, force) in self.domain.rigid.iter().flat_map(RigidBodies::reactions) {
+            let here = self.domain.nodes.file[..self.domain.nodes.places].iter().position(|&node| node == file);
+            here.into_iter().for_each(|node| reactions[node][axis] += force);
         }
         for (node, force) in self.domain.contact.iter().flat_map(|contact| contact.plane_forces()) {
             let sum = &mut reactions[node as usize];
@@ -462,6 +484,8 @@ impl Solver {
             return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
         }
         self.estimate(Votes { rest, ratio }, comm);
+        let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
+        self.stable_step = self.stable_step.min(bodies).min(self.control.longest / self.control.scale);
         self.check_step(comm)?;
         let last = self.time_step;
         let wanted = self.control.scale * self.stable_step;
@@ -511,24 +535,33 @@ impl Solver {
     fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, loads, contact, constraints, .. } = &mut self.domain;
+        let Domain { nodes, loads, contact, constraints, rigid, .. } = &mut self.domain;
+        rigid.iter_mut().for_each(|rigid| rigid.tangents(nodes));
         loads.iter_mut().for_each(|load| load.apply(nodes, &self.functions, &step));
         self.clock.stop(Section::Assembly);
+        if let Some(rigid) = rigid {
+            rigid.predict(nodes, &self.functions, &step, comm);
+        }
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
         }
         self.clock.stop(Section::Integration);
         if let Some(contact) = contact {
-            contact.apply(nodes, constraints, &step, comm);
+            contact.apply(nodes, constraints, rigid.as_ref(), &step, comm);
+            if let Some(rigid) = rigid {
+                rigid.push(nodes, contact.forces_of_nodes(), &self.functions, &step, comm);
+            }
             self.clock.stop(Section::Contact);
         }
     }
 
     /// Books half the step's work of everything that acts from outside, with the velocities as they stand.
-    fn book_work(&mut self) {
+    /// These are those before the kick, or after it.
+    fn book_work(&mut self, after: bool) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, loads, contact, constraints, pressure_faces, .. } = &mut self.domain;
+        let Domain { nodes, loads, contact, constraints, pressure_faces, rigid, .. } = &mut self.domain;
+        rigid.iter_mut().for_each(|rigid| rigid.book(half_step, after));
         loads::all(pressure_faces, loads).for_each(|load| load.book(nodes, half_step));
         contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));

@@ -96,6 +96,7 @@ impl Domain {
             carried_work,
             contact,
             erosion,
+            rigid,
             // Of the problem and its cut.
             element_id: _,
             rotations: _,
@@ -104,6 +105,7 @@ impl Domain {
             mass_added: _,
             exchange: _,
         } = self;
+        rigid.iter_mut().for_each(|rigid| rigid.visit_state(archive, nodes));
         nodes.visit_state(archive);
         let mut dead = Vec::new();
         if let Some(erosion) = erosion {

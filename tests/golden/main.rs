@@ -48,6 +48,7 @@ const LIGHTER: &[Lighter] = &[
     Lighter { deck: "can_crush_shell", until: None, mesh: &[("40,     40", "16,     20"), ("28, 28, 3", "10, 8, 2")] },
     Lighter { deck: "container_drop", until: Some(1.5e-3), mesh: &[] },
     Lighter { deck: "hertz", until: None, mesh: &[("16, QUARTER", "4, QUARTER")] },
+    Lighter { deck: "rigid_ball", until: None, mesh: &[("48, 32, 4", "24, 16, 2"), ("4, FULL, 2", "3, FULL, 2")] },
     Lighter {
         deck: "perforation",
         until: None,

@@ -93,6 +93,7 @@ impl HistoryPlan {
     /// Values in the order of [`HistoryPlan::names`] on rank 0, `None` on the others. The motion of a state that is `due` is
     /// kept, to be compared with the next one. All ranks call it.
     pub fn values(&self, solver: &mut Solver, comm: &mut dyn Communicator, due: bool) -> Option<Vec<f64>> {
+        solver.refresh();
         let points = self.points.values(solver, comm);
         let blocks = block_motions(&self.blocks.iter().map(|(index, _)| *index).collect::<Vec<_>>(), solver, comm);
         let groups = sets::values(&self.groups, solver, comm);

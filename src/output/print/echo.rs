@@ -3,9 +3,9 @@
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepEstimate, StepModuli};
-use crate::solver::BlockMass;
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
+use crate::solver::{BlockMass, BodyShape};
 use std::fmt::Write;
 
 /// What the front part needs to know.
@@ -28,6 +28,8 @@ pub struct Echo<'a> {
     pub masses: &'a [f64],
     /// What MASS SCALING has added to blocks.
     pub added: &'a [BlockMass],
+    /// Rigid bodies.
+    pub rigid: &'a [BodyShape],
     /// Names of the nodal, element and global variables of the plot file.
     pub variables: [&'a [String]; 3],
     /// Seconds that the data input phase and the data initialization phase took.
@@ -244,13 +246,29 @@ fn conditions(model: &Model) -> String {
 fn masses(echo: &Echo) -> String {
     let lines = echo.mesh.blocks.iter().zip(echo.masses).map(|(b, m)| format!("{:>13}{:>16}", b.id, number(*m)));
     let table = table("TOTAL MASS OF EACH MATERIAL", "  MATERIAL ID            MASS", lines.collect());
-    let table = table + &added_masses(echo.added);
+    let table = table + &added_masses(echo.added) + &rigid_bodies(echo.rigid);
     let of = match echo.model.analysis {
         Analysis::Solid => return table,
         Analysis::PlaneStrain => "A UNIT OF THICKNESS",
         Analysis::Axisymmetric => "TWO PI RADIANS",
     };
     format!("{table}                ( ALL MASSES ARE FOR {of} )\n")
+}
+
+/// Mass, centre and inertia of each rigid body.
+fn rigid_bodies(bodies: &[BodyShape]) -> String {
+    let line = |body: &BodyShape| {
+        let blocks: Vec<String> = body.blocks.iter().map(i64::to_string).collect();
+        let [a, b, c] = body.inertia;
+        let numbers = [body.mass, body.centre[0], body.centre[1], body.centre[2], a[0], b[1], c[2], a[1], b[2], c[0]];
+        let numbers: String = numbers.iter().map(|value| format!("{:>13}", number(*value))).collect();
+        format!("{numbers}  {}", blocks.join(" "))
+    };
+    table(
+        "RIGID BODIES, MOMENTS OF INERTIA ABOUT THEIR CENTRES",
+        "         MASS     CENTRE X     CENTRE Y     CENTRE Z          IXX          IYY          IZZ          IXY          IYZ          IZX  BLOCKS",
+        bodies.iter().map(line).collect(),
+    )
 }
 
 /// What MASS SCALING has added, a line for each block that it names.

@@ -32,6 +32,7 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("prescribed accelerations", "PRESCRIBED ACCELERATION", motions(MotionKind::Acceleration)),
         ("forces on nodes", "PRESCRIBED FORCE", forces.iter().filter(|force| force.of == Unknown::Position).count()),
         ("moments on nodes", "PRESCRIBED MOMENT", forces.iter().filter(|force| force.of == Unknown::Rotation).count()),
+        ("rigid bodies", "RIGID BODY", model.rigid_bodies.len()),
         ("masses added for longer time steps", "MASS SCALING", model.mass_scalings.len()),
         ("masses at nodes", "POINT MASS", model.point_masses.len()),
         ("pressure on deformed faces", "PRESSURE", model.pressures.len()),

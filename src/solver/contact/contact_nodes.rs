@@ -80,6 +80,18 @@ impl ContactNodes {
         contact_nodes
     }
 
+    /// Learns which of them belong to rigid bodies.
+    pub fn belong(&mut self, body: impl Fn(u32) -> Option<u32>) {
+        let of = |contact_node: &ContactNode| body(contact_node.node).unwrap_or(ABSENT);
+        self.motion.mobility.body = self.list.iter().map(of).collect();
+    }
+
+    /// Local nodes of this rank that it answers for and on which forces act, and these forces.
+    pub fn own_forces(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        let own = self.loaded.iter().map(|&i| i as usize).filter(|&i| self.list[i].owned);
+        own.map(|i| (self.list[i].node, add(self.results[i].normal_force, self.results[i].tangential_force)))
+    }
+
     /// All points as contact nodes, for a search around them as they are.
     pub fn still(motion: &NodeMotion) -> ContactNodes {
         let contact_node = |point: u32| ContactNode { point, node: point, owned: true };

@@ -86,6 +86,8 @@ pub struct LocalProblem {
     pair_places: Vec<u32>,
     strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
+    /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many ranks; else empty.
+    pub answers: Vec<bool>,
 }
 
 /// What a step needs to know of the model.
@@ -233,14 +235,24 @@ impl LocalProblem {
             self.check(setting.pairings, setting.remaining, step.drift);
             self.check_edges(setting.pairings, setting.lines);
         }
-        let always = !self.rules.is_empty();
+        // With rigid bodies alone, no force of a step can push a node in that is farther away than a face is large.
+        let reach = match (self.rules.is_empty(), self.are_coupled()) {
+            (false, _) => f64::INFINITY,
+            (true, true) => setting.mean_size,
+            (true, false) => 0.0,
+        };
         for plane_node in &mut self.planes {
-            self.constraints.extend(plane_node.constraint(setting.planes, &self.motion, setting.mean_size, always));
+            self.constraints.extend(plane_node.constraint(setting.planes, &self.motion, setting.mean_size, reach));
         }
         self.origins();
         let outcome = self.enforce(setting, step, bank, others);
         self.tell_nodes();
         outcome
+    }
+
+    /// Whether constraints of different points act on each other.
+    fn are_coupled(&self) -> bool {
+        !self.rules.is_empty() || !self.motion.mobility.bodies.is_empty()
     }
 
     /// Origins tell the order of constraints to all ranks: they are in numbers of the layout.
@@ -341,10 +353,14 @@ impl LocalProblem {
         bank: &mut Bank,
         others: &mut dyn OtherRanks,
     ) -> Outcome {
-        let LocalProblem { constraints, enforcer, motion, rules, .. } = self;
+        let coupled = self.are_coupled();
+        let LocalProblem { constraints, enforcer, motion, answers, .. } = self;
         // Of planes alone each rank knows its own.
-        let ledger = if rules.is_empty() { Ledger::EachNode } else { Ledger::Bank(bank) };
+        let ledger = if coupled { Ledger::Bank(bank) } else { Ledger::EachNode };
         enforcer.prepare(constraints, motion, step.drift, &ledger);
+        for (c, state) in constraints.iter().zip(enforcer.states()).filter(|_| !answers.is_empty()) {
+            state.own = answers[c.members[0] as usize];
+        }
         let own = constraints.len();
         others.copy(constraints, enforcer.states());
         let order = enforcer.merge(constraints, own);

@@ -26,6 +26,7 @@ use super::body::Body;
 use super::constraints::{Constraint as HeldDirection, StepTimes};
 use super::erosion::Erosion;
 use super::nodes::Nodes;
+use super::rigid::{RigidBodies, RigidBody};
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface, Watched};
@@ -37,7 +38,8 @@ use contact_nodes::ContactNodes;
 use enforcement::certificate::Bank;
 use enforcement::gain::Gain;
 use enforcement::iterations::{Limits, Outcome};
-use enforcement::other_ranks::NoOtherRanks;
+use enforcement::mobility::BodyMobility;
+use enforcement::other_ranks::{Elsewhere, NoOtherRanks};
 use enforcement::resultants::{Resultants, Subject};
 use layout::{ABSENT, Layout};
 use local_problem::{History, LocalProblem, Numbering, StepInput};
@@ -216,9 +218,11 @@ impl Contact {
         &mut self,
         nodes: &mut Nodes,
         held: &mut [HeldDirection],
+        rigid: Option<&RigidBodies>,
         step: &StepTimes,
         comm: &mut dyn Communicator,
     ) {
+        self.learn_of(rigid, comm);
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
@@ -228,6 +232,31 @@ impl Contact {
         comm.enter(Traffic::ContactMotion);
         self.bring_forces(comm);
         self.contact_nodes.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
+    }
+
+    /// Takes over how rigid bodies answer to forces in the step, and which points are theirs where that is not known yet.
+    fn learn_of(&mut self, rigid: Option<&RigidBodies>, comm: &dyn Communicator) {
+        let Some(rigid) = rigid else { return };
+        let ContactNodes { motion, list, .. } = &mut self.contact_nodes;
+        let of = |body: &RigidBody| BodyMobility { centre: body.centre, compliance: body.compliance };
+        motion.mobility.bodies = rigid.bodies.iter().map(of).collect();
+        self.problem.motion.mobility.bodies.clone_from(&motion.mobility.bodies);
+        if motion.mobility.body.len() == list.len() {
+            return;
+        }
+        self.contact_nodes.belong(|node| rigid.of_node(node));
+        if self.remote.is_none() {
+            let of_points = &self.contact_nodes.motion.mobility.body;
+            self.problem.motion.mobility.body.clone_from(of_points);
+            if comm.size() > 1 {
+                self.problem.answers = self.contact_nodes.list.iter().map(|contact_node| contact_node.owned).collect();
+            }
+        }
+    }
+
+    /// Forces on the local nodes that this rank answers for.
+    pub fn forces_of_nodes(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        self.contact_nodes.own_forces()
     }
 
     /// Finds where the nodes would go, searches if that is due, and brings their motion to the local problem.
@@ -312,12 +341,14 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
+        let coupled = comm.size() > 1 && !self.problem.motion.mobility.bodies.is_empty();
         let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining, lines };
         match remote {
             Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),
+            None if coupled => problem.step(&setting, step, bank, &mut Elsewhere(comm)),
             None => problem.step(&setting, step, bank, &mut NoOtherRanks),
         }
     }
@@ -440,7 +471,7 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
 /// stops at the same iteration; planes alone are each rank's own, and get as many iterations as they can need.
 fn limits(model: &Model, plane_node_sets: &[Vec<u32>]) -> Limits {
     let control = &model.contact.control;
-    if model.contact.is_some() {
+    if model.contact.is_some() || !model.rigid_bodies.is_empty() {
         return Limits { iterations: control.passes, tolerance: control.tolerance };
     }
     let mut nodes = plane_node_sets.concat();

@@ -35,6 +35,7 @@ impl Contact {
     /// Visits the state between two steps. `dead` are the elements that are gone, when loading: canonical numbers,
     /// ascending; the nodes have been loaded before.
     pub fn visit_state(&mut self, archive: &mut dyn Archive, dead: &[u32], erosion: Option<&Erosion>, nodes: &Nodes) {
+        let has_bank = self.has_bank();
         let Contact {
             // Of this part of the run.
             seen: _,
@@ -52,7 +53,7 @@ impl Contact {
             age,
             skin,
             // Made anew by `take_up`, from the surface as it is.
-            layout,
+            layout: _,
             remote: _,
             // Of the last search.
             counts: _,
@@ -73,7 +74,7 @@ impl Contact {
         gain.visit_state(archive);
         resultants.visit_state(archive);
         // Of planes alone each rank knows its own, and the log tells nothing.
-        if !layout.interfaces.is_empty() {
+        if has_bank {
             archive.count("CONTSTEPS", steps);
             archive.count("CONTPASSES", iterations);
             archive.count("CONTCAPPED", capped);

@@ -27,6 +27,8 @@ pub struct ElementBlock {
     pub interior: Group,
     /// Whether the stable step of each element is kept.
     pub keeps_steps: bool,
+    /// Whether it is of a rigid body: its elements have no work to do.
+    pub rigid: bool,
 }
 
 /// Some elements of a block in canonical order, in chunks. The last chunk is filled up with copies of its last
@@ -274,7 +276,10 @@ impl ElementBlock {
 
     /// Advances one group: the border elements when the sink keeps forces apart, else the interior.
     pub fn run(&mut self, nodes: &[Row], sink: Sink, settings: &PassSettings) -> PassOutcome {
-        let ElementBlock { element, law, density, border, interior, keeps_steps, .. } = self;
+        let ElementBlock { element, law, density, border, interior, keeps_steps, rigid, .. } = self;
+        if *rigid {
+            return PassOutcome::NOTHING;
+        }
         if *keeps_steps {
             let group = if matches!(sink, Sink::Apart(_)) { &mut *border } else { &mut *interior };
             group.steps.resize(group.mass.len(), Row::default());

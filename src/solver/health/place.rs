@@ -24,6 +24,10 @@ impl Solver {
     /// Number, block and centre of an element given by its canonical number, known to all ranks.
     pub(in crate::solver) fn locate(&self, canonical: f64, comm: &mut dyn Communicator) -> ElementPlace {
         let mut facts = [f64::INFINITY; 6];
+        if canonical == f64::INFINITY {
+            // No element: all are rigid, or the deck bounds the step.
+            return ElementPlace { element: 0, block: 0, centre: [0.0; 3], volume: 0.0 };
+        }
         if let Some(place) = find(&self.domain, canonical) {
             let [x, y, z] = place.centre;
             facts = [place.element as f64, place.block as f64, x, y, z, place.volume];

@@ -17,6 +17,7 @@ use super::nodes::Nodes;
 use crate::mesh::Mesh;
 use crate::model::{Function, Model};
 
+pub use gravity::gravity_now;
 pub use pressure::{PressureFace, PressureFaces, area_vectors};
 
 /// Every load there is, in the order in which the log prints them.

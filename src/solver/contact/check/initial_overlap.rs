@@ -363,6 +363,13 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
             motion.inverse_mass[point][0] = 0.0;
         }
     }
+    // Rigid bodies stay as they are.
+    let blocks = mesh.blocks.iter().zip(&body.block_body).filter(|(_, of)| of.is_some());
+    for node in blocks.flat_map(|(block, _)| &block.nodes) {
+        if let Ok(point) = layout.nodes.binary_search(node) {
+            motion.inverse_mass[point] = [0.0; 3];
+        }
+    }
     let still = model.no_displacements.iter().map(|held| (held.node_set, held.direction));
     let driven = model.prescribed_motions.iter().map(|motion| (motion.node_set, motion.direction));
     for (set, direction) in still.chain(driven) {

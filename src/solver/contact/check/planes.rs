@@ -40,19 +40,19 @@ impl PlaneNode {
         }
     }
 
-    /// The constraint that keeps the point from crossing, when it would or when `always`; overlaps are measured in units of
-    /// `size`.
+    /// The constraint that keeps the point from crossing, when it would or when it comes nearer than `near`; overlaps are
+    /// measured in units of `size`.
     pub fn constraint(
         &mut self,
         planes: &[RigidSurface],
         motion: &NodeMotion,
         size: f64,
-        always: bool,
+        near: f64,
     ) -> Option<Constraint> {
         let plane = &planes[self.plane as usize];
         let end = motion.end(self.point);
         let gap = gap(plane, end) - self.reach - self.tolerated;
-        if gap >= 0.0 && !always {
+        if gap >= near {
             self.carried = Carried::NOTHING;
             return None;
         }

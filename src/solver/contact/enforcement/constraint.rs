@@ -64,6 +64,11 @@ impl Constraint {
         [of(NodeMotion::velocity), of(NodeMotion::velocity_before)]
     }
 
+    /// Force on a member of weight 1.
+    pub fn force(&self) -> [f64; 3] {
+        add(scaled(self.normal, self.carried.normal_force), self.carried.tangential_force)
+    }
+
     /// Relative velocity that forces give its members.
     pub fn velocity_change(&self, responses: &[Response]) -> [f64; 3] {
         self.parts().fold([0.0; 3], |sum, (point, w)| add(sum, scaled(responses[point].velocity_change, w)))

@@ -20,6 +20,7 @@ use super::certificate::{Sums, Target, Terms, tangential};
 use super::constraint::{Constraint, ConstraintState, Response};
 use super::iterations::{Limits, Outcome, Times};
 use super::ledger::Ledger;
+use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::geometry::motion::NodeMotion;
@@ -207,12 +208,18 @@ impl Enforcer {
             let mut state = ConstraintState { own: true, ..Default::default() };
             let (mut inverse, mut isotropic) = (0.0, 0.0);
             for (i, (point, w)) in c.parts().enumerate() {
+                if motion.mobility.of(point).is_some() {
+                    continue;
+                }
                 let m = motion.inverse_mass[point];
                 let one = along(m, c.normal);
                 inverse += w * w * one;
                 let most = m[0].max(m[1]).max(m[2]);
                 isotropic += w * w * most;
                 state.softness[i] = [w.abs() * one, w.abs() * most];
+            }
+            if !motion.mobility.bodies.is_empty() {
+                mobility::weigh(c, motion, &mut state.softness, [&mut inverse, &mut isotropic]);
             }
             let [free, before] = c.velocities(motion);
             (state.free, state.before) = (dot(free, c.normal) - c.growth, dot(before, c.normal) - c.growth);
@@ -258,7 +265,7 @@ impl Enforcer {
         others: &mut dyn OtherRanks,
     ) {
         for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
-            let force = add(scaled(c.normal, c.carried.normal_force), c.carried.tangential_force);
+            let force = c.force();
             for (point, w) in c.parts() {
                 let sum = &mut self.sums[point];
                 sum.velocity_change = add(sum.velocity_change, scaled(force, w));
@@ -273,6 +280,11 @@ impl Enforcer {
             let ([x, y, z], k) = (sum.velocity_change, times.kick);
             self.responses[p] =
                 Response { velocity_change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
+        }
+        if !motion.mobility.bodies.is_empty() {
+            let mut bodies = BodySums::of(constraints, &self.states, motion);
+            others.merge(bodies.sums());
+            bodies.answer(&self.members, motion, times.kick, &mut self.responses);
         }
         others.share(&mut self.responses);
     }

@@ -25,7 +25,12 @@ impl Contact {
     /// Energy that contact has given beyond what earlier losses had banked, summed over all steps: never negative, it
     /// only grows, and it is the same on all ranks.
     pub fn gain(&self) -> f64 {
-        if self.layout.interfaces.is_empty() { self.gain.most } else { self.bank.gain }
+        if self.has_bank() { self.bank.gain } else { self.gain.most }
+    }
+
+    /// Whether all contacts draw on one bank: not where rigid planes are alone, unless rigid bodies join their nodes.
+    pub(in crate::solver::contact) fn has_bank(&self) -> bool {
+        !self.layout.interfaces.is_empty() || self.limits.tolerance.is_finite()
     }
 
     /// Work that growing surfaces have done so far, an energy: that of press fits; the same on all ranks.

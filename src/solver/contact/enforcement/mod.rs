@@ -8,5 +8,6 @@ pub mod friction;
 pub mod gain;
 pub mod iterations;
 pub mod ledger;
+pub mod mobility;
 pub mod other_ranks;
 pub mod resultants;

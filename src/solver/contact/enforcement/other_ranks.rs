@@ -2,6 +2,7 @@
 
 use super::certificate::Sums;
 use super::constraint::{Constraint, ConstraintState, Response};
+use crate::comm::{Communicator, ExactSum};
 
 /// Of what all ranks learn the largest value in an iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -47,6 +48,8 @@ pub trait OtherRanks {
     fn largest(&mut self, own: Largest) -> Largest;
     /// Replaces sums by those over all ranks.
     fn sum(&mut self, sums: &mut Sums);
+    /// The same of any sums.
+    fn merge(&mut self, sums: &mut [ExactSum]);
     /// Whether there are any.
     fn are_there(&self) -> bool;
 }
@@ -65,7 +68,36 @@ impl OtherRanks for NoOtherRanks {
 
     fn sum(&mut self, _: &mut Sums) {}
 
+    fn merge(&mut self, _: &mut [ExactSum]) {}
+
     fn are_there(&self) -> bool {
         false
+    }
+}
+
+/// Others, of whose points none is a point here as well, but for those of rigid bodies: planes alone.
+pub struct Elsewhere<'a>(pub &'a mut dyn Communicator);
+
+impl OtherRanks for Elsewhere<'_> {
+    fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<ConstraintState>) {}
+
+    fn share(&mut self, _: &mut [Response]) {}
+
+    fn largest(&mut self, own: Largest) -> Largest {
+        let mut least = own.to_array().map(|value| -value);
+        self.0.all_min(&mut least);
+        Largest::from_array(least.map(|value| -value))
+    }
+
+    fn sum(&mut self, sums: &mut Sums) {
+        ExactSum::merge_ranks(&mut sums.0, self.0);
+    }
+
+    fn merge(&mut self, sums: &mut [ExactSum]) {
+        ExactSum::merge_ranks(sums, self.0);
+    }
+
+    fn are_there(&self) -> bool {
+        true
     }
 }

@@ -5,6 +5,7 @@
 
 use super::swept_box::{Outside, SweptBox};
 use crate::lanes::{InstructionSet, Vectors};
+use crate::solver::contact::enforcement::mobility::Mobility;
 
 /// Three coordinates, and a number without meaning that makes whole vectors of them.
 pub type Four = [f64; 4];
@@ -44,6 +45,8 @@ pub struct NodeMotion {
     before: Vec<[f64; 3]>,
     /// 1/m along each axis, m the mass of the node; 0 where a constraint says how the node moves.
     pub inverse_mass: Vec<[f64; 3]>,
+    /// Points of rigid bodies, of which the inverse mass says nothing.
+    pub mobility: Mobility,
     /// Near which the points are: boxes are as fine as single precision is there.
     origin: [f64; 3],
     /// Length of the step, a time: how long paths take.

@@ -115,6 +115,10 @@ impl OtherRanks for IterationExchange<'_> {
         ExactSum::merge_ranks(&mut sums.0, self.comm);
     }
 
+    fn merge(&mut self, sums: &mut [ExactSum]) {
+        ExactSum::merge_ranks(sums, self.comm);
+    }
+
     fn are_there(&self) -> bool {
         true
     }

@@ -333,9 +333,20 @@ impl Remote {
         let send = by_sender(&records, |ids| ids.iter().filter_map(contact_node).collect());
         self.motion = MessagePattern::new(send, receive, rank);
         self.motion.exchange(
-            &mut (contact_nodes, problem),
+            &mut (contact_nodes, &mut *problem),
             |(contact_nodes, _), contact_node| contact_nodes.motion.inverse_mass[contact_node as usize],
             |(_, problem), point, mass| problem.motion.inverse_mass[point as usize] = mass,
+            comm,
+        );
+        if contact_nodes.motion.mobility.bodies.is_empty() {
+            return;
+        }
+        problem.motion.mobility.bodies.clone_from(&contact_nodes.motion.mobility.bodies);
+        problem.motion.mobility.body = vec![ABSENT; problem.motion.len()];
+        self.motion.exchange(
+            &mut (contact_nodes, problem),
+            |(contact_nodes, _), contact_node| [f64::from(contact_nodes.motion.mobility.body[contact_node as usize])],
+            |(_, problem), point, [body]| problem.motion.mobility.body[point as usize] = body as u32,
             comm,
         );
     }

@@ -43,6 +43,7 @@ impl Rig {
             element: element.clone(),
             law: law.clone(),
             keeps_steps: false,
+            rigid: false,
         };
         let row = |[x, y, z]: [f64; 3]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0]);
         let settings = PassSettings {

@@ -137,6 +137,7 @@ impl Rig {
                 density: DENSITY,
                 state_names,
                 keeps_steps: false,
+                rigid: false,
                 border: group(&[]),
                 interior: group(&elements),
                 element: element.clone(),

@@ -78,6 +78,7 @@ impl Rig {
                 density: DENSITY,
                 state_names: law.accept(StateRows),
                 keeps_steps: false,
+                rigid: false,
                 border: ElementBlock::group(&element, &law, DENSITY, &[]),
                 interior: ElementBlock::group(&element, &law, DENSITY, &new),
                 element,

@@ -46,6 +46,7 @@ impl Rig {
             element: element.clone(),
             law: law.clone(),
             keeps_steps: false,
+            rigid: false,
         };
         let row = |[x, y, z]: [f64; 3]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0]);
         let nodes = corners.into_iter().chain([[0.0; 3]; 4]).map(row).collect();

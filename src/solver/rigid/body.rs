@@ -1,0 +1,257 @@
+//! One rigid body: its six unknowns, what acts on them, and how they go on.
+
+use super::hold::{Hold, independent};
+use super::shape::{BodyShape, Matrix};
+use super::turn::{self, Quaternion, STRAIGHT, matrix, moved, rotation, solved, times, turned};
+use crate::model::Function;
+use crate::solver::constraints::StepTimes;
+use crate::vector::{add, cross, dot, scaled};
+
+/// A force and its moment about the centre, or a velocity of the centre and an angular velocity.
+pub type Six = [f64; 6];
+
+/// What six forces do to six velocities.
+pub type Compliance = [[f64; 6]; 6];
+
+/// a · b
+pub fn product(a: &Six, b: &Six) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// C f
+pub fn applied(c: &Compliance, f: &Six) -> Six {
+    std::array::from_fn(|i| product(&c[i], f))
+}
+
+/// A rigid body. All ranks have the same, to the bit.
+#[derive(Debug, Clone)]
+pub struct RigidBody {
+    /// What it is.
+    pub shape: BodyShape,
+    /// Centre of mass now.
+    pub centre: [f64; 3],
+    /// Velocity of the centre over the last step, length per time.
+    pub velocity: [f64; 3],
+    /// Angular momentum about the centre over the last step.
+    pub momentum: [f64; 3],
+    /// How far it has turned since the start.
+    pub turn: Quaternion,
+    /// What holds or drives it.
+    pub holds: Vec<Hold>,
+    /// Work of its weight.
+    pub weight_work: f64,
+    /// Of the step: its matrix of rotation and its inertia in space.
+    pub frame: Matrix,
+    inertia: Matrix,
+    /// What forces do to its velocities, with what holds it.
+    pub compliance: Compliance,
+    /// The holds that are independent of each other, and how they resist each other.
+    chosen: Vec<usize>,
+    resistance: Vec<Vec<f64>>,
+    /// Force and moment that act in the step, without contact and holds.
+    load: Six,
+    /// Acceleration of gravity in the step.
+    pub gravity: [f64; 3],
+    /// Velocity and angular momentum over the coming step.
+    next: ([f64; 3], [f64; 3]),
+    /// The last step taken: its rotation and its length.
+    last: Option<(Quaternion, f64)>,
+}
+
+impl RigidBody {
+    /// A body at rest.
+    pub fn new(shape: BodyShape, holds: Vec<Hold>) -> RigidBody {
+        RigidBody {
+            centre: shape.centre,
+            velocity: [0.0; 3],
+            momentum: [0.0; 3],
+            turn: STRAIGHT,
+            holds,
+            weight_work: 0.0,
+            frame: matrix(STRAIGHT),
+            inertia: shape.inertia,
+            compliance: [[0.0; 6]; 6],
+            chosen: Vec::new(),
+            resistance: Vec::new(),
+            load: [0.0; 6],
+            gravity: [0.0; 3],
+            next: ([0.0; 3], [0.0; 3]),
+            last: None,
+            shape,
+        }
+    }
+
+    /// Gives it the momentum and the angular momentum, about the centre, of the velocities of its nodes.
+    pub fn set_off(&mut self, [px, py, pz, lx, ly, lz]: Six) {
+        self.velocity = scaled([px, py, pz], 1.0 / self.shape.mass);
+        // Nodes turn as they were told to; the inertia is that of the volume.
+        self.momentum = times(&self.shape.inertia, solved(&self.shape.of_nodes, [lx, ly, lz]));
+        self.begin();
+    }
+
+    /// Finds frame and inertia of the present state; before a step.
+    pub fn begin(&mut self) {
+        self.frame = matrix(self.turn);
+        self.inertia = turned(&self.frame, &self.shape.inertia);
+        self.next = (self.velocity, self.momentum);
+        let (light, inverse) = (1.0 / self.shape.mass, turn::inverse(&self.inertia));
+        let mut free = [[0.0; 6]; 6];
+        for i in 0..3 {
+            free[i][i] = light;
+            free[3 + i][3..].copy_from_slice(&inverse[i]);
+        }
+        let rows: Vec<Six> = self.holds.iter().map(|hold| hold.row(times(&self.frame, hold.arm))).collect();
+        (self.chosen, self.compliance) = independent(&rows, free);
+        let resists = |a: &usize| self.chosen.iter().map(|b| product(&rows[*a], &applied(&free, &rows[*b]))).collect();
+        self.resistance = self.chosen.iter().map(resists).collect();
+    }
+
+    /// Arm of a point at `arm` from the centre at the start.
+    pub fn arm(&self, arm: [f64; 3]) -> [f64; 3] {
+        times(&self.frame, arm)
+    }
+
+    /// Angular velocity at the present state of an angular momentum.
+    fn spin(&self, momentum: [f64; 3]) -> [f64; 3] {
+        solved(&self.inertia, momentum)
+    }
+
+    /// Velocity and angular velocity at the present state before the step's kick, or after it.
+    pub fn motion(&self, after: bool) -> [[f64; 3]; 2] {
+        let (velocity, momentum) = if after { self.next } else { (self.velocity, self.momentum) };
+        [velocity, self.spin(momentum)]
+    }
+
+    /// Kinetic energy at the present state that is not in the rows of its nodes.
+    pub fn surplus_energy(&self) -> f64 {
+        let [[_, before], [_, after]] = [self.motion(false), self.motion(true)];
+        0.5 * dot(before, times(&turned(&self.frame, &self.shape.surplus), after))
+    }
+
+    /// Finds the velocities of the coming step under these forces and their moment about the centre, and its weight.
+    pub fn load(&mut self, force: &Six, functions: &[Function], step: &StepTimes) {
+        self.load = *force;
+        (0..3).for_each(|i| self.load[i] += self.shape.mass * self.gravity[i]);
+        self.solve([0.0; 6], functions, step);
+    }
+
+    /// The same with forces of contact beside them.
+    pub fn push(&mut self, contact: Six, functions: &[Function], step: &StepTimes) {
+        self.solve(contact, functions, step);
+    }
+
+    fn solve(&mut self, contact: Six, functions: &[Function], step: &StepTimes) {
+        let force: Six = std::array::from_fn(|i| self.load[i] + contact[i]);
+        let velocity = [0, 1, 2].map(|i| self.velocity[i] + step.kick * (force[i] / self.shape.mass));
+        let momentum = [0, 1, 2].map(|i| self.momentum[i] + step.kick * force[3 + i]);
+        self.next = (velocity, momentum);
+        if self.holds.is_empty() {
+            return;
+        }
+        let mut impulses = vec![0.0; self.chosen.len()];
+        // Rotations in a step are small, and each pass is better than the one before by as much.
+        for _ in 0..PASSES {
+            let turn = rotation(&self.inertia, scaled(self.next.1, step.drift));
+            let missed = |&i: &usize| {
+                let hold = &self.holds[i];
+                let arm = self.arm(hold.arm);
+                let at = self.centre[hold.axis] + arm[hold.axis];
+                let gone = step.drift * self.next.0[hold.axis] + moved(turn, arm)[hold.axis];
+                hold.missed([at, gone], turn, functions, step) / step.drift
+            };
+            let missed: Vec<f64> = self.chosen.iter().map(missed).collect();
+            let change = eliminated(&self.resistance, &missed);
+            impulses.iter_mut().zip(&change).for_each(|(impulse, change)| *impulse -= change);
+            self.next = (velocity, momentum);
+            for (&i, impulse) in self.chosen.iter().zip(&impulses) {
+                let row = self.holds[i].row(self.arm(self.holds[i].arm));
+                for axis in 0..3 {
+                    self.next.0[axis] += row[axis] * impulse / self.shape.mass;
+                    self.next.1[axis] += row[3 + axis] * impulse;
+                }
+            }
+            let settled = change.iter().zip(&impulses).all(|(change, impulse)| change.abs() <= SETTLED * impulse.abs());
+            if settled {
+                break;
+            }
+        }
+        self.holds.iter_mut().for_each(|hold| hold.reaction = 0.0);
+        for (&i, impulse) in self.chosen.iter().zip(&impulses) {
+            self.holds[i].reaction = impulse / step.kick;
+        }
+    }
+
+    /// Books half the step's work of what drives it and of its weight, before or after the kick.
+    pub fn book(&mut self, half_step: f64, after: bool) {
+        let [velocity, spin] = self.motion(after);
+        self.weight_work += half_step * self.shape.mass * dot(self.gravity, velocity);
+        let frame = self.frame;
+        for hold in self.holds.iter_mut().filter(|hold| hold.motion.is_some()) {
+            let row = hold.row(times(&frame, hold.arm));
+            let [u, v, w] = velocity;
+            let [x, y, z] = spin;
+            hold.work += half_step * hold.reaction * product(&row, &[u, v, w, x, y, z]);
+        }
+    }
+
+    /// Takes the step. Returns its rotation.
+    pub fn drift(&mut self, drift: f64) -> Quaternion {
+        (self.velocity, self.momentum) = self.next;
+        let turn = rotation(&self.inertia, scaled(self.momentum, drift));
+        for hold in &mut self.holds {
+            let arm = times(&self.frame, hold.arm);
+            let gone = drift * self.velocity[hold.axis] + moved(turn, arm)[hold.axis];
+            hold.go(gone, turn, drift);
+        }
+        self.centre = add(self.centre, scaled(self.velocity, drift));
+        self.turn = turn::then(self.turn, turn);
+        self.last = Some((turn, drift));
+        turn
+    }
+
+    /// Velocity over the last step of a point that was at `arm` from the centre before it.
+    pub fn chord(&self, arm: [f64; 3], turn: Quaternion, drift: f64) -> [f64; 3] {
+        add(self.velocity, scaled(moved(turn, arm), 1.0 / drift))
+    }
+
+    /// The last step that this run has taken: rotation and length.
+    pub fn last(&self) -> Option<(Quaternion, f64)> {
+        self.last
+    }
+
+    /// Angular velocity, radians per time, at the present state.
+    pub fn rate(&self) -> f64 {
+        let spin = self.spin(self.momentum);
+        dot(spin, spin).sqrt()
+    }
+
+    /// Velocity at the present state of a point at `arm` now.
+    pub fn velocity_at(&self, [velocity, spin]: [[f64; 3]; 2], arm: [f64; 3]) -> [f64; 3] {
+        add(velocity, cross(spin, arm))
+    }
+}
+
+/// Passes over what holds a body at most.
+const PASSES: usize = 30;
+
+/// Passes end when impulses change by less than this part.
+const SETTLED: f64 = 4e-16;
+
+/// x with A x = b of a symmetric positive matrix.
+fn eliminated(a: &[Vec<f64>], b: &[f64]) -> Vec<f64> {
+    let (mut a, mut x) = (a.to_vec(), b.to_vec());
+    let count = x.len();
+    for k in 0..count {
+        let pivot = a[k].clone();
+        for i in k + 1..count {
+            let factor = a[i][k] / pivot[k];
+            (k..count).for_each(|j| a[i][j] -= factor * pivot[j]);
+            x[i] -= factor * x[k];
+        }
+    }
+    for k in (0..count).rev() {
+        let known: f64 = (k + 1..count).map(|j| a[k][j] * x[j]).sum();
+        x[k] = (x[k] - known) / a[k][k];
+    }
+    x
+}
