@@ -6,7 +6,7 @@ use std::time::Instant;
 use urto::comm::{Communicator, Serial, run_threads};
 use urto::lanes::InstructionSet;
 use urto::material::{Elastic, ElasticPlastic, Law};
-use urto::mesh::{Block, Mesh, NodeSet};
+use urto::mesh::{Block, Mesh, NodeSet, Shape};
 use urto::model::*;
 use urto::partition::Decomposition;
 use urto::solver::{Body, Request, Solver};
@@ -31,6 +31,39 @@ fn cubes(n: usize) -> Mesh {
         blocks: vec![Block::hexahedra_of(1, connectivity)],
         ..Default::default()
     }
+}
+
+/// A flat sheet of about as many squares of edge 1 as [`cubes`] has cubes; node set 1 is the side x = 0.
+fn squares(n: usize) -> Mesh {
+    let n = ((n * n * n) as f64).sqrt().round() as usize;
+    let m = n + 1;
+    let at = |i: usize, j: usize| (j * m + i) as u32;
+    let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
+    let all = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+    let nodes: Vec<u32> = all.flat_map(|(i, j)| corners.map(|(a, b)| at(i + a, j + b))).collect();
+    Mesh {
+        coordinates: (0..m * m).map(|place| [(place % m) as f64, (place / m) as f64, 0.0]).collect(),
+        node_sets: vec![NodeSet { id: 1, nodes: (0..m).map(|j| at(0, j)).collect(), ..Default::default() }],
+        node_ids: (1..=(m * m) as i64).collect(),
+        element_ids: (1..=(n * n) as i64).collect(),
+        blocks: vec![Block { id: 1, shape: Shape::Quadrilateral, nodes, ..Block::default() }],
+        ..Default::default()
+    }
+}
+
+/// The model of a sheet with so many points through a thickness of a tenth.
+fn sheet(law: Law, points: usize) -> Model {
+    let section = |command: &str, (field, value): (&str, f64)| Section {
+        command: command.into(),
+        block: 1,
+        numbers: vec![(field.into(), value)],
+        words: Vec::new(),
+    };
+    let sections =
+        vec![section("SHELL THICKNESS", ("thickness", 0.1)), section("INTEGRATION POINTS", ("points", points as f64))];
+    // Stretched and bent, so that all points yield.
+    let velocity = [1e-2, 3e-3, 1e-3];
+    Model { sections, initial_velocities: vec![InitialVelocity::Material { block: 1, velocity }], ..model(law, FB) }
 }
 
 fn elastic() -> Law {
@@ -77,14 +110,19 @@ fn take_steps(solver: &mut Solver, comm: &mut dyn Communicator, steps: usize) {
 
 /// Nanoseconds per element and step: the best of several bursts, on `ranks` ranks.
 fn grind(n: usize, law: Law, hourglass: Hourglass, instructions: InstructionSet, ranks: usize) -> f64 {
-    let (mesh, model) = (cubes(n), model(law, hourglass));
-    let body = Body::new(&mesh, &model).expect("materials");
+    grind_of(&cubes(n), &model(law, hourglass), instructions, ranks)
+}
+
+/// The same of any mesh and model.
+fn grind_of(mesh: &Mesh, model: &Model, instructions: InstructionSet, ranks: usize) -> f64 {
+    let count = mesh.element_count();
+    let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
     let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
-    let burst = (4_000_000 / (n * n * n)).clamp(3, 200);
+    let burst = (4_000_000 / count).clamp(3, 200);
     let run = |comm: &mut dyn Communicator| {
-        let mut solver = Solver::new(&mesh, &model, &body, &decomposition.share(comm.rank()), comm);
+        let mut solver = Solver::new(mesh, model, &body, &decomposition.share(comm.rank()), comm);
         solver.use_instructions(instructions);
         take_steps(&mut solver, comm, burst);
         let mut best = f64::INFINITY;
@@ -105,7 +143,7 @@ fn grind(n: usize, law: Law, hourglass: Hourglass, instructions: InstructionSet,
             Err(_) => f64::NAN,
         }
     };
-    seconds * 1e9 / (burst * n * n * n) as f64
+    seconds * 1e9 / (burst * count) as f64
 }
 
 /// Seconds per byte of reading and writing an array of so many bytes, counting both directions.
@@ -153,6 +191,41 @@ fn laws() {
     }
 }
 
+/// Bytes that a step of a shell must move: its rows and those of its points both ways, corners and their rotations.
+fn bytes_per_shell(points: usize, law_rows: usize) -> f64 {
+    let state = 2 * 8 * (40 + points * (7 + law_rows));
+    let nodes = 2 * (64 + 2 * 32 + 2 * 64);
+    (state + 8 + 16 + nodes) as f64
+}
+
+fn shells() {
+    let n = 40;
+    let per_byte = seconds_per_byte(n * n * n * 600);
+    println!("{} shells beside {n}³ one-point hexahedra, one rank, no output: ns per element and step", 253 * 253);
+    println!("  bandwidth, read and write: {:.1} GB/s", 1e-9 / per_byte);
+    println!("  {:<34}{:>10}{:>10}{:>10}{:>14}{:>14}", "", "AVX-512", "AVX2", "portable", "streaming", "per point");
+    let sets: Vec<InstructionSet> = InstructionSet::available().collect();
+    let squares = squares(n);
+    for (name, law, rows) in [("elastic", elastic as fn() -> Law, 0), ("elastic plastic", plastic, 1)] {
+        let time = |mesh: &Mesh, model: &Model| {
+            [2, 1, 0].map(|place| sets.get(place).map_or(f64::NAN, |set| grind_of(mesh, model, *set, 1)))
+        };
+        let hexahedra = time(&cubes(n), &model(law(), FB));
+        let line = |what: String, [wide, half, portable]: [f64; 3], bytes: f64, per_point: f64| {
+            let streaming = bytes * per_byte * 1e9;
+            println!("  {what:<34}{wide:>10.1}{half:>10.1}{portable:>10.1}{streaming:>14.1}{per_point:>14.1}");
+        };
+        line(format!("hexahedron, {name}"), hexahedra, bytes_per_element(rows), hexahedra[0]);
+        for points in [1, 2, 3, 5, 9] {
+            let shell = time(&squares, &sheet(law(), points));
+            let what = format!("{points} points, {name}");
+            line(what, shell, bytes_per_shell(points, rows), shell[0] / points as f64);
+            let ratios = [0, 1, 2].map(|i| shell[i] / hexahedra[i]);
+            line("  in hexahedra".into(), ratios, 0.0, ratios[0] / points as f64);
+        }
+    }
+}
+
 fn sizes() {
     println!("elastic, Flanagan-Belytschko, one rank, by size: ns per element and step");
     for n in [22, 32, 64, 100, 159] {
@@ -171,7 +244,7 @@ fn ranks() {
 
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    for (name, section) in [("laws", laws as fn()), ("sizes", sizes), ("ranks", ranks)] {
+    for (name, section) in [("laws", laws as fn()), ("sizes", sizes), ("ranks", ranks), ("shells", shells)] {
         if wanted.is_empty() || wanted.iter().any(|w| w == name) {
             section();
         }
