@@ -140,6 +140,14 @@ fn places_that_cannot_be_written_are_named() {
 }
 
 #[test]
+fn check_says_what_each_block_costs() {
+    let desk = Desk::new();
+    let deck = concat!(env!("CARGO_MANIFEST_DIR"), "/decks/frame.i");
+    let told = desk.urto(&["check", deck]).with(0);
+    told.says(&["block 1: step ", "ns per element and cycle, ", "% of the time of all elements", "block 2: step "]);
+}
+
+#[test]
 fn check_foretells_and_runs_nothing() {
     let desk = Desk::new();
     put_bar(&desk, 1e-3, "NO DISPLACEMENT, X, 1\n");
@@ -314,6 +322,28 @@ fn an_inverted_element_ends_the_run_with_its_name_and_advice() {
     }
     last_state_is_that_of_the_log(&desk);
     assert_eq!(desk.results("bar.h").times().last(), desk.results("bar.e").times().last(), "histories end there too");
+}
+
+/// A point in the thickness of a shell is that shell: its history is what the plot file says of it, layer by layer.
+#[test]
+fn a_material_point_may_lie_in_a_shell() {
+    let desk = Desk::new();
+    desk.put("sheet.mesh", "TITLE\n sheet\nSHEET, 1, 0., 0., 0., 0.3, 0.3, 0., 3, 3\nNODE SET PLANE, 1, X, 0.\n");
+    let deck = "TITLE\n sheet\nTERMINATION TIME, 2.E-4\nPLOT TIME, 1.E-4\nHISTORY TIME, 1.E-4\nPLOT ELEMENT, STRESS\n\
+                SHELL THICKNESS, 1, 0.01\nMATERIAL POINT, 0.12, 0.23, 0.004\nMATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\n\
+                POISSONS RATIO = 0.3\nEND\nINITIAL VELOCITY MATERIAL, 1, 1., 0., 10.\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Z, 1\n\
+                NO ROTATION, Y, 1\nEXIT\n";
+    desk.put("sheet.i", deck);
+    let left = desk.urto(&["sheet.i", "--quiet"]).with(0);
+    assert!(!left.err.contains("no element"), "{}", left.err);
+    let (history, plot) = (desk.results("sheet.h"), desk.results("sheet.e"));
+    for name in ["SIGXX_B", "SIGXX_M", "SIGXX_T"] {
+        let of_point = history.global_history(&format!("{name}_1")).expect("its history");
+        // The eighth of nine shells.
+        let of_shell = plot.element_history(name, 7).expect("the shell's");
+        assert_eq!(of_point.last(), of_shell.last(), "{name}");
+        assert!(of_point.last().is_some_and(|stress| *stress != 0.0), "{name} is {of_point:?}");
+    }
 }
 
 #[test]

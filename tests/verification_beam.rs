@@ -90,6 +90,54 @@ fn b3_plastic_hinge() {
     close("B3", "collapse load [N]", mean, 3200.0 * (1.0 + 1.0 / 60.0), 0.01);
 }
 
+/// B2: the elastica (Bisshopp and Drucker 1945): deflection and shortening of a cantilever whose end is loaded across, by PL²/EI.
+#[test]
+fn b2_elastica() {
+    let ramp: String =
+        (0..=28).map(|i| f64::from(i) / 28.0).map(|g| format!("{}, {}\n", 0.9 * g, g * g * (3.0 - 2.0 * g))).collect();
+    for (load, deflection, shortening) in
+        [(1.0, 0.30172, 0.05643), (2.0, 0.49346, 0.16064), (5.0, 0.71379, 0.38763), (10.0, 0.81061, 0.55500)]
+    {
+        let force = load * 1e10 * 0.03f64.powi(4) / 12.0;
+        let deck = format!(
+            "TITLE\n elastica\nTERMINATION TIME, 1.1\nPLOT TIME, 0.005\nPLOT NODAL, DISPLACEMENT\nBEAM SECTION, 1, RECTANGLE, 0.03, 0.03\n\
+             {CLAMPED}{PLANE}MATERIAL, 1, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E10\nPOISSONS RATIO = 0.\nEND\nFUNCTION, 1\n{ramp}2., 1.\nEND\n\
+             PRESCRIBED FORCE, Z, 2, 1, {force}\n"
+        );
+        let mesh = beam(20);
+        let bent = run(&deck, &mesh);
+        // It still swings a little about where it is at rest.
+        let late: Vec<_> = bent.states.iter().filter(|state| state.time > 0.9).collect();
+        let mean = |name: &str| late.iter().map(|state| state.nodal(name)[20]).sum::<f64>() / late.len() as f64;
+        close("B2", &format!("deflection for PL²/EI = {load}"), mean("DISPLZ"), deflection, 0.01);
+        close("B2", &format!("shortening for PL²/EI = {load}"), -mean("DISPLX"), shortening, 0.01);
+    }
+}
+
+/// Dimensions and axis that the mesh gives make the same beam as those of the deck.
+#[test]
+fn sections_come_from_the_mesh() {
+    let deck = |section: &str| {
+        format!(
+            "TITLE\n section\nTERMINATION TIME, 0.02\nPLOT TIME, 1.E-3\nPLOT NODAL, DISPLACEMENT\nBEAM SECTION, 1, RECTANGLE{section}\n{CLAMPED}{STEEL}\
+             FUNCTION, 1\n0., 0.\n0.01, 1.\nEND\nPRESCRIBED FORCE, Z, 2, 1, 10.\n"
+        )
+    };
+    let mut mesh = beam(4);
+    let given = run(&deck(", 0.02, 0.04, , , 0., 1., 1."), &mesh);
+    mesh.blocks[0].attributes = [0.02, 0.04, 0.0, 1.0, 1.0].repeat(4);
+    let of_mesh = run(&deck(""), &mesh);
+    for name in ["DISPLX", "DISPLY", "DISPLZ"] {
+        assert!(given.end().nodal(name) == of_mesh.end().nodal(name), "{name}");
+    }
+    assert!(given.end().nodal("DISPLY")[4] != 0.0, "it bends about an axis that is askew");
+    mesh.blocks[0].attributes[5] = 0.03;
+    let model = support::run::model(&deck(""), &mesh);
+    let refused = urto::solver::elements::Element::of_block(&mesh.blocks[0], &model);
+    let why = refused.err().expect("sections that differ").reason;
+    assert!(why.contains("not all the same"), "{why}");
+}
+
 /// A mass at the end of a light beam: it swings as on a spring 3EI/L³.
 #[test]
 fn a_point_mass_at_the_end_of_a_beam() {

@@ -10,7 +10,7 @@ use crate::needs;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::elements::Element;
-use crate::solver::{Body, Request, Solver, state_names};
+use crate::solver::{BlockTrial, Body, Request, Solver, state_names};
 use std::time::Instant;
 
 /// Steps that are timed to estimate the cost of a run.
@@ -128,6 +128,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         solver.prepare(Request::Continue, comm).map_err(stopped)?;
     }
     let per_step = begun.elapsed().as_secs_f64() / f64::from(TRIAL_STEPS);
+    let by_block = by_block(given, &mut solver);
     let steps = (model.termination_time / first).ceil();
     let [x, y, z] = place.centre.map(|coordinate| scientific(coordinate, 3));
     let elements = mesh.element_count() as f64;
@@ -143,7 +144,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         "first time step {}, {of_mesh}set by element {} of block {} at ({x}, {y}, {z})\n{of_pronto}\
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
-         about {} of memory, {:.0} bytes per element\n\
+         {by_block}about {} of memory, {:.0} bytes per element\n\
          {foretold}deck and mesh are sound",
         scientific(first, 4),
         place.element,
@@ -153,6 +154,27 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         bytes(memory(given)),
         memory(given) / elements,
     ))
+}
+
+/// Step and cost of each block, where there are several: which of them makes a run long.
+fn by_block(given: &Given, solver: &mut Solver) -> String {
+    let (mesh, scale) = (&given.mesh, given.problem.model.time_step.scale);
+    if mesh.blocks.len() < 2 {
+        return String::new();
+    }
+    let trials = solver.try_blocks(TRIAL_STEPS);
+    let all: f64 = trials.iter().map(|trial| trial.seconds).sum();
+    let line = |trial: &BlockTrial| {
+        let block = &mesh.blocks[trial.index];
+        format!(
+            "  block {}: step {}, {:.0} ns per element and cycle, {:.0} % of the time of all elements\n",
+            block.id,
+            scientific(scale * trial.stable_step, 4),
+            1e9 * trial.seconds / block.len() as f64,
+            100.0 * trial.seconds / all
+        )
+    };
+    trials.iter().filter(|trial| trial.stable_step.is_finite()).map(line).collect()
 }
 
 /// What PRONTO2D took for the first step of a two-dimensional run: the shortest L/c (√(1 + b₁²) − b₁) with L = A/√(B:B). It

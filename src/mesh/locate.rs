@@ -46,9 +46,32 @@ fn distance(shape: Shape, corners: &[[f64; 3]], point: [f64; 3]) -> f64 {
         plane::outside(corners, point)
     } else if shape.dimension() == 3 {
         outside_of_faces(shape, corners, centre, point)
+    } else if shape == Shape::Quadrilateral {
+        beside(corners, centre, point)
     } else {
         beyond(corners, centre, point)
     }
+}
+
+/// Part of its size by which a surface may lie beside a point that is in it: the mesh does not know how thick it is, and of what is
+/// curved it has flat pieces.
+const THICK: f64 = 0.05;
+
+/// How far a point is beyond the edges of a surface or away from it, as a fraction of its size; not above 0 in it.
+fn beside(corners: &[[f64; 3]], centre: [f64; 3], point: [f64; 3]) -> f64 {
+    let around = |i: usize| subtract(corners[i % corners.len()], centre);
+    let count = corners.len();
+    let normal = (0..count).fold([0.0; 3], |sum, i| add(sum, cross(around(i), around(i + 1))));
+    let way = subtract(point, centre);
+    let beyond_edge = |i: usize| {
+        let outwards = cross(subtract(around(i + 1), around(i)), normal);
+        dot(subtract(way, around(i)), outwards) / dot(around(i), outwards)
+    };
+    let square = dot(normal, normal);
+    // Twice the area, and the size is the root of the area.
+    let away = (dot(way, normal).abs() / square.sqrt()) / (0.5 * square.sqrt()).sqrt() - THICK;
+    let outside = (0..count).map(beyond_edge).fold(away, f64::max);
+    if outside.is_nan() { f64::INFINITY } else { outside }
 }
 
 /// The largest distance of a point outside of a face's plane, over the distance of that plane from the centre.
@@ -93,5 +116,21 @@ mod tests {
         let above = locate(&mesh, [0.0, 0.0, 4.5]).expect("the nearest");
         assert!((above.outside - 1.0).abs() < 1e-12, "{above:?}");
         assert_eq!(locate(&Mesh::default(), [0.0; 3]), None);
+    }
+
+    #[test]
+    fn points_are_found_in_surfaces() {
+        let recipe = "SHEET, 1, 0, 0, 0, 2, 3, 0, 4, 3\nSHEET, 2, 0, 0, 1, 2, 3, 0, 4, 3\n";
+        let mesh = mesher::make(recipe, "t", 1).expect("a mesh");
+        for (element, (_, nodes)) in mesh.elements().enumerate() {
+            let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.coordinates[node as usize]).collect();
+            let centre = crate::solver::centroid(&corners);
+            // Near a corner, and a little above.
+            let mut point = [0, 1, 2].map(|i| 0.2 * centre[i] + 0.8 * corners[2][i]);
+            point[2] += 0.03;
+            assert_eq!(locate(&mesh, point), Some(Located { element: element as u32, outside: 0.0 }));
+        }
+        let nearest = locate(&mesh, [0.1, 0.1, 0.3]).expect("the nearest");
+        assert!(nearest.element == 0 && nearest.outside > 0.1, "{nearest:?}");
     }
 }

@@ -24,6 +24,7 @@ mod slivers;
 mod state;
 mod stop;
 mod totals;
+mod trial;
 
 pub use body::{Body, Cut, NoMaterial, centroid};
 pub use clock::{Clock, Section};
@@ -36,6 +37,7 @@ pub use rotations::Rotations;
 pub use slivers::Slivers;
 pub use stop::{ElementPlace, Stop};
 pub use totals::Totals;
+pub use trial::BlockTrial;
 
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};

@@ -272,7 +272,7 @@ impl LocalProblem {
     fn check(&mut self, pairings: &Pairings, remaining: f64, drift: f64) {
         let LocalProblem { motion, faces, point_block, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
-        let check = NodeFaceCheck { motion, faces };
+        let check = NodeFaceCheck { motion, faces, longest_path: locator.last_path() };
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
                 continue;

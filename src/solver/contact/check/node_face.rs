@@ -29,6 +29,9 @@ const HOLD: f64 = 0.01;
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
 
+/// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many in all.
+const ALONG_A_WAY: f64 = 3.4642;
+
 /// Cosine of the angle between two planes that count as one.
 const FLUSH: f64 = 0.99;
 
@@ -86,6 +89,8 @@ pub struct NodeFaceCheck<'a> {
     pub motion: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
+    /// The farthest that a point or a corner goes in this step along an axis, a length.
+    pub longest_path: f64,
 }
 
 impl NodeFaceCheck<'_> {
@@ -357,6 +362,9 @@ impl NodeFaceCheck<'_> {
             return None;
         }
         let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
+        if end.outside > self.within_reach(point, face) || self.is_on_other_side(point, face) {
+            return None;
+        }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
@@ -386,6 +394,19 @@ impl NodeFaceCheck<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &end);
         inside.then(|| contact(0.0, start.gap))
+    }
+
+    /// A point that ends the step farther beyond the border of a face than this, a length, has not touched it on its way: nobody goes
+    /// farther in the step than the longest path along each axis. Most points near a surface are in it, beside the face. Twice as
+    /// far as that, since the border of a warped face is not in one plane.
+    fn within_reach(&self, point: u32, face: u32) -> f64 {
+        let (touching, size) = (self.faces.distance(point, face), self.faces.size[face as usize]);
+        2.0 * (touching + ALONG_A_WAY * self.longest_path) + HOLD * size
+    }
+
+    /// Whether a point begins the step on the other side of a surface, to which it then belongs.
+    fn is_on_other_side(&self, point: u32, face: u32) -> bool {
+        self.faces.is_two_sided(face) && !self.begins_in_front(point, face) && self.faces.distance(point, face) > 0.0
     }
 
     /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between

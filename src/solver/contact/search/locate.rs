@@ -193,6 +193,11 @@ impl Locator {
         lengths.fold(0.0, |longest, length| if length <= f64::MAX { length.max(longest) } else { f64::INFINITY })
     }
 
+    /// The farthest that one of them goes in this step along an axis, a length.
+    pub fn last_path(&self) -> f64 {
+        self.last_path
+    }
+
     /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
     pub fn moving(&self) -> &[u32] {
         &self.moving

@@ -94,16 +94,49 @@ pub struct Beam {
     moduli: Moduli,
 }
 
-/// The cross section of a command.
-fn section(given: &model::Section) -> Result<Section, Unfit> {
-    let form = given.word("form").unwrap_or_default();
-    let [a, b, c, d] = ["a", "b", "c", "d"].map(|field| given.number(field));
-    let unfit = |reason: String| Err(Unfit { reason: format!("BEAM SECTION: {reason}"), help: String::new() });
-    let needed = match form {
+/// Number of dimensions that a form of cross section has.
+fn dimensions(form: &str) -> usize {
+    match form {
         "RECTANGLE" | "TUBE" => 2,
         "I" => 4,
         _ => 1,
-    };
+    }
+}
+
+/// What a block says of its beams: the dimensions of the command and the vector of their y axis, or where it gives none those of the
+/// mesh, which are the first attributes.
+fn given_by(command: &model::Section, block: &Block) -> Result<([f64; 4], [f64; 3]), Unfit> {
+    let numbers = ["a", "b", "c", "d"].map(|field| command.number(field));
+    let vector = ["yx", "yy", "yz"].map(|field| command.number(field));
+    if !numbers[0].is_nan() {
+        return Ok((numbers, vector));
+    }
+    let form = command.word("form").unwrap_or_default();
+    let needed = dimensions(form);
+    let unfit = |reason: String, help: &str| Unfit { reason: format!("BEAM SECTION: {reason}"), help: help.into() };
+    let first = block.attributes_of(0);
+    if first.len() < needed {
+        let reason =
+            format!("{form} has {needed} dimensions, and neither the deck nor the attributes of the mesh give them");
+        return Err(unfit(reason, "give them with BEAM SECTION"));
+    }
+    if (1..block.len()).any(|element| block.attributes_of(element) != first) {
+        let help = "give the elements of each section a block of their own, or the dimensions in BEAM SECTION";
+        return Err(unfit("the attributes of the block's beams are not all the same".into(), help));
+    }
+    if let Some(bad) = first[..needed].iter().find(|dimension| !(**dimension > 0.0 && dimension.is_finite())) {
+        return Err(unfit(format!("the mesh gives {bad} as a dimension"), "give them with BEAM SECTION"));
+    }
+    let dimensions = [0, 1, 2, 3].map(|i| if i < needed { first[i] } else { f64::NAN });
+    let of_mesh = first.get(needed..needed + 3).and_then(|rest| rest.try_into().ok());
+    let given = vector.iter().any(|component| !component.is_nan());
+    Ok((dimensions, if given { vector } else { of_mesh.unwrap_or(vector) }))
+}
+
+/// The cross section of a form with these dimensions, of which there may be fewer.
+fn section(form: &str, [a, b, c, d]: [f64; 4]) -> Result<Section, Unfit> {
+    let unfit = |reason: String| Err(Unfit { reason: format!("BEAM SECTION: {reason}"), help: String::new() });
+    let needed = dimensions(form);
     if [a, b, c, d][..needed].iter().any(|dimension| dimension.is_nan()) {
         return unfit(format!("{form} has {needed} dimensions"));
     }
@@ -150,11 +183,15 @@ impl Formulation for Beam {
         }
         let missing = || Unfit { reason: "its beams have no section".into(), help: "give it with BEAM SECTION".into() };
         let given = model.section("BEAM SECTION", block.id).ok_or_else(missing)?;
-        let direction = ["yx", "yy", "yz"].map(|field| given.number(field));
+        let (dimensions, direction) = given_by(given, block)?;
         let direction = direction.map(|component| if component.is_nan() { 0.0 } else { component });
         let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law);
         let moduli = law.map_or(Moduli { lambda: 0.0, two_mu: 1.0 }, Law::moduli);
-        Ok(Beam { section: section(given)?, direction: normalized(direction), moduli })
+        Ok(Beam {
+            section: section(given.word("form").unwrap_or_default(), dimensions)?,
+            direction: normalized(direction),
+            moduli,
+        })
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
