@@ -134,7 +134,7 @@ fn sections_come_from_the_mesh() {
     mesh.blocks[0].attributes[5] = 0.03;
     let model = support::run::model(&deck(""), &mesh);
     let refused = urto::solver::elements::Element::of_block(&mesh.blocks[0], &model);
-    let why = refused.err().expect("sections that differ").reason;
+    let why = refused.expect_err("sections that differ").reason;
     assert!(why.contains("not all the same"), "{why}");
 }
 
