@@ -31,6 +31,7 @@ HISTORY TIME, 0.5E-6
 HISTORY, BLOCK                                      $ both halves as bodies
 HISTORY, NODE SET, 4, 5                             $ what moves the top, and the edge that is driven
 HISTORY, NODE, 1
+HISTORY, CONTACT, 1, 2                              $ what the upper half does to the lower where they touch
 
 FUNCTION, 1              $ a ramp, then constant
 0.,      0.

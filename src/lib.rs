@@ -8,6 +8,7 @@
 pub mod cli;
 pub mod comm;
 pub mod deck;
+pub mod depiction;
 pub mod exodus;
 pub mod files;
 pub mod lanes;

@@ -156,6 +156,8 @@ fn curved_volumes_converge_at_second_order() {
         ("CYLINDER, 1, 2., 3., 3, 4", 12.0 * PI),
         ("TUBE, 1, 1., 2., 3., 2, 12, 4, HALF", 4.5 * PI),
         ("SPHERE, 1, 2., 3, OCTANT", 4.0 / 3.0 * PI),
+        ("SPHERE, 1, 2., 4, QUARTER, 4, 0.5, 0.3", 8.0 / 3.0 * PI),
+        ("SPHERE, 1, 2., 4, OCTANT, 4, 0.5, 0.3", 4.0 / 3.0 * PI),
         ("SPHERE SHELL, 1, 1., 2., 4, 2", 28.0 / 3.0 * PI),
     ];
     for (recipe, exact) in cases {
@@ -189,6 +191,8 @@ fn refined_meshes_contain_the_coarser_ones() {
         "CYLINDER, 1, 1., 2., 2, 3, HALF",
         "TUBE, 1, 1., 2., 2., 2, 5, 2, HALF, 3.",
         "SPHERE, 1, 1., 2, OCTANT",
+        "SPHERE, 1, 1., 2, OCTANT, 2, 0.5, 0.2",
+        "SPHERE, 1, 1., 2, HALF, 2, 0.5, 0.2",
         "SPHERE SHELL, 1, 1., 2., 2, 3, QUARTER, 4.",
     ] {
         let (coarse, fine) = (make(recipe), make_refined(recipe, 2));
@@ -203,7 +207,13 @@ fn refined_meshes_contain_the_coarser_ones() {
 #[test]
 fn elements_of_round_shapes_are_well_shaped() {
     // Shortest edge against the longest, and volume against that of the edges at right angles.
-    for (recipe, least) in [("CYLINDER, 1, 1., 0.5, 8, 8", 0.5), ("SPHERE, 1, 1., 6, OCTANT", 0.35)] {
+    for (recipe, least) in [
+        ("CYLINDER, 1, 1., 0.5, 8, 8", 0.5),
+        ("SPHERE, 1, 1., 6, OCTANT", 0.35),
+        // Angles stay where nothing is cut across the way to the pole.
+        ("SPHERE, 1, 1., 6, QUARTER, 6, 0.5, 0.2", 0.35),
+        ("SPHERE, 1, 1., 6, OCTANT, 6, 0.5, 0.2", 0.3),
+    ] {
         let mesh = make(recipe);
         for hex in mesh.hexahedra() {
             let x = corners(&mesh, hex);

@@ -332,6 +332,12 @@ pub struct View {
     /// Turns a two-dimensional body about its y axis by so many degrees: 270 leaves a quarter open to the eye
     #[arg(long, value_name = "DEGREES")]
     pub revolve: Option<f64>,
+    /// Draws shells as thick as they are
+    #[arg(long)]
+    pub thickness: bool,
+    /// Leaves out the rigid planes of the deck
+    #[arg(long)]
+    pub no_planes: bool,
     /// Colours: sequential from dark to light, diverging from white at zero; else as suits the signs of the values
     #[arg(long, value_name = "NAME")]
     pub map: Option<MapName>,

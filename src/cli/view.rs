@@ -77,6 +77,8 @@ fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
         cuts: planes("cut", &options.cut)?,
         arrows: options.arrows.clone(),
         revolve: options.revolve,
+        thickness: options.thickness,
+        planes: !options.no_planes,
         map: match options.map {
             None => MapChoice::Suited,
             Some(MapName::Sequential) => MapChoice::Sequential,

@@ -14,6 +14,7 @@ mod line;
 mod merge;
 mod patch;
 mod perturb;
+mod pole;
 mod region;
 mod section;
 mod sets;

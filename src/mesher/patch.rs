@@ -4,6 +4,7 @@ use super::{
     body::{Body, Face, Shape},
     cylinder::Cylinder,
     hex_box::between,
+    pole::Pole,
     section::Section,
     spacing::Spacing,
     turn,
@@ -93,19 +94,27 @@ fn grid(points: Vec<[f64; 2]>, [nx, ny]: [usize; 2], closed: bool, names: [Optio
 
 /// A disc: the section of a cylinder.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Disc(pub Cylinder);
+pub struct Disc {
+    /// Its section.
+    pub section: Cylinder,
+    /// Size of elements at the pole on the x axis, over what it would be.
+    pub pole: f64,
+}
 
 impl Shape for Disc {
     fn elements(&self, refine: usize) -> f64 {
-        self.0.elements(refine) / refine as f64
+        self.section.elements(refine) / refine as f64
     }
 
     fn faces(&self) -> Vec<Face> {
-        std::iter::once(Face::Outer).chain(self.0.extent.cuts()).collect()
+        std::iter::once(Face::Outer).chain(self.section.extent.cuts()).collect()
     }
 
     fn body(&self, refine: usize) -> Body {
-        self.0.section(refine).flat()
+        let mut body = self.section.section(refine).flat();
+        let pole = Pole { axis: 0, size: self.pole, is_cut: self.section.extent.cut()[0] };
+        pole.draw_all(&mut body, self.section.radius);
+        body
     }
 }
 

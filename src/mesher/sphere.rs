@@ -4,6 +4,7 @@ use super::{
     body::{Body, CUTS, Extent, Face, Shape},
     cylinder::ROUNDING,
     hex_box::between,
+    pole::Pole,
     spacing::Spacing,
 };
 
@@ -20,6 +21,8 @@ pub struct Sphere {
     pub core: f64,
     /// How much of the ball is modelled.
     pub extent: Extent,
+    /// Size of elements at the pole on the z axis, over what it would be.
+    pub pole: f64,
 }
 
 /// A hollow ball.
@@ -74,6 +77,8 @@ impl Shape for Sphere {
             0 => core[point],
             _ => (first + (ring - 1) * core.len() + point) as u32,
         });
+        let pole = Pole { axis: 2, size: self.pole, is_cut: self.extent.cut()[2] };
+        pole.draw_all(&mut body, self.radius);
         body
     }
 }

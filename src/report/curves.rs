@@ -35,7 +35,7 @@ const GLOBALS: [(&str, &[&str]); 4] = [
 ];
 
 /// Kinds of histories, by the beginnings of their names.
-const KINDS: [(&str, &[&str]); 9] = [
+const KINDS: [(&str, &[&str]); 10] = [
     ("displacement", &["DISPLX", "DISPLY", "DISPLZ"]),
     ("velocity", &["VELX", "VELY", "VELZ"]),
     ("acceleration", &["ACCLX", "ACCLY", "ACCLZ"]),
@@ -44,6 +44,7 @@ const KINDS: [(&str, &[&str]); 9] = [
     ("energies", &["KE", "IE", "HGE", "BVE"]),
     ("reaction", &["RX", "RY", "RZ"]),
     ("force", &["FX", "FY", "FZ"]),
+    ("work", &["WORK", "WORK1", "WORK2", "FRICE"]),
     ("stress", &["SIGXX", "SIGYY", "SIGZZ", "TAUXY", "TAUYZ", "TAUZX"]),
 ];
 
@@ -125,8 +126,11 @@ fn filtered(path: &Path, curves: &[&Curve], options: &ReportOptions) -> Result<V
     plot::curves(&wanted).map(|drawn| drawn.curves)
 }
 
-/// A name without its place, and the place: `ACCLX_BLOCK3` is `ACCLX` at `BLOCK3`.
+/// A name without its place, and the place: `ACCLX_BLOCK3` is `ACCLX` at `BLOCK3`, `FX_CONTACT1_2` is `FX` at `CONTACT1_2`.
 fn split(name: &str) -> (&str, String) {
+    if let Some(start) = name.find("_CONTACT") {
+        return (&name[..start], name[start + 1..].to_owned());
+    }
     name.rsplit_once('_').map_or((name, String::new()), |(stem, place)| (stem, place.to_owned()))
 }
 
@@ -151,6 +155,10 @@ fn in_words(place: &str) -> String {
         "" => format!("Material point {number}"),
         "SET" => format!("Node set {number}"),
         "WALL" => format!("Rigid surface on side set {number}"),
+        "CONTACT" => match number.split_once('_') {
+            Some((first, second)) => format!("Contact of block {first} with block {second}"),
+            None => format!("Contact of block {number} with others"),
+        },
         _ => {
             let lower = kind[1..].to_lowercase();
             format!("{}{lower} {number}", &kind[..1]).trim_end().to_owned()
@@ -178,7 +186,10 @@ mod tests {
     #[test]
     fn places_are_told_in_words() {
         assert_eq!(split("ACCLX_BLOCK3"), ("ACCLX", "BLOCK3".to_owned()));
-        let words = ["BLOCK3", "SET12", "NODE7", "4", ""].map(in_words);
-        assert_eq!(words, ["Block 3", "Node set 12", "Node 7", "Material point 4", "The body"]);
+        assert_eq!(split("WORK1_CONTACT1_2"), ("WORK1", "CONTACT1_2".to_owned()));
+        let words = ["BLOCK3", "SET12", "NODE7", "4", "", "CONTACT1_20", "CONTACT7"].map(in_words);
+        let contact = ["Contact of block 1 with block 20", "Contact of block 7 with others"];
+        let others = ["Block 3", "Node set 12", "Node 7", "Material point 4", "The body"];
+        assert_eq!(words.to_vec(), [&others[..], &contact[..]].concat());
     }
 }

@@ -14,6 +14,7 @@ mod pictures;
 
 pub use error::ReportError;
 
+use crate::depiction::Depiction;
 use crate::exodus::Results;
 use crate::plot::Class;
 use crate::run::Files;
@@ -80,7 +81,7 @@ pub fn report(files: &Files, output: &Path, options: &ReportOptions) -> Result<R
     let material = Material {
         title: results.title().trim().to_owned(),
         files: files.clone(),
-        deck: results.info(),
+        deck: Depiction::without(results.info()),
         made_by: results.qa(),
         times: results.times().to_vec(),
         log: log::Log::read(&files.print),

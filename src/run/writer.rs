@@ -6,7 +6,9 @@ use super::restart::RestartFiles;
 use super::table;
 use super::{Display, Ended, Files, Job, RunError, same_qa, together};
 use crate::comm::{Communicator, Counted};
+use crate::depiction::{Depiction, RigidPlane};
 use crate::exodus::{ResultsHeader, ResultsWriter};
+use crate::mesh::Block;
 use crate::model::StepColumns;
 use crate::needs::{self, Scene};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
@@ -14,6 +16,7 @@ use crate::output::{FieldList, HistoryPlan, block_energy_names, global_names};
 use crate::partition::Share;
 use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
+use crate::solver::elements::{Element, Touch};
 use crate::solver::{Request, Section, Solver};
 use std::time::Instant;
 
@@ -41,6 +44,23 @@ pub(super) struct Writer<'a> {
     states: Vec<f64>,
     /// Number of warnings from reading deck and mesh.
     told_before: usize,
+}
+
+/// What pictures need of the deck.
+fn depiction(job: &Job) -> Depiction {
+    let planes = job.model.rigid_surfaces.iter();
+    let planes = planes.map(|plane| RigidPlane { side_set: plane.side_set, point: plane.point, normal: plane.normal });
+    let size = |(block, element): (&Block, &Element)| {
+        // Where attributes differ in a block, the first element stands for all.
+        let touch = element.touch(block.attributes_of(0));
+        match touch {
+            Touch::Outside => None,
+            Touch::BothSides(half) => Some((block.id, 2.0 * half)),
+            Touch::Nodes(radius) => Some((block.id, radius)),
+        }
+    };
+    let sizes = job.mesh.blocks.iter().zip(&job.body.elements).filter_map(size);
+    Depiction { planes: planes.collect(), sizes: sizes.collect() }
 }
 
 impl<'a> Writer<'a> {
@@ -84,7 +104,7 @@ impl<'a> Writer<'a> {
             nodal,
             element,
             qa: same_qa(&job.qa, comm),
-            info: job.deck.lines().map(String::from).collect(),
+            info: job.deck.lines().map(String::from).chain(depiction(job).lines()).collect(),
         };
         let opened = self.plots.open(&self.files.plot, &header, comm.rank());
         let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, &header) } else { Ok(()) });

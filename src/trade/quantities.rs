@@ -64,6 +64,10 @@ pub fn of_deck(model: &Model, summary: &Value) -> Vec<Quantity> {
     for watched in &model.histories {
         let stems = match watched {
             Watched::RigidSurface(id) => vec![("F", format!("_WALL{id}"), Wanted::Peak)],
+            Watched::Contact(first, Some(second)) => {
+                vec![("F", format!("_CONTACT{first}_{second}"), Wanted::Peak)]
+            }
+            Watched::Contact(block, None) => vec![("F", format!("_CONTACT{block}"), Wanted::Peak)],
             Watched::Block(id) => {
                 vec![("VEL", format!("_BLOCK{id}"), Wanted::Last), ("ACCL", format!("_BLOCK{id}"), Wanted::Peak)]
             }

@@ -21,13 +21,14 @@ pub use sheet::row::{draw_row, picture_of_row};
 use body::{field, scene, subject};
 use paint::{camera, colour, lines, palette, raster};
 pub(crate) use paint::{numbers, text};
-use sheet::{annotate, arrows};
+use sheet::{annotate, arrows, planes};
 
 use annotate::{Key, Layout, Notes, annotate};
 use camera::{Axes, Bounds, Camera};
-use colour::ColourMap;
-use field::Place;
+use colour::{BLOCK_COLOURS, ColourMap, STATUS_COLOURS};
+use field::{Field, Place};
 use lines::Pen;
+use planes::Patch;
 use raster::Paint;
 use scene::{Scene, Values};
 use subject::{Shot, Subject};
@@ -35,6 +36,9 @@ use tiny_skia::{Color, Pixmap};
 
 /// Share of the larger side of zero below which the smaller one does not make a field signed.
 const TRACE: f64 = 0.05;
+
+/// What the status of contact stands for.
+const STATUS_NAMES: [&str; 3] = ["free", "pushed", "touches a face"];
 
 /// What a picture shows, for the line that is printed about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +79,7 @@ pub fn picture(results: &Path, options: &ViewOptions) -> Result<(Vec<u8>, Summar
     let subject = Subject::open(results, options)?;
     let state = subject.state(options.state)?;
     let shot = subject.shot(state)?;
-    let axes = Axes::new(subject.from());
-    let studio = Studio::new(&subject, options, bounds(&shot.scene, &axes), shot.scene.extremes());
+    let studio = Studio::new(&subject, options, Survey::of(&shot.scene, &Axes::new(subject.from())));
     let image = studio.picture(&shot, state)?;
     let unnamed = Path::new("");
     Ok((png(&image, unnamed)?, studio.summary(unnamed, &shot, state)))
@@ -92,20 +95,68 @@ struct Studio<'a> {
     range: (f64, f64),
     /// Length of the longest vector that arrows show.
     longest: f64,
+    /// Rigid planes.
+    patches: Vec<Patch>,
+    /// The box around body and planes as the eye sees it.
+    bounds: Bounds,
+}
+
+/// Where one or several scenes are, and their values.
+struct Survey {
+    /// The box around them as the eye sees it.
+    seen: Bounds,
+    /// The box around them along the axes.
+    body: Bounds,
+    /// The smallest and the largest value.
+    extremes: Option<(f64, f64)>,
+}
+
+impl Survey {
+    /// Of nothing.
+    const NOTHING: Survey = Survey { seen: Bounds::EMPTY, body: Bounds::EMPTY, extremes: None };
+
+    fn of(scene: &Scene, axes: &Axes) -> Survey {
+        let mut survey = Survey { extremes: scene.extremes(), ..Survey::NOTHING };
+        for node in scene.drawn_nodes() {
+            survey.seen.include(axes.turn(scene.positions[node]));
+            survey.body.include(scene.positions[node]);
+        }
+        survey
+    }
+
+    fn and(mut self, other: Survey) -> Survey {
+        self.seen.join(other.seen);
+        self.body.join(other.body);
+        self.extremes = match (self.extremes, other.extremes) {
+            (Some((low, high)), Some((l, h))) => Some((low.min(l), high.max(h))),
+            (known, new) => known.or(new),
+        };
+        self
+    }
 }
 
 impl<'a> Studio<'a> {
-    fn new(subject: &'a Subject, options: &'a ViewOptions, bounds: Bounds, extremes: Option<(f64, f64)>) -> Self {
+    fn new(subject: &'a Subject<'a>, options: &'a ViewOptions, survey: Survey) -> Self {
         let layout = Layout::new(options.size);
-        let camera = Camera::fit(Axes::new(subject.from()), bounds, layout.body());
+        let axes = Axes::new(subject.from());
+        let Survey { seen: mut bounds, body, extremes } = survey;
+        let patches = planes::patches(&subject.planes_told(), body, &axes);
+        patches.iter().flat_map(|patch| patch.corners).for_each(|corner| bounds.include(axes.turn(corner)));
+        let room = if options.arrows.is_some() { arrows::room(layout.body(), layout.unit()) } else { layout.body() };
+        let camera = Camera::fit(axes, bounds, room);
+        let is_status = subject.field.as_ref().is_some_and(Field::is_status);
         let signed = is_signed(options, options.range.or(extremes));
         let found = || match (spread(extremes.unwrap_or((0.0, 0.0))), signed) {
             ((low, high), true) => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
             (range, false) => range,
         };
         let range = options.range.unwrap_or_else(found);
-        let map = if signed { ColourMap::diverging(range) } else { ColourMap::sequential() };
-        Studio { subject, options, layout, camera, map, range, longest: 0.0 }
+        let (map, range) = match (is_status, signed) {
+            (true, _) => (ColourMap::steps(&STATUS_COLOURS), (-0.5, 2.5)),
+            (_, true) => (ColourMap::diverging(range), range),
+            _ => (ColourMap::sequential(), range),
+        };
+        Studio { subject, options, layout, camera, map, range, longest: 0.0, patches, bounds }
     }
 
     /// White paper of the size asked for.
@@ -121,8 +172,16 @@ impl<'a> Studio<'a> {
         let unit = self.layout.unit();
         let pen = Pen { mesh: self.options.edges, scale: unit.max(0.7) };
         let paint = Paint { camera: &self.camera, map: &self.map, range: self.range, pen };
+        planes::draw_behind(picture, &self.patches, &self.camera, unit.max(0.5));
         raster::paint(picture, &shot.scene, &paint);
-        arrows::draw(picture, &shot.scene, &self.camera, self.most(shot), unit.max(0.5));
+        planes::draw_before(picture, &self.patches, &self.camera, unit.max(0.5));
+        arrows::draw(picture, &shot.scene, &self.camera, self.most(shot), self.arrow_unit());
+    }
+
+    /// Pixels per pixel of a picture of 1200 by 900 in arrows: the longest fits into the room around the body.
+    fn arrow_unit(&self) -> f64 {
+        let (all, body) = (self.layout.body(), arrows::room(self.layout.body(), self.layout.unit()));
+        ((body.left - all.left).min(body.top - all.top) / arrows::LONGEST).max(0.2)
     }
 
     /// The longest vector of a scene, or of all of them.
@@ -152,13 +211,19 @@ impl<'a> Studio<'a> {
             several => said.push(format!("{} states by their times", several.len())),
         }
         let key = match field {
+            Some(field) if field.is_status() => {
+                Key::Names(STATUS_COLOURS.into_iter().zip(STATUS_NAMES.map(str::to_owned)).collect())
+            }
             Some(field) => {
                 let all = shown.iter().filter_map(|(shot, _)| shot.scene.extremes());
                 let extremes = all.reduce(|(low, high), (l, h)| (low.min(l), high.max(h)));
                 let gaps = shown.iter().any(|(shot, _)| has_gaps(&shot.scene));
                 Key::Bar { label: field.label.clone(), range: self.range, extremes, gaps }
             }
-            None => Key::Blocks(subject.blocks()),
+            None => {
+                let colour = |block: usize| BLOCK_COLOURS[block % BLOCK_COLOURS.len()];
+                Key::Names(subject.blocks().into_iter().map(|(block, name)| (colour(block), name)).collect())
+            }
         };
         let title = if subject.title().is_empty() { file_name(subject.path()) } else { subject.title().to_owned() };
         let origin = format!("urto {} · {}", env!("CARGO_PKG_VERSION"), file_name(subject.path()));
@@ -196,6 +261,16 @@ impl<'a> Studio<'a> {
             let ids: Vec<String> = options.hide.iter().map(i64::to_string).collect();
             remarks.push(format!("without block {}", ids.join(", ")));
         }
+        if !self.patches.is_empty() {
+            let mut sets: Vec<i64> = self.patches.iter().map(|patch| patch.side_set).collect();
+            sets.sort_unstable();
+            sets.dedup();
+            let sets: Vec<String> = sets.iter().map(i64::to_string).collect();
+            remarks.push(format!("grey: rigid surface of side set {}", sets.join(", ")));
+        }
+        if options.thickness {
+            remarks.push("shells as thick as they are".to_owned());
+        }
         let dropped: usize = shown.iter().map(|(shot, _)| shot.dropped).sum();
         if dropped > 0 {
             remarks.push(format!("{dropped} faces without finite coordinates are not drawn"));
@@ -214,15 +289,6 @@ impl<'a> Studio<'a> {
             dropped: shot.dropped,
         }
     }
-}
-
-/// The box around a scene as the eye sees it.
-fn bounds(scene: &Scene, axes: &Axes) -> Bounds {
-    let mut bounds = Bounds::EMPTY;
-    for node in scene.drawn_nodes() {
-        bounds.include(axes.turn(scene.positions[node]));
-    }
-    bounds
 }
 
 /// Whether values between these ends are to be seen as of both signs: where the smaller side is not a mere trace.

@@ -36,6 +36,10 @@ pub struct ViewOptions {
     pub arrows: Option<String>,
     /// Degrees by which a two-dimensional body is turned about its y axis; without it its plane is drawn.
     pub revolve: Option<f64>,
+    /// Shells are drawn as thick as they are.
+    pub thickness: bool,
+    /// Rigid planes of the deck are drawn.
+    pub planes: bool,
 }
 
 /// Which colours mean which values.
@@ -67,6 +71,8 @@ impl Default for ViewOptions {
             map: MapChoice::default(),
             arrows: None,
             revolve: None,
+            thickness: false,
+            planes: true,
         }
     }
 }

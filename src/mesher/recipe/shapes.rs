@@ -177,7 +177,7 @@ fn disc(card: &Card, draft: &mut Draft) {
         along: Spacing { cells: 1, grading: 1.0 },
         extent: Extent::from_word(card.text("model")),
     };
-    add(card, draft, Disc(section));
+    add(card, draft, Disc { section, pole: card.number("pole") });
 }
 
 fn ring(card: &Card, draft: &mut Draft) {
@@ -217,7 +217,7 @@ fn sphere(card: &Card, draft: &mut Draft) {
     let rings = if card.given("rings") { count(card, "rings") } else { core_cells };
     let extent = Extent::from_word(card.text("model"));
     let (radius, core) = (card.number("radius"), card.number("core"));
-    add(card, draft, Sphere { radius, core_cells, rings, core, extent });
+    add(card, draft, Sphere { radius, core_cells, rings, core, extent, pole: card.number("pole") });
 }
 
 fn sphere_shell(card: &Card, draft: &mut Draft) {

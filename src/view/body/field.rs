@@ -29,6 +29,13 @@ pub struct Field {
     pub odd: [bool; 3],
 }
 
+impl Field {
+    /// Whether the values stand for what contact does to a node: 0 nothing, 1 it is pushed, 2 it touches a face.
+    pub fn is_status(&self) -> bool {
+        self.place == Place::Nodes && self.label.eq_ignore_ascii_case("CONTSTAT")
+    }
+}
+
 /// The names of a file's variables.
 pub struct Names<'a> {
     /// Nodal variables.

@@ -226,11 +226,18 @@ impl Scene {
             places.extend(sides.map(|(side, a, b)| (a.min(b), a.max(b), face, side)));
         }
         places.sort_unstable();
+        let mut sheets = Vec::new();
         for shared in places.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            self.sheets(shared, &normals, &mut sheets);
             let seam = self.seams.binary_search(&[shared[0].0, shared[0].1]).is_ok();
-            let kind = match shared {
+            let kind = match sheets.as_slice() {
+                // Only where a round body turns away from the eye.
+                [one, other] if seam => match joint(*one, *other, toward_eye) {
+                    Edge::Silhouette => Edge::Silhouette,
+                    _ => Edge::None,
+                },
                 _ if seam => Edge::None,
-                [one, other] => joint(normals[one.2], normals[other.2], toward_eye),
+                [one, other] => joint(*one, *other, toward_eye),
                 _ => Edge::Outline,
             };
             for &(_, _, face, side) in shared {
@@ -238,6 +245,35 @@ impl Scene {
             }
         }
         edges
+    }
+}
+
+impl Scene {
+    /// Normals of the faces at an edge. The two sides of a sheet are one: where a sheet goes on, the sides that go on count.
+    fn sheets(&self, shared: &[(u32, u32, usize, usize)], normals: &[[f64; 3]], found: &mut Vec<[f64; 3]>) {
+        found.clear();
+        found.extend(shared.iter().map(|place| normals[place.2]));
+        let corners = |place: usize| {
+            let mut corners = self.quads[shared[place].2];
+            corners.sort_unstable();
+            corners
+        };
+        match shared.len() {
+            2 if corners(0) == corners(1) => found.truncate(1),
+            4 => {
+                let Some(twin) = (1..4).find(|&place| corners(place) == corners(0)) else { return };
+                let others: Vec<usize> = (1..4).filter(|&place| place != twin).collect();
+                if corners(others[0]) != corners(others[1]) {
+                    return;
+                }
+                let first = found[0];
+                let best = others.into_iter().map(|place| found[place]);
+                let best = best.max_by(|a, b| dot(*a, first).total_cmp(&dot(*b, first)));
+                found.truncate(1);
+                found.extend(best);
+            }
+            _ => (),
+        }
     }
 }
 
@@ -285,6 +321,18 @@ mod tests {
         scene.mirror(0, 0.0, false);
         let edges = scene.edges([-0.1, -0.9, -0.5]);
         assert_eq!(edges[0], [Edge::Outline, Edge::Outline, Edge::Outline, Edge::Mesh]);
+    }
+
+    /// Two squares of a sheet, each with both of its sides.
+    #[test]
+    fn sheets_have_lines_between_elements_and_outlines_at_their_ends() {
+        let positions = (0..6).map(|i| [f64::from(i % 3), f64::from(i / 3), 0.0]).collect();
+        let quads = vec![[0, 1, 4, 3], [3, 4, 1, 0], [1, 2, 5, 4], [4, 5, 2, 1]];
+        let values = Values::Blocks(vec![0; 4]);
+        let scene = Scene { positions, quads, values, seams: Vec::new(), vectors: Vec::new() };
+        let edges = scene.edges([0.0, 0.0, 1.0]);
+        assert_eq!(edges[0], [Edge::Outline, Edge::Mesh, Edge::Outline, Edge::Outline]);
+        assert_eq!(edges[3], [Edge::Outline, Edge::Outline, Edge::Outline, Edge::Mesh]);
     }
 
     #[test]

@@ -2,16 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
+use super::bars::add_tubes;
 use super::field::{Field, Names, Place};
+use super::quarters::quarter;
 use super::revolve::{Turn, revolve};
 use super::scene::{Scene, Values};
 use super::section::{Between, Cutting, Plane};
+use super::thickness::{Added, thicken};
+use crate::depiction::{Depiction, RigidPlane};
 use crate::exodus::{Results, ResultsError};
 use crate::mesh::exterior::{SIDES, exterior};
 use crate::mesh::{Block, Dimension, Mesh, Shape};
-use crate::vector::dot;
+use crate::vector::{dot, subtract};
 use crate::view::ViewError;
-use crate::view::camera::Axes;
+use crate::view::camera::{Axes, Bounds};
 use crate::view::options::{Direction, StateChoice, ViewOptions};
 
 /// A face of the outer surface.
@@ -25,6 +29,8 @@ pub struct Face {
 
 /// Element variables that tell which elements have gone, with the value that says so; these are not drawn.
 const FATES: [(&str, f64); 2] = [("DEATH", 1.0), ("STATUS", 0.0)];
+/// Radius of bars of which nothing is told, as a part of the size of the mesh.
+const THINNEST: f64 = 0.004;
 /// The word that asks for colours by block.
 const NO_VARIABLE: &str = "none";
 
@@ -43,6 +49,8 @@ pub struct Subject<'a> {
     elements: Vec<usize>,
     /// The surface of the blocks shown, if elements cannot die.
     skin: Option<Vec<Face>>,
+    /// What the results tell of the deck.
+    told: Depiction,
 }
 
 /// A scene and what it leaves out.
@@ -67,7 +75,9 @@ impl<'a> Subject<'a> {
         let mesh = results.mesh()?;
         let elements = shown_elements(path, &mesh, options)?;
         let (path, skin) = (path.to_owned(), None);
-        let mut subject = Subject { path, options, field, displacement, arrows, elements, skin, results, mesh };
+        let told = Depiction::read(&results.info());
+        let mut subject = Subject { path, options, field, displacement, arrows, elements, skin, told, results, mesh };
+        subject.sizes_are_known()?;
         if !subject.mortal() {
             subject.skin = Some(subject.surface_of(&subject.elements));
         }
@@ -138,8 +148,11 @@ impl<'a> Subject<'a> {
         };
         let (mut scene, mut dropped) = (None::<Scene>, 0);
         for Image { planes, flips } in self.images() {
-            let Cut { positions, skin, made, seams } =
-                self.cut(&planes, self.positions(state)?, skin.clone(), elements);
+            let mut cut = self.cut(&planes, self.bodies(&skin, elements, state)?, elements);
+            if state.is_some() && self.field.as_ref().is_some_and(Field::is_status) {
+                quarter(&mut cut);
+            }
+            let Cut { positions, skin, made, seams } = cut;
             let quads = skin.iter().map(|face| face.nodes).collect();
             let values = self.values(&skin, &made, state)?;
             let mut copy = Scene { positions, quads, values, seams, vectors: self.vectors(&made, state)? };
@@ -243,18 +256,116 @@ impl<'a> Subject<'a> {
     }
 
     /// The surface cut open, if that is asked for: what stands between a plane and the eye is taken off.
-    fn cut(&self, planes: &[Plane], positions: Vec<[f64; 3]>, skin: Vec<Face>, elements: &[usize]) -> Cut {
+    fn cut(&self, planes: &[Plane], bodies: Added, elements: &[usize]) -> Cut {
+        let Added { positions, skin, mut made, mut seams, solids } = bodies;
+        seams.sort_unstable();
         if planes.is_empty() {
-            return Cut { positions, skin, made: Vec::new(), seams: Vec::new() };
+            return Cut { positions, skin, made, seams };
         }
         let all: Vec<&[u32]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
         // Only solids have an inside.
         let solid = |&element: &usize| Some((element, <&[u32; 8]>::try_from(all[element]).ok()?));
-        let elements: Vec<(usize, &[u32; 8])> = elements.iter().filter_map(solid).collect();
+        let mut elements: Vec<(usize, &[u32; 8])> = elements.iter().filter_map(solid).collect();
+        elements.extend(solids.iter().map(|(element, nodes)| (*element, nodes)));
         let mut cutting = Cutting::new(positions, &skin);
         cutting.cut(planes, &elements);
         let skin = cutting.faces();
-        Cut { positions: cutting.positions, skin, made: cutting.made, seams: cutting.seams }
+        made.append(&mut cutting.made);
+        seams.append(&mut cutting.seams);
+        seams.sort_unstable();
+        Cut { positions: cutting.positions, skin, made, seams }
+    }
+
+    /// The surface in space: bars with a tube around them, shells as thick as they are where that is asked for.
+    fn bodies(&self, skin: &[Face], elements: &[usize], state: Option<usize>) -> Result<Added, ViewError> {
+        let mut added = Added { positions: self.positions(state)?, skin: skin.to_vec(), ..Added::default() };
+        let shapes: Vec<Shape> = self.mesh.blocks.iter().map(|block| block.shape).collect();
+        if shapes.contains(&Shape::Bar) {
+            let least = THINNEST * self.size();
+            let radius = |block: usize| self.told.size(self.mesh.blocks[block].id).unwrap_or(least);
+            let bars: Vec<(usize, [u32; 2], f64)> = self.of_shape(Shape::Bar, elements, radius).collect();
+            add_tubes(&mut added, &bars);
+        }
+        if self.options.thickness && shapes.contains(&Shape::Quadrilateral) {
+            let now = match (state, self.thickness_name()) {
+                (Some(state), Some(name)) => self.read(Place::Elements, name, state)?,
+                _ => Vec::new(),
+            };
+            let of_block = |block: usize| self.told.size(self.mesh.blocks[block].id).unwrap_or(0.0);
+            let shells: Vec<(usize, [u32; 4], f64)> = self.of_shape(Shape::Quadrilateral, elements, of_block).collect();
+            let is_shell: std::collections::HashSet<usize> = shells.iter().map(|shell| shell.0).collect();
+            added.skin.retain(|face| !is_shell.contains(&face.element));
+            let thick = |(element, nodes, told): (usize, [u32; 4], f64)| {
+                let now = now.get(element).copied().filter(|now| now.is_finite() && *now > 0.0);
+                (element, nodes, now.unwrap_or(told))
+            };
+            thicken(&mut added, shells.into_iter().map(thick).collect());
+        }
+        Ok(added)
+    }
+
+    /// Elements of a shape among some, with their nodes and what their block says.
+    fn of_shape<const N: usize>(
+        &self,
+        shape: Shape,
+        elements: &[usize],
+        of_block: impl Fn(usize) -> f64,
+    ) -> impl Iterator<Item = (usize, [u32; N], f64)> {
+        let all: Vec<(usize, &[u32])> = self.mesh.elements().collect();
+        let one = move |&element: &usize| {
+            let (block, nodes) = all[element];
+            let is_one = self.mesh.blocks[block].shape == shape;
+            let nodes = is_one.then(|| <[u32; N]>::try_from(nodes).ok()).flatten()?;
+            Some((element, nodes, of_block(block)))
+        };
+        elements.iter().filter_map(one)
+    }
+
+    /// The variable that tells how thick shells are.
+    fn thickness_name(&self) -> Option<&str> {
+        let mut names = self.results.element_names().iter();
+        names.find(|name| name.eq_ignore_ascii_case("THICKNESS")).map(String::as_str)
+    }
+
+    /// Whether shells that are to be thick have a thickness.
+    fn sizes_are_known(&self) -> Result<(), ViewError> {
+        let mut shells = self.mesh.blocks.iter().filter(|block| block.shape == Shape::Quadrilateral);
+        let known = |block: &Block| self.told.size(block.id).is_some() || self.thickness_name().is_some();
+        match shells.find(|block| !known(block)).filter(|_| self.options.thickness) {
+            None => Ok(()),
+            Some(block) => Err(ViewError::option(
+                "thickness of shells",
+                format!("asked for, but nothing tells that of block {}", block.id),
+                "results of urto, or an element variable THICKNESS",
+            )),
+        }
+    }
+
+    /// Diagonal of the box around the mesh.
+    fn size(&self) -> f64 {
+        let mut around = Bounds::EMPTY;
+        self.mesh.coordinates.iter().for_each(|x| around.include(*x));
+        let corners = around.corners();
+        let diagonal = subtract(corners[7], corners[0]);
+        dot(diagonal, diagonal).sqrt()
+    }
+
+    /// The rigid planes that are to be drawn, and their reflections.
+    pub fn planes_told(&self) -> Vec<RigidPlane> {
+        // A line that is turned about the axis is no plane, unless it is across the axis.
+        let stays = |plane: &&RigidPlane| self.options.revolve.is_none() || plane.normal[1].abs() == 1.0;
+        let mut planes: Vec<RigidPlane> =
+            self.told.planes.iter().filter(stays).filter(|_| self.options.planes).copied().collect();
+        for (axis, place) in self.mirrors() {
+            let mut images = planes.clone();
+            images.retain(|plane| plane.normal[axis] != 0.0);
+            for image in &mut images {
+                image.point[axis] = 2.0 * place - image.point[axis];
+                image.normal[axis] = -image.normal[axis];
+            }
+            planes.extend(images);
+        }
+        planes
     }
 
     /// The vector at each node and each point made; nothing where no arrows are drawn.
@@ -334,6 +445,11 @@ impl<'a> Subject<'a> {
             _ => components.into_iter().next().unwrap_or_default(),
         };
         Ok(match field.place {
+            Place::Nodes if field.is_status() => {
+                extend(&mut values, made);
+                // Faces have been divided among their corners.
+                Values::Faces(skin.iter().map(|face| values[face.nodes[0] as usize].round()).collect())
+            }
             Place::Nodes => {
                 extend(&mut values, made);
                 Values::Nodes(values)
@@ -351,11 +467,11 @@ struct Image {
 }
 
 /// A surface that may have been cut.
-struct Cut {
-    positions: Vec<[f64; 3]>,
-    skin: Vec<Face>,
-    made: Vec<Between>,
-    seams: Vec<[u32; 2]>,
+pub(super) struct Cut {
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) skin: Vec<Face>,
+    pub(super) made: Vec<Between>,
+    pub(super) seams: Vec<[u32; 2]>,
 }
 
 /// Gives the points made their values, between those of their ends.

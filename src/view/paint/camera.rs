@@ -59,7 +59,12 @@ impl Bounds {
         [0, 1].map(|axis| (self.high[axis] - self.low[axis]).max(0.0))
     }
 
-    /// Lets the box hold a turned point.
+    /// Its eight corners: the lowest first, the highest last.
+    pub fn corners(&self) -> [[f64; 3]; 8] {
+        std::array::from_fn(|i| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] }))
+    }
+
+    /// Lets the box hold a point.
     pub fn include(&mut self, point: [f64; 3]) {
         self.low = [0, 1, 2].map(|axis| self.low[axis].min(point[axis]));
         self.high = [0, 1, 2].map(|axis| self.high[axis].max(point[axis]));

@@ -19,6 +19,9 @@ pub const BLOCK_COLOURS: [Rgb; 8] = [
     [0.68, 0.60, 0.53],
 ];
 
+/// Nodes that nothing touches, that are pushed, and that touch a face themselves.
+pub const STATUS_COLOURS: [Rgb; 3] = [[0.88, 0.88, 0.87], [0.90, 0.62, 0.10], [0.10, 0.42, 0.70]];
+
 /// Lightness (OKLab) at the two ends: dark enough and light enough to show shading and edges.
 const LIGHTNESS: [f64; 2] = [0.38, 0.92];
 /// Hue (degrees, OKLab) at the two ends: from violet through blue, teal and green to yellow.
@@ -51,6 +54,11 @@ impl ColourMap {
         let most = low.abs().max(high.abs());
         let value = |i: usize| (low + (high - low) * i as f64 / (STEPS - 1) as f64) / most;
         ColourMap { table: (0..STEPS).map(|i| signed(value(i))).collect() }
+    }
+
+    /// For numbers that stand for something: equal parts of the range with a colour each.
+    pub fn steps(colours: &[Rgb]) -> Self {
+        ColourMap { table: (0..STEPS).filter_map(|i| colours.get(i * colours.len() / STEPS)).copied().collect() }
     }
 
     /// The colour at `fraction` of the range, 0 to 1; what lies outside gets the colour of the end.

@@ -28,8 +28,13 @@ pub fn ticks(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
 
 /// A number with four significant digits, as `12.34` or `1.234E-05`.
 pub fn number(value: f64) -> String {
+    rounded(value, 4)
+}
+
+/// A number with so many significant digits.
+pub fn rounded(value: f64, digits: i32) -> String {
     let power = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
-    Form::of(value.abs(), power - 3).text(value)
+    Form::of(value.abs(), power + 1 - digits).text(value)
 }
 
 enum Form {

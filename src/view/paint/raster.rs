@@ -163,7 +163,7 @@ impl Samples {
         Samples { width, rows, first: 0, depth: vec![0.0; width * rows], colour: vec![[0; 3]; width * rows] }
     }
 
-    /// Starts a band on white.
+    /// Starts a band of which nothing is covered.
     fn clear(&mut self, first: usize) {
         self.first = first;
         self.depth.fill(f32::NEG_INFINITY);
@@ -200,16 +200,20 @@ impl Samples {
         }
     }
 
-    /// Averages the samples of each pixel into rows of opaque RGBA.
+    /// Averages the samples of each pixel into rows of opaque RGBA; where nothing covers a sample, the pixel's own colour counts.
     fn average_into(&self, pixels: &mut [u8]) {
         let width = self.width / SAMPLES;
         for (index, pixel) in pixels.chunks_exact_mut(4).enumerate() {
             let (row, column) = (index / width * SAMPLES, index % width * SAMPLES);
             let samples = (0..SAMPLES).flat_map(|r| {
                 let start = (row + r) * self.width + column;
-                &self.colour[start..start + SAMPLES]
+                self.colour[start..start + SAMPLES].iter().zip(&self.depth[start..start + SAMPLES])
             });
-            let sum = samples.fold([0u32; 3], |sum, c| [0, 1, 2].map(|i| sum[i] + u32::from(c[i])));
+            let behind = [pixel[0], pixel[1], pixel[2]];
+            let sum = samples.fold([0u32; 3], |sum, (colour, depth)| {
+                let seen = if *depth == f32::NEG_INFINITY { &behind } else { colour };
+                [0, 1, 2].map(|i| sum[i] + u32::from(seen[i]))
+            });
             let count = (SAMPLES * SAMPLES) as u32;
             let mean = sum.map(|total| ((total + count / 2) / count) as u8);
             pixel.copy_from_slice(&[mean[0], mean[1], mean[2], 255]);

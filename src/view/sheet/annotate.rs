@@ -3,7 +3,7 @@
 use tiny_skia::{FillRule, LineCap, Paint, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use crate::view::camera::{Axes, Rectangle};
-use crate::view::colour::{BLOCK_COLOURS, ColourMap, NO_VALUE, Rgb};
+use crate::view::colour::{ColourMap, NO_VALUE, Rgb};
 use crate::view::numbers::{number, ticks};
 use crate::view::text::{Align, Style, Typeface};
 
@@ -39,8 +39,8 @@ pub enum Key {
         /// Some of the surface has no value.
         gaps: bool,
     },
-    /// Names of blocks and the number of each one's colour.
-    Blocks(Vec<(usize, String)>),
+    /// Colours and what each stands for.
+    Names(Vec<(Rgb, String)>),
 }
 
 /// Places and sizes, which all follow the picture's.
@@ -67,7 +67,7 @@ impl Layout {
     pub fn body(&self) -> Rectangle {
         let [left, _, right, bottom] = [130.0, 128.0, 215.0, 60.0].map(|margin| f64::from(margin * self.unit));
         let (width, height) = (f64::from(self.width), f64::from(self.height));
-        let right = width - right.max(f64::from(self.beside()));
+        let right = width - right.max(f64::from(self.beside()) + GAP * f64::from(self.unit).max(0.5));
         let bottom = bottom.max(f64::from(1.8 * self.letters(12.5)));
         let top = f64::from(self.below_caption()).max(f64::from(128.0 * self.unit));
         // On the smallest pictures the triad stands in the body's corner rather than beside it.
@@ -110,18 +110,23 @@ pub fn annotate(picture: &mut Pixmap, layout: &Layout, notes: &Notes, axes: &Axe
             sheet.bar(label, *range, map);
             sheet.extremes(*extremes, *gaps);
         }
-        Key::Blocks(blocks) => sheet.blocks(blocks),
+        Key::Names(names) => sheet.names(names),
     }
     sheet.triad(axes);
 }
 
-/// Writes a text in the middle of a place, shortened to a width.
-pub fn label(picture: &mut Pixmap, layout: &Layout, text: &str, [x, y]: [f64; 2], width: f64) {
+/// Writes the first of some texts that fits into a width in the middle of a place; the last one is shortened.
+pub fn label(picture: &mut Pixmap, layout: &Layout, texts: &[String], [x, y]: [f64; 2], width: f64) {
     let sheet = Sheet { picture, layout, typeface: Typeface::new() };
     let style = sheet.style(15.0, false, INK);
+    let fits = |text: &&String| sheet.typeface.width(text, style) <= width as f32;
+    let text = texts.iter().find(fits).or(texts.last()).map_or("", String::as_str);
     let text = sheet.typeface.fit(text, width as f32, style);
     sheet.typeface.draw(sheet.picture, &text, [x as f32, y as f32], Align::Centre, style);
 }
+
+/// Room between the body and what stands beside it, in pixels of a picture of 1200 by 900.
+const GAP: f64 = 14.0;
 
 /// Pixels per pixel of a picture of 1200 by 900 below which there is no room for the axes.
 const SMALLEST_TRIAD: f32 = 0.33;
@@ -216,17 +221,17 @@ impl Sheet<'_> {
         }
     }
 
-    fn blocks(&mut self, blocks: &[(usize, String)]) {
+    fn names(&mut self, names: &[(Rgb, String)]) {
         let [left, top, _, bottom] = self.bar_place();
         let style = self.style(15.5, false, INK);
         let pitch = 1.9 * style.size;
         let places = (((bottom - top) / pitch) as usize).max(1);
-        for (place, (block, name)) in blocks.iter().take(places).enumerate() {
+        for (place, (colour, name)) in names.iter().take(places).enumerate() {
             let y = top + place as f32 * pitch;
-            self.swatch([left, y], BLOCK_COLOURS[block % BLOCK_COLOURS.len()], name, style);
+            self.swatch([left, y], *colour, name, style);
         }
-        if blocks.len() > places {
-            let text = format!("and {} more", blocks.len() - places);
+        if names.len() > places {
+            let text = format!("and {} more", names.len() - places);
             self.write(&text, [left, top + (places as f32 + 0.7) * pitch], Align::Left, style);
         }
     }

@@ -6,15 +6,24 @@ use tiny_skia::{FillRule, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use super::cover::Cover;
 use crate::vector::dot;
-use crate::view::camera::Camera;
+use crate::view::camera::{Camera, Rectangle};
 use crate::view::scene::Scene;
 
 /// Pixels, of a picture 900 high, that an arrow has for itself, and of the longest arrow.
 const APART: f64 = 30.0;
-const LONGEST: f64 = 62.0;
+pub const LONGEST: f64 = 62.0;
+/// Arrows are no smaller than in a picture 450 high, but where the room for them would be.
+const LEAST_UNIT: f64 = 0.5;
 /// Arrows shorter than this many pixels are not drawn.
 const SHORTEST: f64 = 2.5;
 const INK: [u8; 3] = [20, 20, 24];
+
+/// What is left of the room of a body when arrows need some around it.
+pub fn room(body: Rectangle, unit: f64) -> Rectangle {
+    let inset = |size: f64| (LONGEST * unit.max(LEAST_UNIT)).min(0.2 * size);
+    let (aside, above) = (inset(body.right - body.left), inset(body.bottom - body.top));
+    Rectangle { left: body.left + aside, top: body.top + above, right: body.right - aside, bottom: body.bottom - above }
+}
 
 /// The largest length of a finite vector at a drawn node; zero without any.
 pub fn longest(scene: &Scene) -> f64 {

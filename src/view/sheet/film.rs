@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use gif::{Encoder, Frame, Repeat};
 use tiny_skia::Pixmap;
 
-use crate::view::camera::{Axes, Bounds};
+use crate::view::camera::Axes;
 use crate::view::colour::ColourMap;
 use crate::view::palette::Palette;
 use crate::view::subject::Subject;
-use crate::view::{Studio, Summary, ViewError, ViewOptions, bounds, png, write};
+use crate::view::{Studio, Summary, Survey, ViewError, ViewOptions, png, write};
 
 /// How long a GIF shows each state, in hundredths of a second.
 const DELAY: u16 = 10;
@@ -35,9 +35,8 @@ pub fn draw_many(
     let last = subject.times().len().checked_sub(1).ok_or_else(|| ViewError::NoStates { path: results.to_owned() })?;
     let mut states: Vec<usize> = (0..last).step_by(every.get()).collect();
     states.push(last);
-    let (bounds, extremes) =
-        survey(&subject, &states.iter().copied().map(Some).collect::<Vec<_>>(), &Axes::new(subject.from()))?;
-    let studio = Studio::new(&subject, options, bounds, extremes);
+    let survey = survey(&subject, &states.iter().copied().map(Some).collect::<Vec<_>>(), &Axes::new(subject.from()))?;
+    let studio = Studio::new(&subject, options, survey);
     let mut reel = Reel::new(picture, options.size, &studio.map)?;
     let mut summaries = Vec::with_capacity(states.len());
     for state in states {
@@ -49,24 +48,13 @@ pub fn draw_many(
     Ok(summaries)
 }
 
-pub(in crate::view) type Extremes = Option<(f64, f64)>;
-
-/// The box around all states, and the smallest and largest value in them.
-pub(in crate::view) fn survey(
-    subject: &Subject,
-    states: &[Option<usize>],
-    axes: &Axes,
-) -> Result<(Bounds, Extremes), ViewError> {
-    let (mut all, mut extremes): (Bounds, Extremes) = (Bounds::EMPTY, None);
+/// Where the body is in all states, and its values.
+pub(in crate::view) fn survey(subject: &Subject, states: &[Option<usize>], axes: &Axes) -> Result<Survey, ViewError> {
+    let mut all = Survey::NOTHING;
     for &state in states {
-        let scene = subject.shot(state)?.scene;
-        all.join(bounds(&scene, axes));
-        extremes = match (extremes, scene.extremes()) {
-            (Some((low, high)), Some((l, h))) => Some((low.min(l), high.max(h))),
-            (known, new) => known.or(new),
-        };
+        all = all.and(Survey::of(&subject.shot(state)?.scene, axes));
     }
-    Ok((all, extremes))
+    Ok(all)
 }
 
 /// Where the pictures go.

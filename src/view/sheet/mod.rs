@@ -4,4 +4,5 @@ pub mod annotate;
 pub mod arrows;
 mod cover;
 pub mod film;
+pub mod planes;
 pub mod row;

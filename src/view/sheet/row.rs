@@ -7,7 +7,7 @@ use tiny_skia::{Color, Pixmap, PixmapPaint, Transform};
 use super::annotate::{annotate, label};
 use super::film::survey;
 use crate::view::camera::{Axes, Camera, Rectangle};
-use crate::view::numbers::number;
+use crate::view::numbers::rounded;
 use crate::view::subject::{Shot, Subject};
 use crate::view::{StateChoice, Studio, Summary, ViewError, ViewOptions, png, too_large, write};
 
@@ -43,8 +43,8 @@ pub fn picture_of_row(
     let subject = Subject::open(results, options)?;
     let states = choices.iter().map(|&choice| subject.state(choice)).collect::<Result<Vec<_>, _>>()?;
     let axes = Axes::new(subject.from());
-    let (bounds, extremes) = survey(&subject, &states, &axes)?;
-    let mut studio = Studio::new(&subject, options, bounds, extremes);
+    let mut studio = Studio::new(&subject, options, survey(&subject, &states, &axes)?);
+    let bounds = studio.bounds;
     let shots = states.iter().map(|&state| subject.shot(state)).collect::<Result<Vec<_>, _>>()?;
     let body = studio.layout.body();
     let unit = studio.layout.unit();
@@ -56,7 +56,9 @@ pub fn picture_of_row(
         bottom: (cell.bottom - cell.top - label_height(unit)).max(1.0),
     };
     if let Some(first) = cells.first() {
-        studio.camera = Camera::fit(axes, bounds, inside(first));
+        let room = inside(first);
+        let room = if options.arrows.is_some() { super::arrows::room(room, unit) } else { room };
+        studio.camera = Camera::fit(axes, bounds, room);
     }
     studio.longest = shots.iter().map(|shot| super::arrows::longest(&shot.scene)).fold(0.0, f64::max);
     let mut sheet = studio.paper()?;
@@ -69,11 +71,14 @@ pub fn picture_of_row(
         let (left, top) = (cell.left as i32, cell.top as i32);
         sheet.draw_pixmap(left, top, part.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
         let middle = 0.5 * (cell.left + cell.right);
-        let text = state.map_or("mesh".to_owned(), |state| number(subject.times()[state]));
+        let texts = match state {
+            None => vec!["mesh".to_owned()],
+            Some(state) => [4, 3, 2].map(|digits| rounded(subject.times()[*state], digits)).to_vec(),
+        };
         label(
             &mut sheet,
             &studio.layout,
-            &text,
+            &texts,
             [middle, cell.bottom - 0.35 * label_height(unit)],
             cell.right - cell.left,
         );
