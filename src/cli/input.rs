@@ -9,7 +9,7 @@ use crate::exodus::{MeshError, read_mesh};
 use crate::exodus::{Together, read_mesh_together};
 use crate::mesh::{Mesh, check::unreferenced_nodes, plane};
 use crate::mesher;
-use crate::model::{Analysis, Problem, examine};
+use crate::model::{Problem, examine};
 use crate::solver::elements::Unfit;
 use crate::solver::{Body, idle_rotations, unfit_blocks};
 use std::io::IsTerminal;
@@ -106,7 +106,7 @@ impl Given {
         match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
             (Ok(problem), Ok(((mut mesh, mesh_files), mesh_path))) => {
                 all_used(given)?;
-                if problem.model.analysis == Analysis::Axisymmetric {
+                if problem.model.analysis.about_axis() {
                     mesh.coordinates = plane::on_axis(&mesh);
                 }
                 let unfit = unfit_blocks(&mesh, &problem.model);

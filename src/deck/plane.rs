@@ -104,6 +104,30 @@ mod tests {
         assert!(errors.iter().any(|error| error == expected[2]), "{errors:?}");
     }
 
+    /// What only shells, bars, edges or rotations have, each by its own line.
+    #[test]
+    fn commands_of_space_are_answered_one_by_one() {
+        for command in [
+            "NO ROTATION, X, 1",
+            "PRESCRIBED ROTATION, X, 1, 1",
+            "PRESCRIBED ANGULAR VELOCITY, X, 1, 1",
+            "PRESCRIBED MOMENT, X, 1, 1",
+            "SHELL THICKNESS, 1, 2.",
+            "THICKNESS SCALE, 1, 2.",
+            "INTEGRATION POINTS, 1, 5",
+            "BEAM SECTION, 1, ROD, 2.",
+            "ELEMENT, 1, EIGHT POINTS",
+            "CONTACT EDGES, ALL",
+            "CONTACT THICKNESS, 1, 0.5",
+        ] {
+            let (_, errors) =
+                read(&format!("PLANE STRAIN\nTERMINATION TIME, 1.\nFUNCTION, 1\n0., 1.\nEND\n{command}\n"));
+            let told =
+                errors.iter().any(|error| error.ends_with("it belongs to three dimensions, and this deck has two"));
+            assert!(told, "{command}: {errors:?}");
+        }
+    }
+
     #[test]
     fn a_title_makes_nothing_flat() {
         let (deck, errors) = read("TITLE\nAXISYMMETRIC\nGRAVITY, 0., 0., 1.\nTERMINATION TIME, 1.\n");

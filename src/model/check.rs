@@ -64,7 +64,7 @@ fn dimensions(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) -> bool {
         });
         return false;
     }
-    if analysis == Analysis::Axisymmetric {
+    if analysis.about_axis() {
         let positions = crate::mesh::plane::on_axis(mesh);
         let beyond = positions.iter().zip(&mesh.node_ids).filter(|(x, _)| x[0] < 0.0);
         if let Some((x, id)) = beyond.clone().min_by(|a, b| a.0[0].total_cmp(&b.0[0])) {
@@ -78,6 +78,19 @@ fn dimensions(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) -> bool {
                 .at(place, "x is the distance from the axis")
                 .help("model one half of the section, at positive x"),
             );
+        }
+        if analysis == Analysis::AxisymmetricCompatible {
+            for name in ["CONTACT MATERIAL", "CONTACT SURFACE", "CONTACT NODE SET", "PRESCRIBED FORCE"] {
+                for card in problem.deck.cards_of(name) {
+                    found.push(
+                        Diagnostic::error(format!(
+                            "{name}: nodes on the axis have no mass in AXISYMMETRIC, COMPATIBLE"
+                        ))
+                        .at(card.record, "this asks for the masses of nodes")
+                        .help("AXISYMMETRIC alone has contact and forces on nodes"),
+                    );
+                }
+            }
         }
         for card in problem.deck.cards_of("INITIAL VELOCITY ANGULAR") {
             found.push(

@@ -8,7 +8,7 @@ use crate::deck::{Card, Diagnostic, language};
 
 pub(super) const COMMANDS: &[Setter] = &[
     ("TITLE", title),
-    ("AXISYMMETRIC", |card, draft| analysis(Analysis::Axisymmetric, card, draft)),
+    ("AXISYMMETRIC", axisymmetric),
     ("PLANE STRAIN", |card, draft| analysis(Analysis::PlaneStrain, card, draft)),
     ("TERMINATION TIME", termination_time),
     ("TIME STEP SCALE", time_step_scale),
@@ -24,6 +24,12 @@ pub(super) const COMMANDS: &[Setter] = &[
 
 /// Hourglass control of a deck that asks for none.
 pub const DEFAULT_HOURGLASS: Hourglass = Hourglass::AssumedStrain { factor: 1.0 };
+
+fn axisymmetric(card: &Card, draft: &mut Draft) {
+    let compatible = card.text("form") == "COMPATIBLE";
+    let kind = if compatible { Analysis::AxisymmetricCompatible } else { Analysis::Axisymmetric };
+    analysis(kind, card, draft);
+}
 
 fn analysis(kind: Analysis, card: &Card, draft: &mut Draft) {
     if ![Analysis::Solid, kind].contains(&draft.model.analysis) {

@@ -111,6 +111,8 @@ pub enum Analysis {
     PlaneStrain,
     /// AXISYMMETRIC: bodies of revolution about the y axis, all 2π radians of them.
     Axisymmetric,
+    /// AXISYMMETRIC, COMPATIBLE: the same, with forces weighed by areas.
+    AxisymmetricCompatible,
 }
 
 impl Analysis {
@@ -125,7 +127,13 @@ impl Analysis {
             Analysis::Solid => "3D SOLID",
             Analysis::PlaneStrain => "PLANE STRAIN",
             Analysis::Axisymmetric => "AXISYMMETRIC",
+            Analysis::AxisymmetricCompatible => "AXISYMMETRIC, COMPATIBLE",
         }
+    }
+
+    /// Whether x is the distance from an axis.
+    pub fn about_axis(self) -> bool {
+        matches!(self, Analysis::Axisymmetric | Analysis::AxisymmetricCompatible)
     }
 }
 

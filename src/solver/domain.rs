@@ -14,7 +14,7 @@ use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::{Block, Mesh};
-use crate::model::{Analysis, InitialVelocity, Model, Unknown};
+use crate::model::{InitialVelocity, Model, Unknown};
 use crate::partition::Share;
 
 /// Everything a rank owns.
@@ -192,7 +192,7 @@ impl Domain {
                 }
             }
         }
-        if model.analysis == Analysis::Axisymmetric {
+        if model.analysis.about_axis() {
             self.hold_axis(&mut taken);
         }
         taken

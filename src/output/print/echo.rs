@@ -250,7 +250,7 @@ fn masses(echo: &Echo) -> String {
     let of = match echo.model.analysis {
         Analysis::Solid => return table,
         Analysis::PlaneStrain => "A UNIT OF THICKNESS",
-        Analysis::Axisymmetric => "TWO PI RADIANS",
+        Analysis::Axisymmetric | Analysis::AxisymmetricCompatible => "TWO PI RADIANS",
     };
     format!("{table}                ( ALL MASSES ARE FOR {of} )\n")
 }

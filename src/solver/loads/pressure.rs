@@ -5,6 +5,7 @@ use crate::lanes::Force;
 use crate::model::{Analysis, Function, Model};
 use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
+use crate::solver::elements::quadrilateral::sections::ON_AXIS;
 use crate::solver::nodes::Nodes;
 use crate::vector::{cross, dot, scaled};
 
@@ -78,7 +79,7 @@ pub struct PressureFace {
 }
 
 /// ∫ N_I n dA over a face of space, over an edge a-b-b-a times a unit of thickness, or over the ring that the edge sweeps in a
-/// turn about the y axis. All exact; of an edge the last two are zero.
+/// turn about the y axis; in the compatible form as its forces are weighed. All exact but that; of an edge the last two are zero.
 pub fn area_vectors(x: [[f64; 3]; 4], analysis: Analysis) -> [[f64; 3]; 4] {
     let [a, b, ..] = x;
     let normal = [b[1] - a[1], a[0] - b[0], 0.0];
@@ -89,6 +90,11 @@ pub fn area_vectors(x: [[f64; 3]; 4], analysis: Analysis) -> [[f64; 3]; 4] {
         Analysis::Axisymmetric => {
             let sixth = std::f64::consts::TAU / 6.0;
             of_ends([sixth * (2.0 * a[0] + b[0]), sixth * (a[0] + 2.0 * b[0])])
+        }
+        Analysis::AxisymmetricCompatible => {
+            let half = 0.5 * std::f64::consts::TAU;
+            let radius = |own: f64, other: f64| if own > 0.0 { own } else { ON_AXIS * other };
+            of_ends([half * radius(a[0], b[0]), half * radius(b[0], a[0])])
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
 use crate::mesh::{HEX_SIDES, Mesh};
-use crate::model::{Analysis, ContactOverlap, Model};
+use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::contact_nodes::ContactNodes;
@@ -359,7 +359,7 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
     for (point, &node) in layout.nodes.iter().enumerate() {
         motion.inverse_mass[point] = [1.0 / body.node_mass[node as usize]; 3];
         // What is on the axis stays there.
-        if model.analysis == Analysis::Axisymmetric && body.positions[node as usize][0] == 0.0 {
+        if model.analysis.about_axis() && body.positions[node as usize][0] == 0.0 {
             motion.inverse_mass[point][0] = 0.0;
         }
     }

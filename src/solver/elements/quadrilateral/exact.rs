@@ -2,10 +2,10 @@
 //! [`AccountRows`].
 
 use super::fluid;
-use super::kernel::{Rates, Settings, load, rates, rotated, solid};
+use super::kernel::{Rates, Settings, load, rates, rotated, solid, weighted_modes};
 use super::kinematics::Flat;
 use super::rows;
-use super::sections::{Corners, Operator, Section};
+use super::sections::{Corners, Section};
 use crate::lanes::{Lanes, Row, array};
 use crate::material::Kernel;
 use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
@@ -40,10 +40,17 @@ pub fn power_of_stress<V: Lanes>([xx, yy, zz, xy]: &Flat<V>, flow: &Rates<V>) ->
     (*xx * rr + *yy * zz_rate) + (*zz * flow.hoop + *xy * (rz + zr))
 }
 
-/// Rates at a geometry, those of strain times the volume of the whole turn.
+/// Rates at a geometry as forces see them, those of strain times the volume of the whole turn.
 #[inline(always)]
-fn flow<V: Lanes>(section: Section, operator: &Operator<V>, v: &[Corners<V>; 2], x: &[Corners<V>; 2]) -> Rates<V> {
-    rates(section.about_axis(), operator, v, x, V::splat(section.turn()))
+fn flow<V: Lanes>(section: Section, v: &[Corners<V>; 2], x: &[Corners<V>; 2]) -> Rates<V> {
+    let operator = section.operator(x);
+    let inverse_area = V::splat(1.0) / operator.area;
+    let operator = section.of_forces(operator, x);
+    let mut flow = rates(section.about_axis(), &operator, v, x, [V::splat(section.turn()), inverse_area]);
+    if let Some((weights, _)) = section.weights(x) {
+        flow.hourglass = weighted_modes(&operator, [x, v], inverse_area, &weights);
+    }
+    flow
 }
 
 impl<V: Lanes> Start<V> {
@@ -59,8 +66,8 @@ impl<V: Lanes> Start<V> {
         let time_step = V::splat(settings.time_step);
         let before: [Corners<V>; 2] =
             [array![i in 4 => x[0][i] - time_step * v[0][i]], array![i in 4 => x[1][i] - time_step * v[1][i]]];
-        let flow_before = flow(section, &section.operator(&before), v, &before);
-        let flow = flow(section, &section.operator(x), v, x);
+        let flow_before = flow(section, v, &before);
+        let flow = flow(section, v, x);
         let growth = trace(&flow);
 
         let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
@@ -71,7 +78,7 @@ impl<V: Lanes> Start<V> {
         if K::FLUID {
             let resistance = [V::load(&state[rows::HOURGLASS], part), V::load(&state[rows::HOURGLASS + 1], part)];
             of_modes = fluid::power_of_modes(&resistance, &flow_before.hourglass)
-                + fluid::power(&before, v, &state[corner_rows::<K>()], part);
+                + fluid::power([&before, v], &state[corner_rows::<K>()], part, section.weights(&before).as_ref());
         }
         let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
         let works = ROWS.begin::<V, K>(&powers, state, part, settings.steps());

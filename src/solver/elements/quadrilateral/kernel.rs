@@ -65,7 +65,7 @@ pub(super) fn load<V: Lanes>(state: &[Row], first: usize, part: usize) -> [V; 4]
 }
 
 #[inline(always)]
-fn dot<V: Lanes>(a: &Corners<V>, b: &Corners<V>) -> V {
+pub(super) fn dot<V: Lanes>(a: &Corners<V>, b: &Corners<V>) -> V {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
@@ -99,6 +99,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
     ) -> Outcome<V, 4> {
         let Physics { settings, law, section } = self;
         let (about_axis, turn) = (section.about_axis(), section.turn());
+        let compatible = K::EQUATION && *section == Section::Compatible;
         let (zero, half, one) = (V::splat(0.0), V::splat(0.5), V::splat(1.0));
         let (time_step, half_step) = (V::splat(settings.time_step), V::splat(0.5 * settings.time_step));
         let x = [positions[0], positions[1]];
@@ -111,10 +112,16 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let middle: [Corners<V>; 2] =
             [array![i in 4 => x[0][i] - half_step * v[0][i]], array![i in 4 => x[1][i] - half_step * v[1][i]]];
         let operator = section.operator(&middle);
-        let inverse = one / operator.volume;
-        let Rates { gradient, hoop, hourglass: hourglass_rate } = rates(about_axis, &operator, &v, &middle, inverse);
+        let inverses = section.inverses(&operator);
+        let Rates { gradient, hoop, hourglass: hourglass_rate } = rates(about_axis, &operator, &v, &middle, inverses);
         let middle_volume = operator.volume * V::splat(turn);
-        let middle_thickness = if about_axis { middle_volume / operator.area } else { one };
+        let mut middle_thickness = if about_axis { middle_volume * inverses[1] } else { one };
+        // What the resistance of a mode works on; it differs only where forces are not the operator's of rates.
+        let mut worked_rate = hourglass_rate;
+        if let (true, Some((weights, mean))) = (compatible, section.weights(&middle)) {
+            worked_rate = weighted_modes(&operator, [&middle, &v], inverses[1], &weights);
+            middle_thickness = mean * V::splat(turn);
+        }
 
         // (ii) frame, stretch and strain increment
         let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
@@ -157,22 +164,39 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let stiffness = response.stiffness;
         let elastic = if K::STIFFNESS { stiffness.dilatational } else { V::splat(settings.dilatational) };
         let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
-        let inverse_corners: Corners<V> = load(own, rows::INVERSE_MASS, part);
-        let lightest = one / inverse_corners[0].max(inverse_corners[1]).max(inverse_corners[2].max(inverse_corners[3]));
-        let inverse_area = one / operator.area;
-        let thickness = if about_axis { volume * inverse_area } else { one };
+        let mut inverse_corners: Corners<V> = load(own, rows::INVERSE_MASS, part);
+        let weights = if compatible { section.weights(&x) } else { None };
+        if let Some((weights, _)) = &weights {
+            inverse_corners = array![i in 4 => inverse_corners[i] * weights[i]];
+        }
+        // One over the mass of the lightest corner.
+        let lightest = inverse_corners[0].max(inverse_corners[1]).max(inverse_corners[2].max(inverse_corners[3]));
+        let [inverse_measure, inverse_area] = section.inverses(&operator);
+        let mut thickness = if about_axis { volume * inverse_area } else { one };
+        if let Some((_, mean)) = &weights {
+            thickness = *mean * V::splat(turn);
+        }
         let b_squared = dot(&operator.plane[0], &operator.plane[0]) + dot(&operator.plane[1], &operator.plane[1]);
-        let (measure, lengths) = (b_squared * inverse_area, lengths(&x, &frame));
+        let (measure, proportions) = (b_squared * inverse_area, proportions(&x, &frame));
         let gamma = hourglass_vector(&operator, &x, inverse_area);
-        let mut square = frequency_square(*section, &operator, &inverse_corners, [elastic, mu]);
+        let mut square = frequency_square(*section, &operator, &inverse_corners, [elastic, mu]) * inverse_measure;
+        let mut of_hoop = zero;
+        if compatible {
+            square = square * thickness;
+            // It shortens the step alone: a viscosity that knew of it would be another at every angle of a sphere.
+            let hoop = operator.hoop[0] * operator.hoop[0] * inverse_area * thickness;
+            of_hoop = elastic
+                * hoop
+                * ((inverse_corners[0] + inverse_corners[1]) + (inverse_corners[2] + inverse_corners[3]));
+        }
         // Hourglass and strain modes are orthogonal only where corners weigh alike and the element is a parallelogram: near the
         // axis the whole resistance counts, and in warped elements what the hourglass vector has across (1, −1, 1, −1).
-        let stiffness =
-            hourglass::stiffness(settings.control, mu, V::splat(settings.poisson), &lengths, measure) * thickness;
+        let stiffness = hourglass::stiffness(settings.control, mu, settings.poisson, &proportions, measure) * thickness;
         let across = (dot(&gamma, &gamma) - V::splat(4.0)).max(zero);
-        square = square + stiffness * (across + V::splat(2.0) * across.sqrt()) / lightest;
+        square = square + stiffness * (across + V::splat(2.0) * across.sqrt()) * lightest;
         if about_axis {
-            let uneven = ((one - V::splat(4.0) * lightest / mass.moving) * V::splat(3.0)).min(one);
+            // Three times what the heaviest quarter has beyond the lightest corner.
+            let uneven = (lightest * mass.moving * V::splat(0.75) - V::splat(3.0)).max(zero).min(one);
             let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
             square = square + uneven * stiffness * dot(&squares, &inverse_corners);
         }
@@ -182,6 +206,8 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             step_modulus([settings.dilatational, settings.mu], settings.effective_moduli, [&old, &stress], &strain)
         };
         let bound = (V::splat(4.0) * elastic / (square * modulus)).sqrt();
+        // Where viscosity rules the step, it falls with the square of the frequency.
+        let shorter = if compatible { square / (square + of_hoop) } else { one };
         let rate = gradient[0][0] + gradient[1][1] + hoop;
         let damping = damping(settings.viscosity, bound, rate);
         let viscous = damping * modulus * bound * rate;
@@ -196,30 +222,31 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let total = rotated(&stress, &frame, zero);
         let mut held = fluid::Held::nothing(stable_step);
         let (resistance, lever) = if let (true, Some(start)) = (K::FLUID, &start) {
-            let heavy = V::splat(4.0) * lightest;
-            let resistance =
-                fluid::resistance(&start.flow.hourglass, hourglass::of_fluids(settings.control), heavy, stable_step);
+            let heavy = V::splat(4.0) / lightest;
+            // What slows the modes of the plane works on weighted ones.
+            let rates = if compatible { [dot(&gamma, &v[0]), dot(&gamma, &v[1])] } else { start.flow.hourglass };
+            let resistance = fluid::resistance(&rates, hourglass::of_fluids(settings.control), heavy, stable_step);
             store(resistance, own, rows::HOURGLASS, part);
             let sizes = [operator.area, heavy, stable_step, b_squared];
-            held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes);
+            held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes, weights.as_ref());
             let of_modes = fluid::power_of_modes(&resistance, &start.flow.hourglass) + held.power;
             let powers = [power_of_stress(&total, &start.flow), viscous * start.growth, of_modes];
             start.finish::<K>(powers, state, part, settings);
             (resistance, one)
         } else {
-            let light = V::splat(4.0) * lightest / thickness;
             let modes = hourglass::State {
-                lengths,
+                proportions,
                 stiffness_measure: measure,
-                mass: light,
+                lightest: [lightest, thickness],
                 mu,
-                poisson: V::splat(settings.poisson),
+                poisson: settings.poisson,
                 returned: response.returned,
                 time_step,
             };
             let turned = [frame_middle, frame];
-            let resistance = resist(settings.control, &hourglass_rate, turned, (own, part), middle_thickness, &modes);
-            held.stable_step = hourglass::stable_step(settings.control, stable_step, measure, light, mu);
+            let rates = [&hourglass_rate, &worked_rate];
+            let resistance = resist(settings.control, rates, turned, (own, part), middle_thickness, &modes);
+            held.stable_step = hourglass::stable_step(settings.control, stable_step, &modes);
             if let Some(start) = &start {
                 let powers = [power_of_stress(&total, &start.flow), viscous * start.growth, zero];
                 start.finish::<K>(powers, state, part, settings);
@@ -227,6 +254,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             (resistance, thickness)
         };
         let stable_step = match &start {
+            Some(start) if compatible => gentle_step(start.growth / volume, held.stable_step * shorter),
             Some(start) => gentle_step(start.growth / volume, held.stable_step),
             None => held.stable_step,
         };
@@ -237,6 +265,11 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         // (vi) corner forces from the rotated stress
         let [xx, yy, zz, xy] = total;
         let total = [xx + viscous, yy + viscous, zz + viscous, xy];
+        let gamma = match &weights {
+            Some((weights, _)) => array![i in 4 => gamma[i] * weights[i]],
+            None => gamma,
+        };
+        let operator = section.of_forces(operator, &x);
         let mut force = forces(*section, &total, &resistance, &operator, &gamma, lever);
         if K::FLUID {
             for i in 0..2 {
@@ -257,14 +290,15 @@ pub(super) struct Rates<V> {
     pub hourglass: [V; 2],
 }
 
-/// Rates at a geometry; those of strain come as sums over the corners, per radian where there is an axis, times `inverse`.
+/// Rates at a geometry; those of strain come as sums over the corners, per radian where there is an axis, times `inverse`. `scale`
+/// is one over the area.
 #[inline(always)]
 pub(super) fn rates<V: Lanes>(
     about_axis: bool,
     operator: &Operator<V>,
     v: &[Corners<V>; 2],
     x: &[Corners<V>; 2],
-    inverse: V,
+    [inverse, scale]: [V; 2],
 ) -> Rates<V> {
     // Relative to the first corner, so that a ring that grows fast as a whole costs no digits.
     let radial: Corners<V> = if about_axis { array![i in 4 => v[0][i] - v[0][0]] } else { v[0] };
@@ -274,14 +308,28 @@ pub(super) fn rates<V: Lanes>(
     let hoop = if about_axis { dot(&operator.hoop, &v[0]) * inverse } else { V::splat(0.0) };
     // γ = Γ − B_j (x_j·Γ)/A is orthogonal to linear fields of the plane.
     let [bx, by] = &operator.plane;
-    let scale = V::splat(1.0) / operator.area;
     let (hx, hy) = (mode(&x[0]) * scale, mode(&x[1]) * scale);
     let along = mode(&radial) - (dot(bx, &radial) * hx + dot(by, &radial) * hy);
     let across = mode(&v[1]) - (dot(bx, &v[1]) * hx + dot(by, &v[1]) * hy);
     Rates { gradient, hoop, hourglass: [along, across] }
 }
 
-/// A bound of ω²: the trace of the corners' scaled stiffness, Σ_I [λ (V_x² + V_y²) + 2μ (G² + H² + V_y²)]_I / (m_I V).
+/// Rates of the modes that forces with these weights work on: Σ w_I γ_I v_iI.
+#[inline(always)]
+pub(super) fn weighted_modes<V: Lanes>(
+    operator: &Operator<V>,
+    [x, v]: [&[Corners<V>; 2]; 2],
+    inverse_area: V,
+    weights: &Corners<V>,
+) -> [V; 2] {
+    let gamma = hourglass_vector(operator, x, inverse_area);
+    let gamma: Corners<V> = array![i in 4 => gamma[i] * weights[i]];
+    [dot(&gamma, &v[0]), dot(&gamma, &v[1])]
+}
+
+/// A bound of ω² times the measure of rates: the trace of the corners' scaled stiffness,
+/// Σ_I [λ (V_x² + V_y²) + 2μ (G² + H² + V_y²)]_I/m_I; of the others, and per thickness in the compatible form,
+/// (λ + 2μ) Σ_I (B_x² + B_y²)_I/m_I.
 #[inline(always)]
 fn frequency_square<V: Lanes>(
     section: Section,
@@ -290,17 +338,17 @@ fn frequency_square<V: Lanes>(
     [dilatational, mu]: [V; 2],
 ) -> V {
     let two_mu = mu + mu;
-    let Operator { radial, axial, hoop, volume, .. } = operator;
-    if !section.about_axis() {
+    let Operator { radial, axial, hoop, .. } = operator;
+    if section != Section::Axisymmetric {
         let squares: Corners<V> = array![i in 4 => radial[i] * radial[i] + axial[i] * axial[i]];
-        return dilatational * dot(&squares, inverse_mass) / *volume;
+        return dilatational * dot(&squares, inverse_mass);
     }
     let lambda = (dilatational - two_mu).max(V::splat(0.0));
     let terms: Corners<V> = array![i in 4 => {
         let (whole, axial2) = (radial[i] + hoop[i], axial[i] * axial[i]);
         lambda * (whole * whole + axial2) + two_mu * ((radial[i] * radial[i] + hoop[i] * hoop[i]) + axial2)
     }];
-    dot(&terms, inverse_mass) * V::splat(section.turn()) / *volume
+    dot(&terms, inverse_mass) * V::splat(section.turn())
 }
 
 /// Λ₁ · x with Λ₁ = (−1, 1, 1, −1).
@@ -315,34 +363,37 @@ fn eta<V: Lanes>(x: &Corners<V>) -> V {
     (x[3] - x[0]) + (x[2] - x[1])
 }
 
-/// Λ_i · x̂_i, the element's lengths along its frame, kept positive in elements that have folded over.
+/// L₂/L₁ and L₁/L₂ of the element's lengths L_i = Λ_i · x̂_i along its frame, kept positive in elements that have folded over.
 #[inline(always)]
-fn lengths<V: Lanes>(x: &[Corners<V>; 2], [c, s]: &[V; 2]) -> [V; 2] {
+fn proportions<V: Lanes>(x: &[Corners<V>; 2], [c, s]: &[V; 2]) -> [V; 2] {
     let [xi, eta] = [[xi(&x[0]), xi(&x[1])], [eta(&x[0]), eta(&x[1])]];
     let (l1, l2) = (xi[0] * *c + xi[1] * *s, eta[1] * *c - eta[0] * *s);
     let floor = l1.max(l2) * V::splat(1e-3);
-    [l1.max(floor), l2.max(floor)]
+    let (l1, l2) = (l1.max(floor), l2.max(floor));
+    let inverse = V::splat(1.0) / (l1 * l2);
+    [l2 * l2 * inverse, l1 * l1 * inverse]
 }
 
-/// Turns the rates into the frame of the middle, lets the control act, books the energy, and turns the resistance back by the
-/// frame of the end.
+/// Turns the rates, and those on which the resistance works, into the frame of the middle, lets the control act, books the energy,
+/// and turns the resistance back by the frame of the end.
 #[inline(always)]
 fn resist<V: Lanes>(
     control: Hourglass,
-    rate: &[V; 2],
+    [rate, worked]: [&[V; 2]; 2],
     [[cm, sm], [c, s]]: [[V; 2]; 2],
     (own, part): (&mut [Row], usize),
     thickness: V,
     state: &hourglass::State<V>,
 ) -> [V; 2] {
     let local = [cm * rate[0] + sm * rate[1], cm * rate[1] - sm * rate[0]];
+    let worked = [cm * worked[0] + sm * worked[1], cm * worked[1] - sm * worked[0]];
     let old = [V::load(&own[rows::HOURGLASS], part), V::load(&own[rows::HOURGLASS + 1], part)];
     let mut q = old;
     let total = hourglass::resist(control, &local, &mut q, state);
     store(q, own, rows::HOURGLASS, part);
     let half = V::splat(0.5);
     // Stored resistance by the trapezoidal rule, a viscous rest as it acts now.
-    let work = (total[0] + (old[0] - q[0]) * half) * local[0] + (total[1] + (old[1] - q[1]) * half) * local[1];
+    let work = (total[0] + (old[0] - q[0]) * half) * worked[0] + (total[1] + (old[1] - q[1]) * half) * worked[1];
     accumulate(work * state.time_step * thickness, &mut own[rows::HOURGLASS_ENERGY], part);
     [c * total[0] - s * total[1], s * total[0] + c * total[1]]
 }

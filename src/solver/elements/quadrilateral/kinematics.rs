@@ -44,9 +44,11 @@ pub fn advance<V: Lanes>(
     // Cayley's rotation by t = half_turn: (1 + i t)² / (1 + t²)
     let square = half_turn * half_turn;
     let (real, imaginary) = (V::splat(1.0) - square, half_turn + half_turn);
-    let (c, s) = (cosine * real - sine * imaginary, sine * real + cosine * imaginary);
-    let scale = V::splat(1.0) / (c * c + s * s).sqrt();
-    let new = [c * scale, s * scale];
+    let scale = V::splat(1.0) / (V::splat(1.0) + square);
+    let (c, s) = ((cosine * real - sine * imaginary) * scale, (sine * real + cosine * imaginary) * scale);
+    // What rounding has left of the length one goes to second order: a step of Newton's towards 1/√(c² + s²).
+    let nearer = V::splat(1.5) - half * (c * c + s * s);
+    let new = [c * nearer, s * nearer];
     let turned = d[3] * half_turn;
     let strain = [d[0] + (turned + turned), d[1] - (turned + turned), d[2], d[3] + (d[1] - d[0]) * half_turn];
     *stretch = advance_stretch(&u, &strain, correction);

@@ -103,7 +103,7 @@ impl Quadrilateral {
 }
 
 impl Formulation for Quadrilateral {
-    fn of_block(_: &Block, model: &Model) -> Result<Self, Unfit> {
+    fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit> {
         match model.analysis {
             Analysis::Solid => Err(Unfit {
                 reason: "its quadrilaterals lie in a plane".into(),
@@ -111,12 +111,22 @@ impl Formulation for Quadrilateral {
             }),
             Analysis::PlaneStrain => Ok(Quadrilateral { hourglass: model.hourglass, section: Section::PlaneStrain }),
             Analysis::Axisymmetric => Ok(Quadrilateral { hourglass: model.hourglass, section: Section::Axisymmetric }),
+            Analysis::AxisymmetricCompatible => {
+                let material = model.materials.iter().find(|material| material.block == block.id);
+                if material.is_some_and(|material| material.law.equation_of_state().is_none()) {
+                    return Err(Unfit {
+                        reason: "its material has no equation of state, which the compatible form asks for".into(),
+                        help: "AXISYMMETRIC alone computes every material".into(),
+                    });
+                }
+                Ok(Quadrilateral { hourglass: model.hourglass, section: Section::Compatible })
+            }
         }
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
-        shares.copy_from_slice(&plane::mass_shares(nodes, corners, self.section.about_axis()));
+        shares.copy_from_slice(&self.section.mass_shares(nodes, corners));
         density * self.whole(corners)
     }
 
@@ -124,7 +134,7 @@ impl Formulation for Quadrilateral {
         let corners: Corners = element.corners[..].try_into().unwrap_or_default();
         let nodes: [u32; 4] = element.nodes[..].try_into().unwrap_or_default();
         let frame = own_axis(&corners);
-        let shares = plane::mass_shares(&nodes, &corners, self.section.about_axis());
+        let shares = self.section.mass_shares(&nodes, &corners);
         unstressed(frame, &shares.map(|share| share * (element.mass + element.added)), own);
         Start { centre: centroid(&corners), volume: self.whole(&corners), frame: matrix(frame) }
     }
@@ -149,7 +159,7 @@ impl Formulation for Quadrilateral {
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
         let corners = [[0.0; 3], [edge, 0.0, 0.0], [edge, edge, 0.0], [0.0, edge, 0.0]];
         let mass = density * self.whole(&corners);
-        let shares = plane::mass_shares(&[0, 1, 2, 3], &corners, self.section.about_axis());
+        let shares = self.section.mass_shares(&[0, 1, 2, 3], &corners);
         unstressed([1.0, 0.0], &shares.map(|share| share * mass), own);
         mass
     }
@@ -183,7 +193,8 @@ impl Formulation for Quadrilateral {
         let before = [0, 1].map(|axis: usize| [0, 1, 2, 3].map(|n: usize| x[n][axis] - time_step * v[n][axis]));
         let height = before[1][0];
         let relative = [before[0], before[1].map(|y| y - height)];
-        let Operator { radial, axial, hoop, .. } = self.section.operator::<f64>(&relative);
+        let operator = self.section.of_forces(self.section.operator::<f64>(&relative), &relative);
+        let Operator { radial, axial, hoop, .. } = operator;
         let of_corner = |n: usize| {
             let [along, across] =
                 [s.xx * radial[n] + s.xy * axial[n] + s.zz * hoop[n], s.xy * radial[n] + s.yy * axial[n]];

@@ -378,6 +378,43 @@ fn all_instruction_sets_agree() {
     }
 }
 
+/// The compatible form on shapes on and off the axis: no force along the axis in sum, whatever the stress and the hourglass mode are; masses
+/// whose sum is the element's; and next to nothing of both on the axis, in the ratio of its neighbour's radii.
+#[test]
+fn the_compatible_form_keeps_momentum_along_the_axis() {
+    let mut random = Random(10);
+    let law = Law::ElasticPlasticHydrodynamic(copper());
+    for case in 0..20 {
+        let corners = random.warped(0.2, if case % 2 == 0 { 0.0 } else { 2.0 });
+        let element = Quadrilateral { hourglass: ASSUMED, section: Section::Compatible };
+        let shares = element.section.mass_shares(&[0, 1, 2, 3], &corners);
+        close("masses", shares.iter().sum(), 1.0, 1e-11);
+        assert!((0..4).all(|i| shares[i] > 0.0 && (corners[i][0] > 0.0 || shares[i] < 1e-11)), "{shares:?}");
+        let mass = DENSITY * element.whole(&corners);
+        let mut rig = Rig::new(&corners, &[0, 1, 2, 3], Element::Quadrilateral(element), law.clone(), mass);
+        for _ in 0..10 {
+            let v: Vec<[f64; 3]> = (0..4).map(|_| [random.next(), random.next(), 0.0]).collect();
+            let outcome = rig.step(1e-3, |node, x| if x[0] == 0.0 { [0.0, v[node][1], 0.0] } else { v[node] });
+            assert!(outcome.failed.is_none() && outcome.stable_step > 0.0);
+        }
+        let size = (0..4).map(|node| rig.force(node)[1].abs()).fold(0.0, f64::max);
+        close("force along the axis", (0..4).map(|node| rig.force(node)[1]).sum(), 0.0, 1e-11 * size);
+        for node in (0..4).filter(|&node| corners[node][0] == 0.0) {
+            assert!(rig.force(node)[1].abs() < 1e-10 * size, "{:?}", rig.force(node));
+        }
+    }
+}
+
+fn copper() -> crate::material::ElasticPlasticHydrodynamic {
+    let deck = Source::new("materials.i", include_str!("../../../../../decks/materials.i"));
+    let Ok(problem) = examine(deck, None) else { panic!("the deck of all materials can be read") };
+    let found = problem.model.materials.into_iter().find_map(|material| match material.law {
+        Law::ElasticPlasticHydrodynamic(law) => Some(law),
+        _ => None,
+    });
+    found.expect("it has a metal with an equation of state")
+}
+
 /// A triangle has three masses, no hourglass mode and a bound.
 #[test]
 fn triangles_have_no_hourglass_mode() {
