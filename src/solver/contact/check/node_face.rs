@@ -362,7 +362,7 @@ impl NodeFaceCheck<'_> {
             return None;
         }
         let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
-        if end.outside > self.within_reach(point, face) || self.is_on_other_side(point, face) {
+        if !self.may_have_come_over(point, face, &end) || self.is_on_other_side(point, face) {
             return None;
         }
         let start = self.around_border(point, face, false)?;
@@ -396,12 +396,25 @@ impl NodeFaceCheck<'_> {
         inside.then(|| contact(0.0, start.gap))
     }
 
-    /// A point that ends the step farther beyond the border of a face than this, a length, has not touched it on its way: nobody goes
-    /// farther in the step than the longest path along each axis. Most points near a surface are in it, beside the face. Twice as
-    /// far as that, since the border of a warped face is not in one plane.
-    fn within_reach(&self, point: u32, face: u32) -> f64 {
-        let (touching, size) = (self.faces.distance(point, face), self.faces.size[face as usize]);
-        2.0 * (touching + ALONG_A_WAY * self.longest_path) + HOLD * size
+    /// Whether a point that ends the step beyond the border of a face may have touched it on its way: nobody goes farther in the step
+    /// than the longest path along each axis, and the face pushed out lies beside the face by no more than its normals turn in the
+    /// step and from triangle to triangle. Most points near a surface are in it, a face or more away.
+    fn may_have_come_over(&self, point: u32, face: u32, end: &Projection) -> bool {
+        if end.outside <= 0.0 {
+            return true;
+        }
+        let [before, after] = [self.faces.start(face, self.motion), self.faces.end(face, self.motion)].map(|corners| {
+            let normal = projection::area_normal(&corners);
+            scaled(normal, 1.0 / dot(normal, normal).sqrt())
+        });
+        let apart = |a: [f64; 3], b: [f64; 3]| {
+            let way = subtract(a, b);
+            dot(way, way).sqrt()
+        };
+        let beside = self.faces.distance(point, face) * (apart(before, after) + apart(after, end.normal));
+        let within = 2.0 * (beside + ALONG_A_WAY * self.longest_path) + HOLD * self.faces.size[face as usize];
+        // What is no number rules nothing out.
+        end.outside.partial_cmp(&within) != Some(std::cmp::Ordering::Greater)
     }
 
     /// Whether a point begins the step on the other side of a surface, to which it then belongs.

@@ -12,6 +12,10 @@ use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::state_rows::accumulate;
 
+/// The step is made for this much linear bulk viscosity at least. Undamped, at the very limit, the highest modes take energy from the
+/// changes that others make of their frequencies: docs/verification.md has how much, and that half the step ends it.
+const LEAST_DAMPING: f64 = 0.06;
+
 /// What holds for all shells of a block in a step.
 #[derive(Debug, Clone, Copy)]
 pub struct ShellStep<K> {
@@ -334,7 +338,7 @@ impl<K: Kernel> ShellStep<K> {
         let changed = V::load(&state[rows::CHANGED], part);
         let bound = V::load(&state[rows::STEP], part) * (one - changed) / found.stiffest.sqrt();
         let damping = damping(self.viscosity, bound, e11 + e22);
-        damped_step(bound, damping)
+        damped_step(bound, damping.max(V::splat(LEAST_DAMPING)))
     }
 
     /// Finds the steps of those lanes again that have changed much.
