@@ -116,10 +116,15 @@ impl ContactNodes {
         let motion = |contact_node: &ContactNode| {
             let (row, force) = (&nodes.rows[contact_node.node as usize].0, &nodes.forces[contact_node.node as usize].0);
             let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
-            ([row[0], row[1], row[2], row[3]], velocity, [row[4], row[5], row[6]])
+            ([row[0], row[1], row[2], row[3]], velocity)
         };
         let leaves = self.motion.set_all(self.list.iter().map(motion), &self.search_boxes);
         self.expired = leaves || !self.searched;
+    }
+
+    /// Velocity of a contact node over the step before.
+    pub fn velocity_before(&self, contact_node: u32, nodes: &Nodes) -> [f64; 3] {
+        nodes.velocity(self.list[contact_node as usize].node)
     }
 
     /// Gives every contact node a new search box: around the path that it would go in `steps` of the present one, with room on

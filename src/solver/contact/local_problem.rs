@@ -23,6 +23,7 @@ use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Candidate, Locator, Rule};
 use super::search::neighbourhood::SearchResult;
 use super::seen::Seen;
+use crate::lanes::Vectors;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;
@@ -182,6 +183,39 @@ impl LocalProblem {
         self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
     }
 
+    /// Faces of the layout that all belong to this local problem, shared with it.
+    pub fn share_faces(&mut self, faces: Arc<Faces>) {
+        self.faces = faces;
+        self.measure_edges();
+    }
+
+    /// Gives faces of the layout, as far as they are here, their thinnings; see [`Faces::set_thinning`].
+    pub fn thin(&mut self, changed: impl Iterator<Item = (u32, u8)>) {
+        let faces = Arc::make_mut(&mut self.faces);
+        for (face, thinning) in changed {
+            let here = place(&self.numbering.faces, face);
+            if (here as usize) < faces.len() {
+                faces.set_thinning(here, thinning);
+            }
+        }
+        self.measure_edges();
+    }
+
+    /// Gives the edges, all of the layout, the shapes that they have now.
+    pub fn fold(&mut self, edges: &[Edge]) {
+        self.edges.iter_mut().zip(edges).for_each(|(own, now)| own.shape = now.shape);
+        self.edge_history = self.edge_history.iter().filter_map(|&past| edge_edge::in_order(past, edges)).collect();
+        self.edge_history.sort_by_key(|past| past.pair);
+        self.measure_edges();
+    }
+
+    fn measure_edges(&mut self) {
+        let faces = &self.faces;
+        if !faces.is_empty() {
+            self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
+        }
+    }
+
     /// What is carried from step to step.
     pub fn history(&self) -> History {
         let face = |face: u32| if face == NONE { NONE } else { self.numbering.faces[face as usize] };
@@ -221,14 +255,30 @@ impl LocalProblem {
         }
     }
 
-    /// Finds the contact forces of a step, whose motion is in `points`.
-    pub fn step(
-        &mut self,
-        setting: &StepInput,
-        step: &StepTimes,
-        bank: &mut Bank,
-        others: &mut dyn OtherRanks,
-    ) -> Outcome {
+    /// Finds the constraints of a step, whose motion is in `motion`.
+    pub fn find_constraints(&mut self, setting: &StepInput, step: &StepTimes) {
+        match self.motion.instructions().vectors() {
+            // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.find_constraints_avx2(setting, step) },
+            _ => self.find_each(setting, step),
+        }
+    }
+
+    /// The same with boxes and corners as whole vectors. `unsafe` for a twentieth of the check on a brick wall (docs/performance.md).
+    ///
+    /// # Safety
+    ///
+    /// The processor must have AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    unsafe fn find_constraints_avx2(&mut self, setting: &StepInput, step: &StepTimes) {
+        self.find_each(setting, step)
+    }
+
+    // Inlined, as what it calls most is, so that it is compiled for the instructions of its caller.
+    #[inline(always)]
+    fn find_each(&mut self, setting: &StepInput, step: &StepTimes) {
         self.constraints.clear();
         if !self.rules.is_empty() {
             self.locator.step(&self.motion, &self.faces);
@@ -245,6 +295,16 @@ impl LocalProblem {
             self.constraints.extend(plane_node.constraint(setting.planes, &self.motion, setting.mean_size, reach));
         }
         self.origins();
+    }
+
+    /// Finds the forces of the constraints; the velocities before the step of all their members are known by now.
+    pub fn find_forces(
+        &mut self,
+        setting: &StepInput,
+        step: &StepTimes,
+        bank: &mut Bank,
+        others: &mut dyn OtherRanks,
+    ) -> Outcome {
         let outcome = self.enforce(setting, step, bank, others);
         self.tell_nodes();
         outcome
@@ -269,6 +329,7 @@ impl LocalProblem {
     }
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
+    #[inline(always)]
     fn check(&mut self, pairings: &Pairings, remaining: f64, drift: f64) {
         let LocalProblem { motion, faces, point_block, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
@@ -317,6 +378,7 @@ impl LocalProblem {
     }
 
     /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due.
+    #[inline(always)]
     fn check_edges(&mut self, pairings: &Pairings, lines: bool) {
         let LocalProblem {
             motion, faces, locator, edges, edge_reaches, edge_history, pair_places, constraints, ..

@@ -36,6 +36,7 @@ use check::node_face::{self, FaceContact, NONE};
 use check::planes::PlaneNode;
 use contact_nodes::ContactNodes;
 use enforcement::certificate::Bank;
+use enforcement::constraint::Constraint;
 use enforcement::gain::Gain;
 use enforcement::iterations::{Limits, Outcome};
 use enforcement::mobility::BodyMobility;
@@ -225,7 +226,7 @@ impl Contact {
         self.learn_of(rigid, comm);
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
-        let outcome = self.enforce(step, comm);
+        let outcome = self.enforce(nodes, step, comm);
         self.problem.teach(&mut self.seen, (step.time, self.age));
         self.book_resultants(step);
         self.count(outcome);
@@ -270,7 +271,7 @@ impl Contact {
         comm.enter(Traffic::ContactMotion);
         let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_motion(contact_nodes, problem, step.drift, comm),
+            Some(remote) => remote.send_motion((contact_nodes, nodes), problem, step.drift, comm),
             // The points of the local problem are the contact nodes: their motion is lent, not copied.
             None => std::mem::swap(&mut problem.motion, &mut contact_nodes.motion),
         }
@@ -340,16 +341,26 @@ impl Contact {
         }
     }
 
-    fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
+    fn enforce(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let coupled = comm.size() > 1 && !self.problem.motion.mobility.bodies.is_empty();
         let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining, lines };
+        problem.find_constraints(&setting, step);
         match remote {
-            Some(remote) => problem.step(&setting, step, bank, &mut remote.others(comm)),
-            None if coupled => problem.step(&setting, step, bank, &mut Elsewhere(comm)),
-            None => problem.step(&setting, step, bank, &mut NoOtherRanks),
+            Some(remote) => problem.find_forces(&setting, step, bank, &mut remote.others(comm)),
+            None => {
+                // Of the many contact nodes only few take part.
+                let LocalProblem { constraints, motion, .. } = &mut *problem;
+                for (point, _) in constraints.iter().flat_map(Constraint::parts) {
+                    motion.set_velocity_before(point as u32, self.contact_nodes.velocity_before(point as u32, nodes));
+                }
+                match coupled {
+                    true => problem.find_forces(&setting, step, bank, &mut Elsewhere(comm)),
+                    false => problem.find_forces(&setting, step, bank, &mut NoOtherRanks),
+                }
+            }
         }
     }
 

@@ -25,23 +25,22 @@ const SHAPES: u32 = 3;
 const THINNINGS: u32 = THINNEST as u32 + 1;
 
 impl Contact {
-    /// Counts the step, and when it is time looks which edges stand out now. Whether any has changed: history is then on its
-    /// way, and all ranks must search. All ranks call it, with the present positions in the contact nodes.
+    /// Counts the step, and when it is time looks which edges stand out now and how thick elements are. Whether edges have
+    /// changed, so that all ranks must search; on many ranks history is on its way then. All ranks call it, with the present
+    /// positions in the contact nodes.
     pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
         if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
             return false;
         }
         let folded = !self.layout.edges.is_empty() && self.fold(comm);
-        let thinner = self.thin(nodes, comm);
-        if thinner && self.carried.is_none() {
-            self.carried = Some(self.problem.history());
-        }
-        folded || thinner
+        self.thin(nodes, comm);
+        folded
     }
 
-    /// Gives the faces of all elements the depths that they have now. Whether any has changed. All ranks call it.
-    pub(super) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
+    /// Gives the faces of all elements the depths that they have now. Searches look as far as the depths of the start, so that
+    /// candidates stay what they are. All ranks call it.
+    pub(super) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
         let faces = &self.layout.faces;
         let mut changed = Vec::new();
         for (face, sides) in &self.thicknesses {
@@ -52,11 +51,23 @@ impl Contact {
             }
         }
         self.with_others(&mut changed, comm);
-        if !changed.is_empty() {
-            let faces = Arc::make_mut(&mut self.layout.faces);
-            changed.iter().for_each(|change| faces.set_thinning(change / THINNINGS, (change % THINNINGS) as u8));
+        if changed.is_empty() {
+            return;
         }
-        !changed.is_empty()
+        let changed = changed.iter().map(|change| (change / THINNINGS, (change % THINNINGS) as u8));
+        // A local problem that has been given up, its history on the way, gets its faces from the next search.
+        let told = self.carried.is_none();
+        if told && self.remote.is_some() {
+            self.problem.thin(changed.clone());
+        } else if told {
+            // Faces that are shared would be copied.
+            self.problem.share_faces(Arc::default());
+        }
+        let faces = Arc::make_mut(&mut self.layout.faces);
+        changed.for_each(|(face, thinning)| faces.set_thinning(face, thinning));
+        if told && self.remote.is_none() {
+            self.problem.share_faces(self.layout.faces.clone());
+        }
     }
 
     /// Appends what other ranks tell.
@@ -76,6 +87,10 @@ impl Contact {
         }
         for change in changed {
             self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
+        }
+        if self.remote.is_none() && self.carried.is_none() {
+            self.problem.fold(&self.layout.edges);
+            return true;
         }
         let mut history = self.carried.take().unwrap_or_else(|| self.problem.history());
         history.edges =

@@ -159,6 +159,7 @@ impl EdgeCheck<'_> {
     }
 
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
+    #[inline(always)]
     fn apart(&self, pair: [u32; 2]) -> f64 {
         let margins = pair.map(|edge| self.reaches[edge as usize]);
         let distance = self.distance(pair);
@@ -170,6 +171,7 @@ impl EdgeCheck<'_> {
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
+    #[inline(always)]
     pub fn pair(&self, pair: [u32; 2], past: Option<&EdgeContact>, pairing: impl FnOnce() -> Pairing) -> EdgeVerdict {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
         let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
@@ -235,6 +237,7 @@ impl EdgeCheck<'_> {
     }
 
     /// How two edges cross at the end of the step; `None` where they do not between their ends.
+    #[inline(always)]
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
         let [a, b] = pair.map(|edge| self.end(edge));
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
@@ -431,8 +434,18 @@ pub fn reach(faces: &Faces, edge: &Edge) -> f64 {
     if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { SUNK * scale(faces, edge) }
 }
 
+/// The same with elements as thick as they were at the start, farther than it ever looks.
+pub fn farthest_reach(faces: &Faces, edge: &Edge) -> f64 {
+    let line = SUNK * scale_at(edge, faces, |face| faces.start_depth(face));
+    if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { line }
+}
+
 /// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.
 fn scale(faces: &Faces, line: &Edge) -> f64 {
-    let of = |face: u32| faces.size[face as usize].min(faces.depth[face as usize] / SUNK);
+    scale_at(line, faces, |face| faces.depth[face as usize])
+}
+
+fn scale_at(line: &Edge, faces: &Faces, depth: impl Fn(u32) -> f64) -> f64 {
+    let of = |face: u32| faces.size[face as usize].min(depth(face) / SUNK);
     of(line.faces[0]).min(of(line.faces[1]))
 }

@@ -98,6 +98,7 @@ impl NodeFaceCheck<'_> {
     /// this step meet the point's; `past` the faces touched before.
     /// `strict[i]` says whether the `i`-th of them is met only by points one of whose own faces looks at it; the nodes of a
     /// side set do not bring all the faces of their body.
+    #[inline(always)]
     pub fn point(
         &self,
         point: u32,
@@ -357,6 +358,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// A point that this face has not seen before.
+    #[inline(always)]
     fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<DetectedContact> {
         if self.is_in_front(point, face) {
             return None;

@@ -87,11 +87,21 @@ impl Constraint {
 
 /// How a node responds to the forces in the course of the iterations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(32))]
 pub struct Response {
     /// Change of velocity that the forces make, length per time.
     pub velocity_change: [f64; 3],
     /// Sum of what the active constraints weigh at the node, a mass.
     pub load: f64,
+}
+
+impl Response {
+    /// As one vector, the load last.
+    #[inline(always)]
+    pub fn to_array(self) -> [f64; 4] {
+        let [x, y, z] = self.velocity_change;
+        [x, y, z, self.load]
+    }
 }
 
 /// A constraint in the course of the iterations.

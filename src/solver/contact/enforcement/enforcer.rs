@@ -22,6 +22,8 @@ use super::iterations::{Limits, Outcome, Times};
 use super::ledger::Ledger;
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
+use super::sweep;
+use crate::lanes::InstructionSet;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};
@@ -57,6 +59,7 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
+    pub(super) instructions: InstructionSet,
 }
 
 /// 1/m along a direction.
@@ -73,6 +76,7 @@ impl Enforcer {
             responses: vec![Response::default(); points],
             sums: vec![Response::default(); points],
             is_member: vec![false; points],
+            instructions: InstructionSet::detect(),
             ..Default::default()
         }
     }
@@ -264,14 +268,7 @@ impl Enforcer {
         times: Times,
         others: &mut dyn OtherRanks,
     ) {
-        for (c, state) in constraints.iter().zip(&self.states).filter(|(_, state)| state.active) {
-            let force = c.force();
-            for (point, w) in c.parts() {
-                let sum = &mut self.sums[point];
-                sum.velocity_change = add(sum.velocity_change, scaled(force, w));
-                sum.load += w.abs() * state.strength;
-            }
-        }
+        sweep::scatter(self.instructions, constraints, &self.states, &mut self.sums);
         for &point in &self.members {
             let p = point as usize;
             let sum = std::mem::take(&mut self.sums[p]);

@@ -1,12 +1,10 @@
 //! The iterations: each closes every gap as if its constraint were alone, with shares of the masses, and goes on a little.
 
-use super::carried::Carried;
-use super::certificate::tangential;
-use super::constraint::{Constraint, ConstraintState, Response};
+use super::constraint::Constraint;
 use super::enforcer::Enforcer;
 use super::other_ranks::{Largest, OtherRanks};
+use super::sweep;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::vector::{add, dot, scaled, subtract};
 
 /// Iterations go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks
 /// in while loads are small can be lifted only at the price of the loads that come.
@@ -65,11 +63,9 @@ impl Enforcer {
         loop {
             self.scatter(constraints, motion, times, others);
             let ahead = momentum.next();
-            (own.residual, own.moved) = (0.0, 0.0);
-            for (c, state) in constraints.iter_mut().zip(&mut self.states).filter(|(_, state)| state.strength > 0.0) {
-                let moved = correct(c, state, &self.responses, times, ahead);
-                (own.residual, own.moved) = (f64::max(own.residual, moved / c.size), f64::max(own.moved, moved));
-            }
+            let Enforcer { instructions, states, responses, .. } = &mut *self;
+            let moved = sweep::correct(*instructions, constraints, states, responses, (times, ahead));
+            (own.residual, own.moved) = (moved.residual, moved.length);
             let Largest { residual, wanted, deepest, depth, travel, moved } = others.largest(own);
             if wanted == 0.0 {
                 return None;
@@ -110,46 +106,4 @@ impl Momentum {
         self.0 = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
         (before - 1.0) / self.0
     }
-}
-
-/// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
-/// part `ahead`. How far it moves, a length.
-fn correct(c: &mut Constraint, state: &mut ConstraintState, responses: &[Response], times: Times, ahead: f64) -> f64 {
-    let change = c.velocity_change(responses);
-    let gap = state.closing + times.drift * dot(change, c.normal);
-    let Carried { normal_force: tried, tangential_force: tried_tangential, .. } = c.carried;
-    if tried == 0.0 && gap >= 0.0 {
-        (c.carried.tangential_force, state.last, state.active) = ([0.0; 3], (0.0, [0.0; 3]), false);
-        return 0.0;
-    }
-    let (mut inverse, mut sliding) = (0.0, 0.0);
-    for ((point, w), softness) in c.parts().zip(&state.softness) {
-        // A constraint that has just become active is not yet in the load.
-        let own = if state.active { 0.0 } else { w.abs() };
-        let share = responses[point].load / state.strength + own;
-        inverse += share * softness[0];
-        sliding += share * softness[1];
-    }
-    let normal_force = (tried - gap / (times.both * inverse)).max(0.0);
-    let mut moved = (normal_force - tried).abs() * times.both * inverse;
-    let normal_ahead = further(tried, normal_force, state.last.0, ahead).max(0.0);
-    if c.friction.is_some() {
-        let slip = add(state.slip, tangential(change, c.normal));
-        let wanted = subtract(tried_tangential, scaled(slip, 1.0 / (times.kick * sliding)));
-        let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
-        let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
-        let turn = subtract(tangential_force, tried_tangential);
-        moved = moved.max(dot(turn, turn).sqrt() * times.both * sliding);
-        c.carried.tangential_force =
-            [0, 1, 2].map(|i| further(tried_tangential[i], tangential_force[i], state.last.1[i], ahead));
-        state.last.1 = tangential_force;
-    }
-    (c.carried.normal_force, state.last.0, state.active) = (normal_ahead, normal_force, true);
-    moved
-}
-
-/// From `new` further by a part `ahead` of the change from the last iteration to this one, unless the correction goes back.
-fn further(tried: f64, new: f64, last: f64, ahead: f64) -> f64 {
-    let turns_back = (tried - new) * (new - last) > 0.0;
-    if turns_back { new } else { new + ahead * (new - last) }
 }

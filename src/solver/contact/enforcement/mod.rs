@@ -11,3 +11,4 @@ pub mod ledger;
 pub mod mobility;
 pub mod other_ranks;
 pub mod resultants;
+mod sweep;

@@ -198,10 +198,15 @@ impl Faces {
         self.node_reach[point as usize] + self.reach[face as usize]
     }
 
-    /// How far around its corners a face looks for points that it may meet, a length: behind solids for those that began there,
-    /// in front of surfaces, `kept` being the part of the depth that a point may leave them.
+    /// Depth behind a face at the start, a length, which it never exceeds.
+    pub fn start_depth(&self, face: u32) -> f64 {
+        self.start_depth[face as usize]
+    }
+
+    /// How far around its corners a face looks at most for points that it may meet, a length: behind solids for those that began
+    /// there, in front of surfaces, `kept` being the part of the depth that a point may leave them.
     pub fn margin(&self, face: u32, kept: f64) -> f64 {
-        let (depth, reach) = (self.depth[face as usize], self.reach[face as usize]);
+        let (depth, reach) = (self.start_depth[face as usize], self.reach[face as usize]);
         if self.is_two_sided(face) { kept * depth + reach } else { depth + reach }
     }
 

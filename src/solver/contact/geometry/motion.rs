@@ -112,6 +112,11 @@ impl NodeMotion {
         self.origin
     }
 
+    /// For which vector instructions what asks for motion may be compiled.
+    pub(crate) fn instructions(&self) -> InstructionSet {
+        self.instructions
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.motion.len()
@@ -137,22 +142,17 @@ impl NodeMotion {
         (self.motion[point], self.swept_boxes[point]) = (motion, motion.box_to(end, four(self.origin)));
     }
 
-    /// Gives a node the motion of another in the same step.
+    /// Gives a node the motion of another in the same step, but for the velocity before it.
     #[inline]
     pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
         self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
         (self.motion[point], self.swept_boxes[point]) = (motion, others.swept_boxes[other]);
-        self.before[point] = others.before[other];
     }
 
-    /// Sets the motion of all nodes: position, velocity over the coming step, velocity over the step before. Whether one of
-    /// them leaves its search box on its path.
-    pub fn set_all(
-        &mut self,
-        motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
-        search_boxes: &[SweptBox],
-    ) -> bool {
+    /// Sets the motion of all nodes: position, velocity over the coming step; that over the step before is for
+    /// [`NodeMotion::set_velocity_before`], where it is asked for. Whether one of them leaves its search box on its path.
+    pub fn set_all(&mut self, motions: impl Iterator<Item = (Four, Four)>, search_boxes: &[SweptBox]) -> bool {
         match self.instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
@@ -168,29 +168,23 @@ impl NodeMotion {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn set_all_avx2(
-        &mut self,
-        motions: impl Iterator<Item = (Four, Four, [f64; 3])>,
-        search_boxes: &[SweptBox],
-    ) -> bool {
+    unsafe fn set_all_avx2(&mut self, motions: impl Iterator<Item = (Four, Four)>, search_boxes: &[SweptBox]) -> bool {
         self.set_each(motions, search_boxes)
     }
 
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four, [f64; 3])>, search_boxes: &[SweptBox]) -> bool {
+    fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four)>, search_boxes: &[SweptBox]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
-        let places =
-            self.motion.iter_mut().zip(&mut self.swept_boxes).zip(&mut self.before).zip(&self.counts).zip(search_boxes);
-        for (((((before, swept), slow), &counts), search_box), (start, velocity, last)) in places.zip(motions) {
+        let places = self.motion.iter_mut().zip(&mut self.swept_boxes).zip(&self.counts).zip(search_boxes);
+        for ((((before, swept), &counts), search_box), (start, velocity)) in places.zip(motions) {
             let motion = PointMotion { start, velocity };
             let end = motion.end(drift);
             longest.take([before.start, start, end], counts);
             *swept = motion.box_to(end, origin);
             outside.take(swept, search_box);
             *before = motion;
-            *slow = last;
         }
         self.longest = longest;
         outside.any()
@@ -231,6 +225,11 @@ impl NodeMotion {
     #[inline]
     pub fn velocity(&self, point: u32) -> [f64; 3] {
         three(self.motion[point as usize].velocity)
+    }
+
+    /// Sets the velocity of a node over the step before.
+    pub fn set_velocity_before(&mut self, point: u32, velocity: [f64; 3]) {
+        self.before[point as usize] = velocity;
     }
 
     /// Velocity over the step before.

@@ -43,7 +43,7 @@ impl SweptBox {
     }
 
     /// The box around four others, grown by a margin.
-    #[inline]
+    #[inline(always)]
     pub fn joined([a, b, c, d]: [&SweptBox; 4], margin: f32) -> SweptBox {
         let margin = margin * (1.0 + OUTWARDS);
         SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
@@ -58,7 +58,7 @@ impl SweptBox {
     /// How far two boxes are apart along the axis where they are farthest; not above zero where they have a point in
     /// common. Boxes around what is not a number in single precision, coordinates beyond 1e38 among them, may be apart
     /// from nothing.
-    #[inline]
+    #[inline(always)]
     pub fn distance(&self, other: &SweptBox) -> f32 {
         // Without short cuts, so that it is a few instructions on vectors.
         let apart: [f32; 8] = std::array::from_fn(|i| self.0[i] + other.0[(i + 4) % 8]);

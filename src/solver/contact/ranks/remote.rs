@@ -23,6 +23,7 @@ use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
+use crate::solver::nodes::Nodes;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
@@ -109,7 +110,7 @@ impl Remote {
     /// Brings the motion of a step to the owner ranks.
     pub fn send_motion(
         &mut self,
-        contact_nodes: &mut ContactNodes,
+        (contact_nodes, nodes): (&mut ContactNodes, &Nodes),
         problem: &mut LocalProblem,
         drift: f64,
         comm: &mut dyn Communicator,
@@ -120,14 +121,15 @@ impl Remote {
             |(contact_nodes, _), contact_node| {
                 let ([x, y, z], [u, v, w]) =
                     (contact_nodes.motion.start(contact_node), contact_nodes.motion.velocity(contact_node));
-                let [p, q, r] = contact_nodes.motion.velocity_before(contact_node);
+                let [p, q, r] = contact_nodes.velocity_before(contact_node, nodes);
                 [x, y, z, u, v, w, p, q, r]
             },
             |(_, problem), point, [x, y, z, u, v, w, p, q, r]| {
                 problem.motion.set(point as usize, [x, y, z], [u, v, w], [p, q, r]);
             },
             |(contact_nodes, problem), contact_node, point| {
-                problem.motion.copy(point as usize, &contact_nodes.motion, contact_node as usize)
+                problem.motion.copy(point as usize, &contact_nodes.motion, contact_node as usize);
+                problem.motion.set_velocity_before(point, contact_nodes.velocity_before(contact_node, nodes));
             },
             comm,
         );

@@ -126,7 +126,7 @@ impl CaptureBoxes {
     }
 
     /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
-    #[inline]
+    #[inline(always)]
     fn of(&mut self, face: u32, faces: &Faces, motion: &NodeMotion, margin: f64) -> SweptBox {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
@@ -210,6 +210,7 @@ impl Locator {
 
     /// Finds the candidates of the `i`-th slave node whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
+    #[inline(always)]
     pub fn locate(
         &mut self,
         i: usize,

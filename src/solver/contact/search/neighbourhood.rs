@@ -74,7 +74,7 @@ pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nod
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| contact_nodes.of(end));
         let of = of.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)));
-        all.push(edge, of.grown(edge_edge::reach(&layout.faces, one) + one.distance(&layout.faces)));
+        all.push(edge, of.grown(edge_edge::farthest_reach(&layout.faces, one) + one.distance(&layout.faces)));
     }
     all
 }

@@ -314,7 +314,7 @@ fn step(contact: &mut Contact, nodes: &mut Nodes, awake: bool) {
         let held: Vec<u32> = contact.problem.history().points.iter().map(|(point, _)| *point).collect();
         contact.problem.locator.wake(&held);
     }
-    contact.enforce(&STEP, &mut Serial);
+    contact.enforce(nodes, &STEP, &mut Serial);
     contact.bring_forces(&mut Serial);
     contact.contact_nodes.hand_over(nodes, |_, _| ());
     nodes.integrate(STEP.kick, STEP.drift);
