@@ -306,3 +306,28 @@ fn a_ball_has_the_same_bits_on_any_ranks() {
     let first = case.part(3, None, 200);
     assert_same("restart", &whole, &case.part(2, Some(&first.end), 200));
 }
+
+/// A sheet, half of it rigid and half elastic, that spins: nodes in common turn with the body.
+#[test]
+fn a_rigid_sheet() {
+    let sheet = |more: &str| recipe(&format!("TITLE\n SHEET\nSHEET, 1, 0., 0., 0., 1., 2., 4, 8\n{more}"));
+    let law = |block: i32| {
+        format!(
+            "SHELL THICKNESS, {block}, 0.1\nMATERIAL, {block}, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E7\nPOISSONS RATIO = 0.3\nEND\n"
+        )
+    };
+    let head = "TERMINATION TIME, 0.5\nOUTPUT TIME, 0.05\nPLOT TIME, 0.05\nRIGID BODY, 1\nTIME STEP MAXIMUM, 1.E-3\n";
+    let spin = "INITIAL VELOCITY ANGULAR, 1, 3., 0.5, 1., 0., 1., 0., 0.\n";
+    let run_of = run(&format!("{head}{spin}{}", law(1)), &sheet(""));
+    // m (b² + t²)/12 about its short axis.
+    let expected = 0.5 * 200.0 * (4.0 + 0.01) / 12.0 * 9.0;
+    close("rigid sheet", "kinetic energy", run_of.last().totals.kinetic, expected, 1e-12);
+    let mesh = sheet("SHEET, 2, 1., 0., 0., 1., 2., 4, 8\nMERGE, 1, 2\n");
+    let turned = "INITIAL VELOCITY ANGULAR, 2, 3., 0.5, 1., 0., 1., 0., 0.\n";
+    let both = run(&format!("{head}{spin}{turned}{}{}", law(1), law(2)), &mesh);
+    between("half a rigid sheet", "worst balance", both.worst_balance(), 0.0, 1e-3);
+    let case = Case::new(&format!("{head}{spin}{turned}{}{}", law(1), law(2)), mesh);
+    let whole = case.part(1, None, 60);
+    assert_same("ranks", &whole, &case.part(3, None, 60));
+    assert_same("restart", &whole, &case.part(2, Some(&case.part(3, None, 25).end), 35));
+}

@@ -90,6 +90,16 @@ fn modelled(given: &Given, body: &Body) -> String {
         out +=
             &format!("  rigid body {}: {} nodes, mass {}\n", number + 1, rigid.nodes.len(), scientific(rigid.mass, 4));
     }
+    for tie in &body.tied.reports {
+        out += &format!(
+            "  TIED CONTACT {}, {}: {} nodes follow, {} face nothing and stay free; moved by at most {}\n",
+            tie.side_sets[0],
+            tie.side_sets[1],
+            tie.tied,
+            tie.left,
+            scientific(tie.moved, 4)
+        );
+    }
     for added in &body.added_mass.blocks {
         out += &format!(
             "  block {}: MASS SCALING adds {}, {} of its mass, to {} elements; one of them has {} times its mass\n",

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{
     Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface, boundary::direction,
-    problem::those_there_are, rigid,
+    problem::those_there_are, rigid, tied,
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
@@ -45,6 +45,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
         contact_there(card, problem, mesh, &mut found);
     }
     rigid::check(problem, mesh, &mut found);
+    tied::check(problem, mesh, &mut found);
     found
 }
 

@@ -18,6 +18,7 @@ mod properties;
 mod restart;
 mod rigid;
 mod section;
+mod tied;
 
 pub use check::check;
 pub use control::DEFAULT_HOURGLASS;
@@ -83,6 +84,8 @@ pub struct Model {
     pub initial_velocities: Vec<InitialVelocity>,
     /// Fixed rigid planes.
     pub rigid_surfaces: Vec<RigidSurface>,
+    /// Surfaces that follow others.
+    pub ties: Vec<Tie>,
     /// Contact between surfaces of the body.
     pub contact: Contact,
     /// When elements are taken away.
@@ -465,6 +468,15 @@ pub struct RigidSurface {
     pub normal: [f64; 3],
     /// Coulomb friction coefficient μ.
     pub friction: f64,
+}
+
+/// TIED CONTACT: the nodes of a surface follow the faces of another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// Numbers of the side sets: of the surface that follows, and of the other.
+    pub side_sets: [i64; 2],
+    /// Largest distance between the two, as a part of the root of a face's area.
+    pub tolerance: f64,
 }
 
 /// DEATH: elements of a block are taken away when a variable passes a value.

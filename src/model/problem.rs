@@ -3,7 +3,7 @@
 use super::{
     Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepEstimate,
     StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output,
-    restart, rigid, section,
+    restart, rigid, section, tied,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -36,6 +36,7 @@ const FAMILIES: &[&[Setter]] = &[
     contact::COMMANDS,
     deletion::COMMANDS,
     rigid::COMMANDS,
+    tied::COMMANDS,
     output::COMMANDS,
     restart::COMMANDS,
 ];
@@ -132,6 +133,7 @@ impl Default for Model {
                 longest: f64::INFINITY,
             },
             rigid_bodies: Vec::new(),
+            ties: Vec::new(),
             step_estimate: StepEstimate::default(),
             mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },

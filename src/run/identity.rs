@@ -43,6 +43,10 @@ pub fn identity(model: &Model) -> String {
         let blocks: Vec<String> = blocks.iter().map(i64::to_string).collect();
         lines.push((format!("RIGID BODY {}", number + 1), blocks.join(" ")));
     }
+    for tie in &model.ties {
+        let [first, second] = tie.side_sets;
+        lines.push((format!("TIED CONTACT {first} {second}"), tie.tolerance.to_string()));
+    }
     // Masses are of the start; the same commands find the same ones.
     for MassScaling { block, scale, .. } in &model.mass_scalings {
         let of = block.map_or("ALL".to_string(), |block| block.to_string());

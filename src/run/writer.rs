@@ -125,6 +125,7 @@ impl<'a> Writer<'a> {
             masses: &job.body.block_masses(job.mesh.blocks.len()),
             added: &job.body.added_mass.blocks,
             rigid: &job.body.rigid,
+            ties: &job.body.tied.reports,
             variables: [&self.names[0], &self.names[1], &self.names[2]],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),

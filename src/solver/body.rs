@@ -11,6 +11,7 @@ use crate::solver::elements::{Element, Sample};
 use crate::solver::mass_scaling::AddedMass;
 use crate::solver::rigid::{self, BodyShape};
 use crate::solver::rotations::Rotations;
+use crate::solver::tied::Tied;
 use crate::vector::add;
 use std::sync::Arc;
 
@@ -44,6 +45,8 @@ pub struct Body {
     pub block_material: Vec<usize>,
     /// Overlaps between contact surfaces that were taken out of the mesh by moving nodes.
     pub overlap: Overlap,
+    /// Nodes of surfaces that are tied to others.
+    pub tied: Tied,
     /// Rigid bodies, in the order of the deck.
     pub rigid: Vec<BodyShape>,
     /// Of each block of the mesh, which of them it belongs to.
@@ -139,6 +142,7 @@ impl Body {
             faces: Vec::new(),
             block_material,
             overlap: Overlap::default(),
+            tied: Tied::default(),
             rigid: Vec::new(),
             block_body: rigid::bodies_of_blocks(mesh, model),
         };
@@ -147,9 +151,21 @@ impl Body {
         if body.overlap.nodes > 0 {
             body.weigh(mesh, model);
         }
+        body.tie(mesh, model);
         body.rigid = rigid::shapes(mesh, model, &body);
         body.take_faces(mesh, model);
         Ok(body)
+    }
+
+    /// Lets surfaces follow others, as TIED CONTACT asks for.
+    fn tie(&mut self, mesh: &Mesh, model: &Model) {
+        if model.ties.is_empty() {
+            return;
+        }
+        let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut self.positions);
+        self.tied = Tied::new(mesh, model, positions);
+        self.weigh(mesh, model);
+        self.tied.hand_over(&mut self.node_mass);
     }
 
     /// Mass of each mesh block.

@@ -10,6 +10,7 @@ use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
 use super::rigid::RigidBodies;
 use super::rotations::Rotations;
+use super::tied::Ties;
 use crate::comm::Communicator;
 use crate::lanes::Row;
 use crate::material::{Kernel, KernelVisitor, Law};
@@ -46,6 +47,8 @@ pub struct Domain {
     pub loads: Vec<Box<dyn Load>>,
     /// Rigid bodies, when there are any.
     pub rigid: Option<RigidBodies>,
+    /// Nodes of surfaces that are tied to others, when there are any.
+    pub ties: Option<Ties>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
     /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
@@ -141,6 +144,7 @@ impl Domain {
             pressure_faces: pressure_faces(model, body, share, &local),
             loads: Vec::new(),
             rigid: None,
+            ties: Ties::new(body, &local),
             constraints: Vec::new(),
             carried_work: Vec::new(),
             contact: None,
@@ -156,6 +160,9 @@ impl Domain {
         domain.contact =
             Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         domain.set_initial_velocities(mesh, model, &local);
+        if let Some(ties) = &domain.ties {
+            ties.set_off(&mut domain.nodes, comm);
+        }
         if let Some(rigid) = &mut domain.rigid {
             rigid.set_off(&mut domain.nodes, comm);
         }
@@ -183,6 +190,10 @@ impl Domain {
                 // What is said of a node of a rigid body is said of the body.
                 let place = local_of_rotation(&self.rotations, node, of);
                 if self.rigid.as_ref().is_some_and(|rigid| rigid.of_node(place).is_some()) {
+                    continue;
+                }
+                // What is tied to a surface goes where that goes.
+                if body.tied.follows(self.nodes.file[node as usize]) {
                     continue;
                 }
                 // Sets overlap; a node is held once in each direction, the first command counts.
@@ -316,7 +327,8 @@ fn rotations(body: &Body, share: &Share, local: &[u32]) -> Vec<(u32, u32)> {
 fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
     let row = |&file: &u32| {
         let ([x, y, z], m) = (body.start_of(file), body.node_mass[file as usize]);
-        Row([x, y, z, m, 0.0, 0.0, 0.0, 1.0 / m])
+        let inverse = body.tied.inverse_mass(file, &body.node_mass).unwrap_or(1.0 / m);
+        Row([x, y, z, m, 0.0, 0.0, 0.0, inverse])
     };
     Nodes {
         rows: share.nodes.iter().map(row).collect(),

@@ -23,6 +23,7 @@ mod rotations;
 mod slivers;
 mod state;
 mod stop;
+pub mod tied;
 mod totals;
 mod trial;
 
@@ -36,6 +37,7 @@ pub use rigid::{BodyShape, RigidBodies};
 pub use rotations::Rotations;
 pub use slivers::Slivers;
 pub use stop::{ElementPlace, Stop};
+pub use tied::{Tied, TiedReport, Ties};
 pub use totals::Totals;
 pub use trial::BlockTrial;
 
@@ -151,8 +153,13 @@ pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
         elements::Element::of_block(block, model).is_ok_and(|element| element.entry().rotations)
     };
     let turning: BTreeSet<u32> = mesh.blocks.iter().filter(turns).flat_map(|block| &block.nodes).copied().collect();
-    let idle =
-        |set: &&i64| mesh.node_set(**set).is_some_and(|set| !set.nodes.iter().any(|node| turning.contains(node)));
+    // A rigid body turns with any of its nodes; a moment needs one of its own.
+    let is_rigid = |block: &&crate::mesh::Block| model.rigid_bodies.iter().any(|body| body.contains(&block.id));
+    let rigid: BTreeSet<u32> = mesh.blocks.iter().filter(is_rigid).flat_map(|block| &block.nodes).copied().collect();
+    let loads =
+        |set: i64| model.prescribed_forces.iter().any(|force| force.of == Unknown::Rotation && force.node_set == set);
+    let can_turn = |set: i64, node: &u32| turning.contains(node) || (rigid.contains(node) && !loads(set));
+    let idle = |set: &&i64| mesh.node_set(**set).is_some_and(|own| !own.nodes.iter().any(|node| can_turn(**set, node)));
     let held = model.no_displacements.iter().map(|held| (held.of, held.node_set));
     let driven = model.prescribed_motions.iter().map(|motion| (motion.of, motion.node_set));
     let loaded = model.prescribed_forces.iter().map(|force| (force.of, force.node_set));
@@ -537,21 +544,38 @@ impl Solver {
     fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, loads, contact, constraints, rigid, .. } = &mut self.domain;
+        let Domain { nodes, loads, contact, constraints, rigid, ties, .. } = &mut self.domain;
         rigid.iter_mut().for_each(|rigid| rigid.tangents(nodes));
         loads.iter_mut().for_each(|load| load.apply(nodes, &self.functions, &step));
         self.clock.stop(Section::Assembly);
+        if let Some(ties) = ties {
+            ties.hand_on(nodes, comm);
+        }
         if let Some(rigid) = rigid {
             rigid.predict(nodes, &self.functions, &step, comm);
         }
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
         }
+        if let Some(ties) = ties {
+            ties.follow(nodes, comm);
+        }
         self.clock.stop(Section::Integration);
         if let Some(contact) = contact {
             contact.apply(nodes, constraints, rigid.as_ref(), &step, comm);
             if let Some(rigid) = rigid {
                 rigid.push(nodes, contact.forces_of_nodes(), &self.functions, &step, comm);
+            }
+            if let Some(ties) = ties {
+                // What is held stays so: reactions take up what is handed on to it.
+                let held: Vec<f64> = constraints.iter().map(|c| nodes.forces[c.node as usize].0[c.axis]).collect();
+                ties.push(nodes, contact.forces_of_nodes(), comm);
+                for (c, before) in constraints.iter_mut().zip(held) {
+                    let force = &mut nodes.forces[c.node as usize].0[c.axis];
+                    c.reaction -= *force - before;
+                    *force = before;
+                }
+                ties.follow(nodes, comm);
             }
             self.clock.stop(Section::Contact);
         }

@@ -98,6 +98,7 @@ impl Domain {
             erosion,
             rigid,
             // Of the problem and its cut.
+            ties: _,
             element_id: _,
             rotations: _,
             layered: _,

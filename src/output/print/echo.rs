@@ -5,7 +5,7 @@ use crate::mesh::Mesh;
 use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepEstimate, StepModuli};
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
-use crate::solver::{BlockMass, BodyShape};
+use crate::solver::{BlockMass, BodyShape, TiedReport};
 use std::fmt::Write;
 
 /// What the front part needs to know.
@@ -30,6 +30,8 @@ pub struct Echo<'a> {
     pub added: &'a [BlockMass],
     /// Rigid bodies.
     pub rigid: &'a [BodyShape],
+    /// What came of TIED CONTACT.
+    pub ties: &'a [TiedReport],
     /// Names of the nodal, element and global variables of the plot file.
     pub variables: [&'a [String]; 3],
     /// Seconds that the data input phase and the data initialization phase took.
@@ -246,13 +248,23 @@ fn conditions(model: &Model) -> String {
 fn masses(echo: &Echo) -> String {
     let lines = echo.mesh.blocks.iter().zip(echo.masses).map(|(b, m)| format!("{:>13}{:>16}", b.id, number(*m)));
     let table = table("TOTAL MASS OF EACH MATERIAL", "  MATERIAL ID            MASS", lines.collect());
-    let table = table + &added_masses(echo.added) + &rigid_bodies(echo.rigid);
+    let table = table + &added_masses(echo.added) + &rigid_bodies(echo.rigid) + &ties(echo.ties);
     let of = match echo.model.analysis {
         Analysis::Solid => return table,
         Analysis::PlaneStrain => "A UNIT OF THICKNESS",
         Analysis::Axisymmetric | Analysis::AxisymmetricCompatible => "TWO PI RADIANS",
     };
     format!("{table}                ( ALL MASSES ARE FOR {of} )\n")
+}
+
+/// What came of TIED CONTACT, a line for each.
+fn ties(ties: &[TiedReport]) -> String {
+    let line = |tie: &TiedReport| {
+        let TiedReport { side_sets: [first, second], tied, left, moved } = *tie;
+        format!("{first:>12}{second:>12}{tied:>12}{left:>12}{:>14}", number(moved))
+    };
+    let columns = "  FIRST SET  SECOND SET  NODES TIED   LEFT FREE  FARTHEST MOVE";
+    table("TIED SURFACES", columns, ties.iter().map(line).collect())
 }
 
 /// Mass, centre and inertia of each rigid body.

@@ -40,6 +40,7 @@ pub fn features(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         ("waves leave through side sets", "SILENT BC", model.silent_boundaries.len()),
         ("initial velocities", "INITIAL VELOCITY", model.initial_velocities.len()),
         ("contact with rigid planes", "RIGID SURFACE", model.rigid_surfaces.len()),
+        ("surfaces tied to others", "TIED CONTACT", model.ties.len()),
         ("contact of all outer faces", "CONTACT MATERIAL", usize::from(model.contact.materials.is_some())),
         ("contact of pairs of side sets", "CONTACT SURFACE", model.contact.surfaces.len()),
         ("elements that are taken away", "DEATH", model.deaths.len()),

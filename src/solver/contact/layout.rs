@@ -32,6 +32,8 @@ pub struct Layout {
     pub edges: Vec<Edge>,
     /// Whether lines of the mesh meet edges that stand out.
     pub lines: bool,
+    /// Points of surfaces that TIED CONTACT joins: they do not touch each other. Empty without any.
+    pub tied: Vec<bool>,
     /// Whether there are surfaces; their edges meet all lines.
     pub surfaces: bool,
 }
@@ -55,6 +57,11 @@ impl Layout {
     pub fn meets(&self, edge: u32, other: u32) -> bool {
         let of_surface = |edge: u32| self.edges[edge as usize].is_of_surface(&self.faces);
         self.edges[other as usize].stands_out() || self.lines || of_surface(edge)
+    }
+
+    /// Whether all of these points are of tied surfaces.
+    pub fn are_tied(&self, points: &[u32]) -> bool {
+        !self.tied.is_empty() && points.iter().all(|&point| self.tied[point as usize])
     }
 
     /// The edge between two nodes of the mesh.

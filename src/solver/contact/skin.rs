@@ -19,6 +19,15 @@ fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
     middle.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
+/// Nodes of the side sets of TIED CONTACT, ascending.
+fn tied_nodes(mesh: &Mesh, model: &Model) -> Vec<u32> {
+    let sets = model.ties.iter().flat_map(|tie| tie.side_sets);
+    let mut nodes: Vec<u32> = sets.flat_map(|set| mesh.side_set_nodes(set)).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
 /// What layouts are made of, and made of again when elements go.
 pub struct Skin {
     element_order: Arc<Vec<u32>>,
@@ -32,6 +41,8 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
+    /// Nodes of tied surfaces, ascending.
+    tied: Vec<u32>,
     /// Which edges may touch edges.
     edges_wanted: ContactEdges,
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
@@ -59,6 +70,7 @@ impl Skin {
             surface: contact.materials.is_some().then(|| surface(&chosen, body)),
             sets: side_set_faces(mesh, contact, body),
             more,
+            tied: tied_nodes(mesh, model),
             // In the plane the edges are the faces.
             touching: Touching::of_chosen(Touching::new(mesh, model, body), |element| {
                 chosen[body.element_block[element as usize] as usize]
@@ -103,6 +115,9 @@ impl Skin {
         let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
+        if !self.tied.is_empty() {
+            layout.tied = layout.nodes.iter().map(|node| self.tied.binary_search(node).is_ok()).collect();
+        }
         let body = (&*self.element_nodes, &self.element_block[..], &self.positions[..]);
         let distance = |element| self.touching.distance(element);
         let mut faces = Faces::new(&numbers, body, (|node| layout.point(node), points), distance);

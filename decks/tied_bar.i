@@ -1,0 +1,24 @@
+$ One end of a bar is set in motion at 1 m/s. The wave, 39.62 MPa high, goes through a joint between halves with four by four and three by
+$ three elements across, as if there were none.
+TITLE
+ WAVE THROUGH A TIED JOINT
+TERMINATION TIME, 150.E-6
+OUTPUT TIME, 10.E-6
+PLOT TIME, 10.E-6
+PLOT NODAL, DISPLACEMENT, VELOCITY
+PLOT ELEMENT, STRESS
+TIED CONTACT, 100, 200
+FUNCTION, 1
+ 0., 1.
+ 1., 1.
+END
+PRESCRIBED VELOCITY, X, 1, 1
+MATERIAL, 1, ELASTIC, 7850.
+YOUNGS MODULUS = 200.E9
+POISSONS RATIO = 0.
+END
+MATERIAL, 2, ELASTIC, 7850.
+YOUNGS MODULUS = 200.E9
+POISSONS RATIO = 0.
+END
+EXIT
