@@ -310,7 +310,7 @@ fn a_ball_has_the_same_bits_on_any_ranks() {
 /// A sheet, half of it rigid and half elastic, that spins: nodes in common turn with the body.
 #[test]
 fn a_rigid_sheet() {
-    let sheet = |more: &str| recipe(&format!("TITLE\n SHEET\nSHEET, 1, 0., 0., 0., 1., 2., 4, 8\n{more}"));
+    let sheet = |more: &str| recipe(&format!("TITLE\n SHEET\nSHEET, 1, 0., 0., 0., 1., 2., 0., 4, 8\n{more}"));
     let law = |block: i32| {
         format!(
             "SHELL THICKNESS, {block}, 0.1\nMATERIAL, {block}, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E7\nPOISSONS RATIO = 0.3\nEND\n"
@@ -322,7 +322,7 @@ fn a_rigid_sheet() {
     // m (b² + t²)/12 about its short axis.
     let expected = 0.5 * 200.0 * (4.0 + 0.01) / 12.0 * 9.0;
     close("rigid sheet", "kinetic energy", run_of.last().totals.kinetic, expected, 1e-12);
-    let mesh = sheet("SHEET, 2, 1., 0., 0., 1., 2., 4, 8\nMERGE, 1, 2\n");
+    let mesh = sheet("SHEET, 2, 1., 0., 0., 1., 2., 0., 4, 8\nMERGE, 1, 2\n");
     let turned = "INITIAL VELOCITY ANGULAR, 2, 3., 0.5, 1., 0., 1., 0., 0.\n";
     let both = run(&format!("{head}{spin}{turned}{}{}", law(1), law(2)), &mesh);
     between("half a rigid sheet", "worst balance", both.worst_balance(), 0.0, 1e-3);
