@@ -5,6 +5,8 @@
 //! come first; ties go to the face that the point's body faces most, then to the lower number (Heinstein et al. 1993;
 //! Attaway et al. 1996, figures 3 and 4).
 
+mod newcomer;
+
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::faces::Faces;
@@ -25,22 +27,6 @@ pub const KEEP: f64 = 0.05;
 /// A point that has slid beyond its face by less than this part of its size is still held by it, unless another face
 /// that goes on in the same way takes over.
 const HOLD: f64 = 0.01;
-
-/// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
-const CLEARLY: f64 = 1e-6;
-
-/// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many in all.
-const ALONG_A_WAY: f64 = 3.4642;
-
-/// Cosine of the angle between two planes that count as one.
-const FLUSH: f64 = 0.99;
-
-/// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
-/// each other's planes must not be taken for a seam.
-const SEAM: f64 = 1e-4;
-
-/// Cosine between the normals of two faces that look at each other, at most.
-const FACING: f64 = -0.02;
 
 /// A face whose middle is higher than this part of its size above the face beside it folds towards what is in front of that.
 const HOLLOW: f64 = 0.05;
@@ -355,147 +341,6 @@ impl NodeFaceCheck<'_> {
     /// Neither away from the face nor so deep that it must have come from elsewhere.
     fn in_reach(&self, face: u32, projection: &Projection, tolerated: f64) -> bool {
         projection.gap < keep(self.faces, face) + tolerated && projection.gap > -self.faces.depth[face as usize]
-    }
-
-    /// A point that this face has not seen before.
-    #[inline(always)]
-    fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<DetectedContact> {
-        if self.is_in_front(point, face) {
-            return None;
-        }
-        let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
-        if !self.may_have_come_over(point, face, &end) || self.is_on_other_side(point, face) {
-            return None;
-        }
-        let start = self.around_border(point, face, false)?;
-        let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
-        let distance = self.faces.distance(point, face);
-        if distance == 0.0 && start.gap >= 0.0 {
-            let time = self.first_touch(point, face)?;
-            return comes().then(|| contact(time, 0.0));
-        }
-        if distance > 0.0 && self.begins_in_front(point, face) {
-            // What comes over the border is not seen to come through the face pushed out. What is in front all the time and
-            // over the face at the end has come, what is behind then must have come through.
-            let stays_in_front = end.outside == 0.0 && end.gap > -distance;
-            let unseen = if start.gap < 0.0 { 0.0 } else { 1.0 };
-            let time = self.first_touch(point, face).or_else(|| stays_in_front.then_some(unseen))?;
-            // Nearer than thicknesses allow, as the mesh has it or because it came from beside, it stays as near.
-            return comes().then(|| contact(time, start.gap.min(0.0)));
-        }
-        if self.faces.is_two_sided(face) {
-            // It is on the other side.
-            return None;
-        }
-        // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
-        let depth = self.faces.depth[face as usize];
-        let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
-        let inside = shallow
-            && self.opposition(point, &end) < 0.0
-            && !self.in_front_of_another(point, face)
-            && !self.slides_over(point, face, &end);
-        inside.then(|| contact(0.0, start.gap))
-    }
-
-    /// Whether a point that ends the step beyond the border of a face may have touched it on its way: nobody goes farther in the step
-    /// than the longest path along each axis, and the face pushed out lies beside the face by no more than its normals turn in the
-    /// step and from triangle to triangle. Most points near a surface are in it, a face or more away.
-    fn may_have_come_over(&self, point: u32, face: u32, end: &Projection) -> bool {
-        if end.outside <= 0.0 {
-            return true;
-        }
-        let [before, after] = [self.faces.start(face, self.motion), self.faces.end(face, self.motion)].map(|corners| {
-            let normal = projection::area_normal(&corners);
-            scaled(normal, 1.0 / dot(normal, normal).sqrt())
-        });
-        let apart = |a: [f64; 3], b: [f64; 3]| {
-            let way = subtract(a, b);
-            dot(way, way).sqrt()
-        };
-        let beside = self.faces.distance(point, face) * (apart(before, after) + apart(after, end.normal));
-        let within = 2.0 * (beside + ALONG_A_WAY * self.longest_path) + HOLD * self.faces.size[face as usize];
-        // What is no number rules nothing out.
-        end.outside.partial_cmp(&within) != Some(std::cmp::Ordering::Greater)
-    }
-
-    /// Whether a point begins the step on the other side of a surface, to which it then belongs.
-    fn is_on_other_side(&self, point: u32, face: u32) -> bool {
-        self.faces.is_two_sided(face) && !self.begins_in_front(point, face) && self.faces.distance(point, face) > 0.0
-    }
-
-    /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
-    /// faces pushed outwards.
-    fn first_touch(&self, point: u32, face: u32) -> Option<f64> {
-        let (path, distance) = (self.motion.path(point), self.faces.distance(point, face));
-        let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
-        let outside = (distance > 0.0).then(|| projection::pushed_out(&corners, distance));
-        let touched = outside.and_then(|outside| projection::first_crossing(&outside, path));
-        touched.or_else(|| projection::first_crossing(&corners, path))
-    }
-
-    /// Whether a point surely is in front of a face at the end of the step, farther than they touch.
-    #[inline(always)]
-    fn is_in_front(&self, point: u32, face: u32) -> bool {
-        let distance = self.faces.distance(point, face);
-        if distance > 0.0 {
-            return projection::is_out_of_reach(&self.faces.end(face, self.motion), self.motion.end(point), distance);
-        }
-        let [a, b, c, d] = self.faces.corners[face as usize];
-        let end = |point| self.motion.end_four(point);
-        projection::is_in_front([end(a), end(b), end(c), end(d)], end(point))
-    }
-
-    /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
-    /// however far behind the face's plane.
-    fn in_front_of_another(&self, point: u32, face: u32) -> bool {
-        self.beside(face).any(|other| {
-            let start = projection::project(&self.faces.start(other, self.motion), self.motion.start(point));
-            start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
-        })
-    }
-
-    /// The other outer faces of a face's element.
-    fn beside(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
-        let element = |face: u32| self.faces.number[face as usize] / 6;
-        let same = move |other: &u32| element(*other) == element(face);
-        let below = (0..face).rev().take_while(same);
-        let all = below.chain((face + 1..self.faces.len() as u32).take_while(same));
-        // The other side of a surface lies at the same place.
-        all.filter(move |_| !self.faces.is_two_sided(face))
-    }
-
-    /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
-    /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
-    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
-    fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
-        self.faces.around(point).is_empty()
-            || self.most_opposed(point, normal) < FACING
-            || self.faces.is_on_surface(point)
-    }
-
-    /// Smallest cosine between a normal and those of the faces around a point.
-    fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
-        let cosine = |&face: &u32| {
-            let own = projection::area_normal(&self.faces.start(face, self.motion));
-            dot(own, *normal) / dot(own, own).sqrt()
-        };
-        self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
-    }
-
-    /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
-    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
-    fn slides_over(&self, point: u32, face: u32, end: &Projection) -> bool {
-        let at = self.motion.start(point);
-        let corners = self.faces.start(face, self.motion);
-        let foot = projection::foot(&corners, &end.weights);
-        self.beside(face).any(|other| {
-            let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
-            let near =
-                |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
-            near(foot).is_some()
-                && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
-        })
     }
 
     fn opposition(&self, point: u32, projection: &Projection) -> f64 {

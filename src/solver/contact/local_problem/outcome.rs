@@ -1,0 +1,123 @@
+//! What came of a step's constraints: told to the nodes, to histories that watch blocks, and to what the run has seen so far.
+
+use super::LocalProblem;
+use crate::model::RigidSurface;
+use crate::solver::constraints::StepTimes;
+use crate::solver::contact::check::node_face::NONE;
+use crate::solver::contact::enforcement::carried::Carried;
+use crate::solver::contact::enforcement::constraint::{Constraint, Origin};
+use crate::solver::contact::enforcement::resultants::{Resultants, Share, Side};
+use crate::solver::contact::node_result::{Details, NodeResult, Status};
+use crate::solver::contact::seen::Seen;
+
+impl LocalProblem {
+    /// Lets `seen` learn what the contacts of this step have met; `when` is its time, and the number of steps before it.
+    pub fn teach(&self, seen: &mut Seen, when: (f64, u64)) {
+        let LocalProblem { faces, edges, history, numbering, planes, .. } = self;
+        let lacks_blocks = seen.lacks_blocks();
+        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
+            seen.touch(c, when);
+            match c.origin {
+                Origin::Face(_, place) if lacks_blocks => {
+                    let point = c.members[0];
+                    let touched = history.get(point as usize).map(|past| past[place as usize].face);
+                    let Some(face) = touched.filter(|face| *face != NONE) else { continue };
+                    let around = faces.around(point).iter().copied();
+                    around.chain([face]).for_each(|face| seen.meet(faces.block[face as usize]));
+                }
+                Origin::Edges(first, second) => {
+                    seen.edges = true;
+                    let here = [first, second].map(|edge| numbering.edges.binary_search(&edge));
+                    let of_edges = here.into_iter().flatten().flat_map(|edge| edges[edge].faces);
+                    of_edges.for_each(|face| seen.meet(faces.block[face as usize]));
+                }
+                Origin::Plane(number) => {
+                    let node = planes.binary_search_by_key(&number, |node| node.number);
+                    node.into_iter().for_each(|node| seen.push(planes[node].plane));
+                }
+                Origin::Face(..) => (),
+            }
+        }
+    }
+
+    /// Books what the contacts of this step do to whom the deck watches. `mine` says for which points this rank answers, `ids` are
+    /// the numbers of the blocks.
+    pub fn book(
+        &self,
+        resultants: &mut Resultants,
+        (planes, ids): (&[RigidSurface], &[i64]),
+        step: &StepTimes,
+        mine: impl Fn(usize) -> bool,
+    ) {
+        let id = |block: u32| Side::Block(ids.get(block as usize).copied().unwrap_or_default());
+        resultants.begin_step();
+        for (c, state) in self.enforcer.pushing(&self.constraints) {
+            let Some((sides, others)) = self.sides(c, planes, id).filter(|_| mine(c.members[0] as usize)) else {
+                continue;
+            };
+            let mut shares = [Share::default(); 2];
+            for (place, (point, weight)) in c.parts().enumerate() {
+                let before = self.motion.velocity_before(point as u32);
+                let after = self.enforcer.velocity_after(point, state, &self.motion);
+                shares[usize::from(place >= others)].add(c, weight, [before, after], step.kick);
+            }
+            resultants.book(sides, &shares, step);
+        }
+    }
+
+    /// Whose members a constraint joins, and the place of the first member of the second side.
+    fn sides(&self, c: &Constraint, planes: &[RigidSurface], id: impl Fn(u32) -> Side) -> Option<([Side; 2], usize)> {
+        let LocalProblem { faces, edges, history, numbering, point_block, .. } = self;
+        let point = c.members[0] as usize;
+        match c.origin {
+            Origin::Face(_, place) => {
+                let face = history.get(point)?.get(place as usize)?.face;
+                Some(([id(*point_block.get(point)?), id(*faces.block.get(face as usize)?)], 1))
+            }
+            Origin::Edges(first, second) => {
+                let block = |edge: u32| {
+                    let edge = &edges[numbering.edges.binary_search(&edge).ok()?];
+                    faces.block.get(edge.faces[0] as usize).copied()
+                };
+                Some(([id(block(first)?), id(block(second)?)], 2))
+            }
+            Origin::Plane(number) => {
+                let node = self.planes.binary_search_by_key(&number, |node| node.number).ok()?;
+                let wall = planes.get(self.planes[node].plane as usize)?.side_set;
+                Some(([id(*point_block.get(point)?), Side::Wall(wall)], 1))
+            }
+        }
+    }
+
+    /// Says what contact does to each node.
+    pub(super) fn tell_nodes(&mut self) {
+        self.loaded.drain(..).for_each(|point| self.results[point as usize] = NodeResult::FREE);
+        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
+            for (point, _) in c.parts() {
+                let result = &mut self.results[point];
+                if result.details.status == Status::Free {
+                    self.loaded.push(point as u32);
+                    result.normal_force = self.enforcer.normal_force[point];
+                    result.tangential_force = self.enforcer.friction_force[point];
+                    result.details.status = Status::Loaded;
+                }
+            }
+            let Details { gap, status, face, plane_force } = &mut self.results[c.members[0] as usize].details;
+            *gap = gap.min(c.gap);
+            match c.origin {
+                Origin::Face(..) => {
+                    let touched = self.history.get(c.members[0] as usize).map_or(NONE, |contacts| contacts[0].face);
+                    if touched != NONE {
+                        (*status, *face) = (Status::OnFace, self.faces.number[touched as usize]);
+                    }
+                }
+                Origin::Plane(_) => {
+                    let Carried { normal_force, tangential_force, .. } = c.carried;
+                    (0..3).for_each(|i| plane_force[i] += normal_force * c.normal[i] + tangential_force[i])
+                }
+                Origin::Edges(..) => (),
+            }
+        }
+        self.loaded.sort_unstable();
+    }
+}
