@@ -316,7 +316,7 @@ mod tests {
 
     #[test]
     fn beginnings_list_and_unknown_words_hint() {
-        assert_eq!(explain("TIME STEP").map(|text| text.lines().count()), Ok(4));
+        assert_eq!(explain("TIME STEP").map(|text| text.lines().count()), Ok(5));
         assert!(explain("").expect("the list").contains(" * SPH"));
         assert_eq!(explain("PLOT TIEM").map_err(|e| e.near), Err(Some("PLOT TIME".into())));
         assert_eq!(explain("VELOCTY").map_err(|e| e.near), Err(Some("VELOCITY".into())));
