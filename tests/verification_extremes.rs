@@ -45,7 +45,12 @@ fn assert_finite(run: &Run, names: &[&str]) {
 
 fn blown_up(run: &Run) -> bool {
     let event = run.stop.as_ref().map(Stop::event);
-    matches!(event, Some(Stop::Energy { .. } | Stop::Balance { .. } | Stop::Inverted(_) | Stop::NotFinite(_)))
+    matches!(
+        event,
+        Some(
+            Stop::Energy { .. } | Stop::Balance { .. } | Stop::Inverted(_) | Stop::NotFinite(_) | Stop::MotionNotFinite
+        )
+    )
 }
 
 /// The element bound is conservative by √3 for a laterally fixed column of cubes, where waves have one dimension:

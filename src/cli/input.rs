@@ -86,6 +86,9 @@ impl Given {
         if let Some(refusal) = body.added_mass.refusal() {
             return Err(Failure::input(refusal));
         }
+        if let Some(refusal) = body.tied.refusal(&self.mesh, &body.node_mass) {
+            return Err(Failure::input(refusal));
+        }
         match body.overlap.refusal(&self.mesh) {
             Some(refusal) if model.contact.control.overlap.refuses() => Err(Failure::input(refusal)),
             _ => Ok(body),

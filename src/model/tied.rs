@@ -23,6 +23,7 @@ pub(super) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
         return;
     }
     cards.iter().for_each(|card| blocks(card, problem, mesh, found));
+    cards.iter().for_each(|card| rigid_nodes(card, problem, mesh, found));
     roles(&cards, mesh, found);
 }
 
@@ -56,6 +57,34 @@ fn blocks(card: &Card, problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) 
             );
         }
     }
+}
+
+/// Nodes that a deformable block shares with a rigid one move with that: they neither follow nor are followed.
+fn rigid_nodes(card: &Card, problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let is_rigid = |id: &i64| problem.model.rigid_bodies.iter().any(|blocks| blocks.contains(id));
+    let mut rigid: Vec<u32> = Vec::new();
+    mesh.blocks.iter().filter(|block| is_rigid(&block.id)).for_each(|block| rigid.extend(&block.nodes));
+    rigid.sort_unstable();
+    for field in ["first", "second"] {
+        let set = card.integer(field);
+        // Faces of the rigid blocks themselves have been told.
+        let shared = mesh.side_set_nodes(set).into_iter().find(|node| rigid.binary_search(node).is_ok());
+        let Some(shared) = shared.filter(|_| !has_faces_of(mesh, set, is_rigid)) else { continue };
+        let id = mesh.node_ids.get(shared as usize).copied().unwrap_or(0);
+        found.push(
+            Diagnostic::error(format!("TIED CONTACT: node {id} belongs to a RIGID BODY as well"))
+                .at(card.place(field), format!("side set {set} has the node"))
+                .help("leave the faces beside the rigid block out of the side set"),
+        );
+    }
+}
+
+/// Whether a side set has faces of blocks that are chosen by their numbers.
+fn has_faces_of(mesh: &Mesh, set: i64, chosen: impl Fn(&i64) -> bool) -> bool {
+    let blocks = mesh.blocks.iter().flat_map(|block| std::iter::repeat_n(chosen(&block.id), block.len()));
+    let chosen: Vec<bool> = blocks.collect();
+    let sides = mesh.side_set(set).map_or(&[][..], |set| &set.sides);
+    sides.iter().any(|(element, _)| chosen.get(*element as usize) == Some(&true))
 }
 
 /// A node follows or is followed.

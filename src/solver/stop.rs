@@ -11,6 +11,9 @@ pub enum Stop {
     /// Numbers of an element are no longer finite.
     #[error("the motion of element {} of block {} is no longer a number, at ({:.6e}, {:.6e}, {:.6e})", .0.element, .0.block, .0.centre[0], .0.centre[1], .0.centre[2])]
     NotFinite(ElementPlace),
+    /// The kinetic energy is no longer a number, though those of all elements are.
+    #[error("the kinetic energy is no longer a number: a rigid body or a node without elements moves so")]
+    MotionNotFinite,
     /// The stable step has become hopelessly small.
     #[error("the stable time step has collapsed to {step:.6e}, {ratio:.1e} of its first value; element {} of block {} controls it, at ({:.6e}, {:.6e}, {:.6e})", .place.element, .place.block, .place.centre[0], .place.centre[1], .place.centre[2])]
     TimeStep {
@@ -98,6 +101,10 @@ impl Stop {
             Stop::NotFinite(_) => {
                 "a load or a prescribed motion of absurd size is the usual cause, or an unstable step: see whether TIME \
                  STEP SCALE is above 1, and what the last plot state shows there"
+            }
+            Stop::MotionNotFinite => {
+                "motions of one RIGID BODY that contradict each other are the usual cause, or loads of absurd size: see what the \
+                 deck holds and drives of each, and the last plot state"
             }
             Stop::Inverted(_) => {
                 "look at the last plot state around it; try a finer or better shaped mesh there, more hourglass \

@@ -239,7 +239,7 @@ impl Contact {
     fn learn_of(&mut self, rigid: Option<&RigidBodies>, comm: &dyn Communicator) {
         let Some(rigid) = rigid else { return };
         let ContactNodes { motion, list, .. } = &mut self.contact_nodes;
-        let of = |body: &RigidBody| BodyMobility { centre: body.centre, compliance: body.compliance };
+        let of = |body: &RigidBody| BodyMobility { centre: body.centre, compliance: body.compliance, free: body.free };
         motion.mobility.bodies = rigid.bodies.iter().map(of).collect();
         self.problem.motion.mobility.bodies.clone_from(&motion.mobility.bodies);
         if motion.mobility.body.len() == list.len() {

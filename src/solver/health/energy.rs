@@ -62,6 +62,9 @@ pub fn two_kinds(totals: &Totals) -> [f64; 2] {
 /// An energy is larger than what was put in allows, or the balance is off: the run must stop.
 pub fn check(totals: &Totals, initial: f64, supplied: f64, floor: f64) -> Result<(), Stop> {
     let [kinetic, internal] = two_kinds(totals);
+    if kinetic.is_nan() {
+        return Err(Stop::MotionNotFinite);
+    }
     if kinetic.abs().max(internal.abs()) > FACTOR * (supplied + totals.contact_gain) + floor {
         return Err(Stop::Energy { kinetic, internal, supplied });
     }

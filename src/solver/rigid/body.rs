@@ -45,6 +45,8 @@ pub struct RigidBody {
     inertia: Matrix,
     /// What forces do to its velocities, with what holds it.
     pub compliance: Compliance,
+    /// The same if nothing held it.
+    pub free: Compliance,
     /// The holds that are independent of each other, and how they resist each other.
     chosen: Vec<usize>,
     resistance: Vec<Vec<f64>>,
@@ -71,6 +73,7 @@ impl RigidBody {
             frame: matrix(STRAIGHT),
             inertia: shape.inertia,
             compliance: [[0.0; 6]; 6],
+            free: [[0.0; 6]; 6],
             chosen: Vec::new(),
             resistance: Vec::new(),
             load: [0.0; 6],
@@ -102,6 +105,11 @@ impl RigidBody {
         }
         let rows: Vec<Six> = self.holds.iter().map(|hold| hold.row(times(&self.frame, hold.arm))).collect();
         (self.chosen, self.compliance) = independent(&rows, free);
+        if self.chosen.len() == 6 {
+            // What is left is round-off.
+            self.compliance = [[0.0; 6]; 6];
+        }
+        self.free = free;
         let resists = |a: &usize| self.chosen.iter().map(|b| product(&rows[*a], &applied(&free, &rows[*b]))).collect();
         self.resistance = self.chosen.iter().map(resists).collect();
     }

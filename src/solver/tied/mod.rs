@@ -74,6 +74,27 @@ impl Tied {
         }
     }
 
+    /// Why the ties cannot be; `None` where they can. `masses` are those of the nodes once masses have been handed over.
+    pub fn refusal(&self, mesh: &Mesh, masses: &[f64]) -> Option<String> {
+        if let Some(TiedReport { side_sets: [first, second], .. }) = self.reports.iter().find(|report| report.tied == 0)
+        {
+            return Some(format!(
+                "error: TIED CONTACT of side sets {first} and {second} ties nothing: no node of {first} is near a face of {second}\n\
+                 help: see whether the numbers are those that are meant, or raise the tolerance to the gap between them"
+            ));
+        }
+        let leaders = self.followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node as usize));
+        let without = leaders.filter(|&node| masses[node] <= 0.0 || masses[node].is_nan()).min()?;
+        let [x, y, z] = mesh.coordinates.get(without)?;
+        Some(format!(
+            "error: TIED CONTACT: node {} at {x:.4e} {y:.4e} {z:.4e} would have a mass of {:.4e} with what follows it\n\
+             help: a coarse surface follows a finer one that it covers only in part: change the order of the side sets, so that the finer \
+             one follows, or let them cover the same area",
+            mesh.node_ids.get(without)?,
+            masses[without]
+        ))
+    }
+
     /// Whether a node follows others.
     pub fn follows(&self, node: u32) -> bool {
         self.followers.binary_search_by_key(&node, |one| one.node).is_ok()

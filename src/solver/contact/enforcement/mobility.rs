@@ -17,7 +17,7 @@ const SUMS: usize = 7;
 /// Which points belong to rigid bodies, and how these answer to forces.
 #[derive(Debug, Clone, Default)]
 pub struct Mobility {
-    /// Body of each point, or [`ABSENT`]; empty where there are no bodies.
+    /// Body of each point, or [`u32::MAX`]; empty where there are no bodies.
     pub body: Vec<u32>,
     /// The bodies in this step.
     pub bodies: Vec<BodyMobility>,
@@ -30,6 +30,8 @@ pub struct BodyMobility {
     pub centre: [f64; 3],
     /// What forces and moments about the centre do to its velocities.
     pub compliance: Compliance,
+    /// The same if nothing held it: what round-off of the former is measured by.
+    pub free: Compliance,
 }
 
 impl Mobility {
@@ -54,20 +56,26 @@ impl BodyMobility {
     /// What unit forces on these points, times their weights, do to their weighted sum of velocities: along a direction, and
     /// along any at most.
     fn answer(&self, parts: &[([f64; 3], f64)], normal: [f64; 3]) -> [f64; 2] {
-        let sum = |direction: [f64; 3]| {
-            parts.iter().fold([0.0; 6], |sum, (arm, w)| {
-                let one = wrench(*arm, direction);
-                std::array::from_fn(|i| sum[i] + w * one[i])
-            })
-        };
-        let along = sum(normal);
-        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(sum);
-        let answers = axes.map(|axis| applied(&self.compliance, &axis));
-        // No eigenvalue is above the largest sum of a row.
-        let row = |i: usize| axes.iter().map(|axis| product(axis, &answers[i]).abs()).sum::<f64>();
-        let most = row(0).max(row(1)).max(row(2));
-        [product(&along, &applied(&self.compliance, &along)), most]
+        let along = total(parts, normal);
+        [product(&along, &applied(&self.compliance, &along)), most(parts, &self.compliance)]
     }
+}
+
+/// Force and moment of unit forces in a direction on these points, times their weights.
+fn total(parts: &[([f64; 3], f64)], direction: [f64; 3]) -> Six {
+    parts.iter().fold([0.0; 6], |sum, (arm, w)| {
+        let one = wrench(*arm, direction);
+        std::array::from_fn(|i| sum[i] + w * one[i])
+    })
+}
+
+/// What such forces do along any direction at most.
+fn most(parts: &[([f64; 3], f64)], compliance: &Compliance) -> f64 {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| total(parts, axis));
+    let answers = axes.map(|axis| applied(compliance, &axis));
+    // No eigenvalue is above the largest sum of a row.
+    let row = |i: usize| axes.iter().map(|axis| product(axis, &answers[i]).abs()).sum::<f64>();
+    row(0).max(row(1)).max(row(2))
 }
 
 /// Completes what is known of a constraint with the points of bodies: adds to what a unit force does to it along its normal, and to what
@@ -91,7 +99,7 @@ pub fn weigh(
         let mut count = 0;
         for j in (i..c.count).filter(|&j| of(j) == Some(body)) {
             parts[count] = (own.arm(motion, c.members[j] as usize), c.weights[j]);
-            *isotropic += own.answer(&parts[count..=count], c.normal)[1];
+            *isotropic += self::most(&parts[count..=count], &own.free);
             count += 1;
         }
         let [along, most] = own.answer(&parts[..count], c.normal);
@@ -157,7 +165,7 @@ mod tests {
     fn a_point_of_a_body_answers_with_its_inertia() {
         let mut compliance = [[0.0; 6]; 6];
         (0..3).for_each(|i| (compliance[i][i], compliance[i + 3][i + 3]) = (0.5, 0.25));
-        let body = BodyMobility { centre: [0.0; 3], compliance };
+        let body = BodyMobility { centre: [0.0; 3], compliance, free: compliance };
         let [along, most] = body.answer(&[([2.0, 0.0, 0.0], 1.0)], [0.0, 1.0, 0.0]);
         assert!((along - 1.5).abs() < 1e-15 && (most - 1.5).abs() < 1e-15, "{along} {most}");
         // Two points pushed apart do not move a body.
