@@ -34,7 +34,7 @@ pub(super) fn scatter(
     }
 }
 
-/// The same with four numbers to a register. `unsafe` for an eighth of the time of enforcement (docs/performance.md).
+/// The same with four numbers to a register. `unsafe` for an eighth of the instructions of a run's enforcement.
 ///
 /// # Safety
 ///

@@ -265,7 +265,7 @@ impl LocalProblem {
         }
     }
 
-    /// The same with boxes and corners as whole vectors. `unsafe` for a twentieth of the check on a brick wall (docs/performance.md).
+    /// The same with boxes and corners as whole vectors. `unsafe` for a tenth of the instructions of contact on a brick wall, with those of the sweeps.
     ///
     /// # Safety
     ///
