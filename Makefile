@@ -5,7 +5,7 @@ URTO     = target/release/urto
 # MPI is built in where the machine has it; URTO_MPI=no leaves it out.
 FEATURES = $$(.ci/packages features)
 
-.PHONY: demo test build mpi bench scale trade decompositions verify man install clean packages needed
+.PHONY: demo test build mpi vendored bench scale trade decompositions verify man install clean packages needed
 
 demo: build            # crushes a can under a plate, half a minute on two cores, and draws it
 	@mkdir -p out
@@ -26,6 +26,10 @@ build: needed          # the program, in target/release
 
 mpi: needed            # the program with MPI, or the reason why not
 	cargo build --release --features mpi
+
+vendored:              # the program with netCDF and HDF5 in it, which needs no library of the system
+	@.ci/packages vendored
+	cargo build --release --features vendored
 
 bench: needed          # times the kernels and the whole step beside the machine's bandwidth
 	cargo bench

@@ -1,6 +1,6 @@
 $ Cylinder test: a copper tube filled with TNT that is lit at its middle, as a body of revolution.
 $ Source      the test by which equations of state of explosives are fitted: the wall flies at about 1.18 mm/us when it has moved
-$             by 6 mm, at 1.40 mm/us by 19 mm (the usual handbook values for TNT); see docs/verification.md
+$             by 6 mm, at 1.40 mm/us by 19 mm (handbook values, as remembered); see docs/verification.md
 $ Run         urto cylinder_test          1920 quadrilaterals, some seconds
 $ Look        urto view cylinder_test.e -v PRESSURE --mirror x, and with --revolve 270
 $ Units       kg, m, s  -> N, Pa, J; masses, forces and energies are those of the whole turn

@@ -13,6 +13,7 @@ pub mod exodus;
 pub mod files;
 pub mod lanes;
 pub mod material;
+pub mod means;
 pub mod mesh;
 pub mod mesher;
 pub mod model;

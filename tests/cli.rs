@@ -507,3 +507,55 @@ fn values_from_the_command_line_stand_for_those_of_deck_and_recipe() {
     let energy = desk.results("box.e").global(0).expect("the first state")[0];
     assert!((energy - 0.5 * 7800.0 * 400.0).abs() < 1e-6, "{energy}");
 }
+
+/// A plane mesh, of a recipe or of a file, becomes hexahedra: drawn out and held across it moves as in plane strain, turned it weighs
+/// what the body of revolution does.
+#[test]
+fn plane_meshes_become_solids() {
+    let desk = Desk::new();
+    let recipe = "RECTANGLE, 1, 0., 0., 0.01, 0.04, 2, 8\nSIDE SET FACE, 100, 1, FRONT\nNODE SET PLANE, 1, X, 0.\n";
+    desk.put("plane.mesh", recipe);
+    desk.urto(&["mesh", "plane.mesh"]).with(0);
+    let drawn = desk.urto(&["mesh", "plane.mesh", "--extrude", "0.015", "--cells", "3", "-o", "drawn.g"]).with(0);
+    drawn.says(&["drawn.g: 108 nodes, 48 elements in 1 block(s); sets 101 and 102 are its ends"]);
+    let turned = desk.urto(&["mesh", "plane.g", "--revolve", "90", "--cells", "6", "-o", "turned.g"]).with(0);
+    turned.says(&["turned.g: 135 nodes, 96 elements", "sets 101 and 102"]);
+    desk.urto(&["mesh", "plane.g", "--revolve", "360", "--cells", "8", "-o", "whole.g"]).with(0);
+    let deck = |more: &str| {
+        format!(
+            "TITLE\n a bar\nTERMINATION TIME, 2.E-5\nPLOT GLOBAL, BLOCK ENERGY\nMATERIAL, 1, ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\n\
+             POISSONS RATIO = 0.33\nEND\n{more}EXIT\n"
+        )
+    };
+    let plane = "INITIAL VELOCITY MATERIAL, 1, 0., -10.\nRIGID SURFACE, 100, 0., 0., 0., 1.\n";
+    let space = "INITIAL VELOCITY MATERIAL, 1, 0., -10., 0.\nRIGID SURFACE, 100, 0., 0., 0., 0., 1., 0.\n";
+    desk.put("plane.i", &deck(&format!("PLANE STRAIN\n{plane}")));
+    desk.put("drawn.i", &deck(&format!("NO DISPLACEMENT, Z, 101\nNO DISPLACEMENT, Z, 102\n{space}")));
+    desk.put("axis.i", &deck(&format!("AXISYMMETRIC\n{plane}")));
+    desk.put("turned.i", &deck(&format!("NO DISPLACEMENT, Z, 101\nNO DISPLACEMENT, X, 102\n{space}")));
+    let energy = |name: &str, mesh: &str| {
+        desk.urto(&[name, "-q", "--ranks", "1", "-m", mesh]).with(0);
+        let results = desk.results(&name.replace(".i", ".e"));
+        let place = results.global_names().iter().position(|n| n == "KE_BLOCK1").expect("an energy");
+        [0, results.times().len() - 1].map(|state| results.global(state).expect("a state")[place])
+    };
+    let (plane, drawn) = (energy("plane.i", "plane.g"), energy("drawn.i", "drawn.g"));
+    // Elements of the layer have other steps than squares do, so that the ends are alike only but for the step.
+    for (state, most) in [(0, 1e-12), (1, 2e-2)] {
+        let part = drawn[state] / (0.015 * plane[state]);
+        assert!((part - 1.0).abs() < most, "{state}: {part}");
+    }
+    // Chords of 15 degrees for an arc: sin(15)/15 of its area.
+    let (axis, turned) = (energy("axis.i", "plane.g"), energy("turned.i", "turned.g"));
+    let chords = 15f64.to_radians().sin() / 15f64.to_radians();
+    assert!((4.0 * turned[0] / (chords * axis[0]) - 1.0).abs() < 1e-12, "{turned:?} {axis:?}");
+    assert!((4.0 * turned[1] / (chords * axis[1]) - 1.0).abs() < 0.1, "{turned:?} {axis:?}");
+    let wrong = |more: &[&str], words: &str| {
+        desk.urto(&[&["mesh", "plane.mesh", "-o", "wrong.g"], more].concat()).with(2).says(&[words]);
+    };
+    wrong(&["--revolve", "400", "--cells", "3"], "--revolve is 400");
+    wrong(&["--extrude=-1", "--cells", "3"], "--extrude is -1");
+    wrong(&["--extrude", "1"], "--cells");
+    wrong(&["--extrude", "1", "--revolve", "90", "--cells", "3"], "cannot be used with");
+    desk.urto(&["mesh", "drawn.g", "--revolve", "90", "--cells", "3"]).with(2).says(&["only a two-dimensional mesh"]);
+}

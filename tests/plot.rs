@@ -222,3 +222,128 @@ fn the_force_of_a_rigid_surface_is_what_its_nodes_feel() {
     desk.put("wrong.i", &program::bar_deck(1e-5, "HISTORY, CONTACT, 1\n"));
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["the deck has no contact between blocks"]);
 }
+
+/// Accelerations and forces of histories are means over intervals: they add up to the change of velocity and momentum to round-off, also
+/// where intervals are unequal and where a run ended between two states and another one went on from before its end.
+#[test]
+fn means_are_summed_over_their_intervals() {
+    let desk = Desk::new();
+    let more = |end: f64, more: &str| {
+        let watched = "HISTORY TIME, 3.E-6\nRIGID SURFACE, 100, 0., 0., 0., 0., 0., 1.\nHISTORY, RIGID SURFACE, 100\n\
+                       HISTORY BLOCK, 1\nMATERIAL POINT, 0.005, 0.005, 0.01\nWRITE RESTART, 7.E-6, 9\n";
+        program::put_bar(&desk, end, &format!("{watched}{more}"));
+    };
+    more(6e-5, "");
+    desk.urto(&["bar.i", "-q", "--ranks", "1", "-o", "whole"]).with(0);
+    let names = "ACCLZ_BLOCK1,FZ_WALL100,ACCLZ_1,VELZ_BLOCK1,ZMOM_BLOCK1,VELZ_1";
+    let changes = |name: &str| {
+        let values = csv(&desk, &[name, "-v", names]);
+        let sums = csv(&desk, &[name, "-v", "ACCLZ_BLOCK1,FZ_WALL100,ACCLZ_1", "--integrate"]);
+        let intervals: Vec<f64> = values.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+        let most = intervals.iter().copied().fold(0.0, f64::max);
+        assert!(intervals.iter().any(|dt| *dt < 0.95 * most), "intervals are alike: {intervals:?}");
+        for (sum, row) in sums.iter().zip(&values) {
+            for k in 1..=3 {
+                let (found, gained) = (sum[k], row[3 + k] - values[0][3 + k]);
+                let scale = values.iter().map(|row| (row[3 + k] - values[0][3 + k]).abs()).fold(0.0, f64::max);
+                assert!((found - gained).abs() < 1e-12 * scale, "{name}, {k}: {found} is not {gained}");
+            }
+        }
+        values
+    };
+    let whole = changes("whole.h");
+    // What is not a mean is integrated by trapezoids: the displacement is that of the velocity but for the curvature between states.
+    let path = csv(&desk, &["whole.h", "-v", "VELZ_BLOCK1", "--integrate"]);
+    let moved = csv(&desk, &["whole.h", "-v", "DISPLZ_BLOCK1"]);
+    let (path, moved) = (path[path.len() - 1][1], moved[moved.len() - 1][1]);
+    assert!((path - moved).abs() < 1e-2 * moved.abs() && path != moved, "{path} {moved}");
+    more(4.03e-5, "");
+    desk.urto(&["bar.i", "-q", "--ranks", "1"]).with(0);
+    let first = csv(&desk, &["bar.h", "-v", "ZMOM_BLOCK1"]).len();
+    more(6e-5, "");
+    desk.urto(&["bar.i", "-q", "--ranks", "2", "--restart", "bar.rsout"]).with(0);
+    assert_eq!(changes("bar.h"), whole, "{first} states before");
+}
+
+/// A state that only the end of a run was a reason for lies inside an interval over which the run that goes on has means.
+#[test]
+fn a_state_inside_an_interval_is_none_of_its_ends() {
+    let desk = Desk::new();
+    let history = |name: &str, info: &[&str], states: &[[f64; 2]]| {
+        let header = ResultsHeader {
+            mesh: &Mesh { title: "means".to_owned(), ..Mesh::default() },
+            title: "means".to_owned(),
+            global: vec!["ACCLX_BLOCK1".to_owned()],
+            nodal: Vec::new(),
+            element: Vec::new(),
+            qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+            info: info.iter().map(|line| line.to_string()).collect(),
+        };
+        let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
+        states.iter().for_each(|[t, mean]| writer.write_state(*t, &[*mean], &[], &[]).expect("a state"));
+    };
+    let names = "$ MEANS OVER INTERVALS: ACCL";
+    history("run.h", &[names], &[[0.0, 0.0], [1.0, 4.0], [1.5, 6.0]]);
+    history("run.h-s0002", &[names, "$ MEANS SINCE: 1e0"], &[[2.0, 8.0], [4.0, 1.0]]);
+    let summed = || csv(&desk, &["run.h", "-v", "ACCLX_BLOCK1", "--integrate"]);
+    assert_eq!(summed(), [[0.0, 0.0], [1.0, 4.0], [2.0, 12.0], [4.0, 14.0]]);
+    // Of a file that does not say so nobody knows; and the derivative of means is none.
+    history("run.h-s0002", &[], &[[2.0, 8.0], [4.0, 1.0]]);
+    assert_eq!(summed(), [[0.0, 0.0], [1.0, 2.0], [1.5, 4.5], [2.0, 8.0], [4.0, 17.0]]);
+}
+
+/// Impulses of contact are the changes of momentum of rigid bodies and of blocks that are tied to others too, and works on what is rigid the
+/// change of its kinetic energy.
+#[test]
+fn contact_tells_what_it_does_to_rigid_and_tied_bodies() {
+    let law = |block: i32, density: f64| {
+        format!("MATERIAL, {block}, ELASTIC, {density}\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nEND\n")
+    };
+    let desk = Desk::new();
+    // A ball strikes a block aslant, both free; the same on a block that another one is tied to.
+    desk.put(
+        "ball.mesh",
+        "TITLE\n BALL\nBOX, 1, 0., 0., -0.02, 0.04, 0.04, 0.02, 6, 6, 3\nBOX, 3, 0., 0., -0.03, 0.04, 0.04, 0.01, 4, 4, 2\n\
+         SPHERE, 2, 0.01, 2, FULL, 1\nTRANSLATE, 2, 0.022, 0.019, 0.0101\nSIDE SET FACE, 100, 1, BOTTOM\nSIDE SET FACE, 300, 3, TOP\n",
+    );
+    let deck = |more: &str| {
+        format!(
+            "TITLE\n BALL\nTERMINATION TIME, 4.E-5\nOUTPUT TIME, 1.E-6\nPLOT TIME, 1.E-5\nHISTORY TIME, 7.E-7\nHISTORY BLOCK, 1, 2, 3\n\
+             HISTORY CONTACT, 2\nHISTORY CONTACT, 1, 2\nCONTACT MATERIAL, 1, 2\nCONTACT DATA, 1, 2, 0.3\n\
+             INITIAL VELOCITY MATERIAL, 2, 20., -30., -60.\n{more}{}{}{}EXIT\n",
+            law(1, 2700.0),
+            law(2, 7800.0),
+            law(3, 2700.0)
+        )
+    };
+    let spin = "INITIAL VELOCITY ANGULAR, 2, 2000., 0.022, 0.019, 0.0101, 1., 0.3, 0.\n";
+    for (name, more) in [
+        ("rigid", format!("RIGID BODY, 2\n{spin}")),
+        ("tied", "TIED CONTACT, 100, 300\n".to_owned()),
+        ("both", format!("RIGID BODY, 2\nTIED CONTACT, 100, 300\n{spin}")),
+    ] {
+        desk.put("ball.i", &deck(&more));
+        desk.urto(&["ball.i", "-q", "--ranks", "2", "-m", "ball.mesh"]).with(0);
+        for axis in ["X", "Y", "Z"] {
+            let forces = format!("F{axis}_CONTACT2,F{axis}_CONTACT1_2");
+            let impulses = csv(&desk, &["ball.h", "-v", &forces, "--integrate"]);
+            let momenta = csv(&desk, &["ball.h", "-v", &format!("{axis}MOM_*")]);
+            let size = momenta[0][2].abs();
+            println!("{name} {axis} {:?}", impulses.last());
+            for (impulse, now) in impulses.iter().zip(&momenta) {
+                let gained: Vec<f64> = (1..=3).map(|k| now[k] - momenta[0][k]).collect();
+                let others = gained[0] + gained[2];
+                let errors = [impulse[1] - gained[1], impulse[2] - others, impulse[1] + impulse[2]];
+                assert!(errors.iter().all(|error| error.abs() < 1e-11 * size), "{name} {axis}: {impulse:?} {gained:?}");
+            }
+            assert!(axis != "Z" || impulses[impulses.len() - 1][1].abs() > 0.5 * size, "{name}: nothing happened");
+        }
+        let energies = csv(&desk, &["ball.h", "-v", "KE_BLOCK2,WORK1_CONTACT2,WORK2_CONTACT1_2"]);
+        if name != "tied" {
+            for now in &energies {
+                let (gained, first) = (now[1] - energies[0][1], energies[0][1]);
+                assert!((gained - now[2]).abs() < 1e-11 * first && now[2] == now[3], "{name}: {gained} {now:?}");
+            }
+        }
+    }
+}

@@ -43,6 +43,11 @@ fn q2_thick_cylinder() {
     close("Q-2", "tube, outer wall", outer, 2.4966e-3, 5e-3);
     close("Q-2", "tube, its time", later, 4.69, 1e-2);
     between("Q-2", "tube, energy balance", imbalance(&swing), 0.0, 1e-6);
+    // The references are of the linear wave equation. A wall that moves by 0.4 % of its radius is off by about as much; a thousandth
+    // of the pressure leaves what the mesh makes.
+    let small = run(&deck.replace("1.E-3", "1.E-6"), &tube);
+    close("Q-2", "tube, little pressure, inner wall", peak(&small, "DISPLX", 0).0, 3.6903e-6, 1e-3);
+    close("Q-2", "tube, little pressure, outer wall", peak(&small, "DISPLX", 100).0, 2.4966e-6, 1e-3);
     let ring = recipe(
         "RING, 1, 1., 2., 30, 48, 0., 90.\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, Y, 0.\nSIDE SET FACE, 100, 1, INNER\n",
     );

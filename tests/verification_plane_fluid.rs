@@ -2,6 +2,7 @@
 
 mod support;
 
+use support::continued::{Case, assert_same};
 use support::meshes::recipe;
 use support::run::{Run, run};
 use support::{between, close};
@@ -223,6 +224,25 @@ fn implosion_of_a_sphere_in_the_compatible_form() {
     close("sphere, compatible", "density for elements of no size", 2.0 * behind[1] - behind[0], 64.0, 0.02);
 }
 
+/// The exact account of energies of gas in the compatible form goes over ranks and restarts too.
+#[test]
+fn the_compatible_form_has_the_same_bits() {
+    let deck = format!(
+        "TITLE\n implosion\nAXISYMMETRIC, COMPATIBLE\nTERMINATION TIME, 0.6\nOUTPUT TIME, 0.01\nPLOT TIME, 0.1\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, ACCELERATION, REACTION, MASS\nPLOT ELEMENT, EINT, CORNERS, DENSITY, PRESSURE\n\
+         NO DISPLACEMENT, Y, 2\nINITIAL VELOCITY RADIAL, 1, -1.\nINITIAL VELOCITY RADIAL, 2, -1.\n{}{}",
+        gas(1, 5.0 / 3.0, 1e-6),
+        gas(2, 5.0 / 3.0, 1e-6)
+    );
+    let case = Case::new(&deck, rays(24, 5));
+    let whole = case.part(1, None, 120);
+    for ranks in 2..=5 {
+        assert_same(&format!("{ranks} ranks"), &whole, &case.part(ranks, None, 120));
+    }
+    let first = case.part(4, None, 50);
+    assert_same("restart", &whole, &case.part(3, Some(&first.end), 70));
+}
+
 /// A shell of copper that falls in on itself, in both forms: the compatible one keeps it round to
 /// round-off.
 #[test]
@@ -248,8 +268,11 @@ fn a_liner_collapses_round_in_the_compatible_form() {
     between("liner, Galerkin", "departure from round", galerkin, 0.0, 0.05);
 }
 
-/// The cylinder test: a copper tube filled with TNT. When its wall has moved by 6 and 19 mm it flies at about 1.18 and 1.40 mm/µs, as
-/// handbooks of explosives have it; the equation of state is fitted to that test.
+/// The cylinder test: a copper tube filled with TNT. When its wall has moved by 6 and 19 mm it flies at about 1.18 and 1.40 mm/µs: values
+/// of handbooks as remembered, to which the equation of state was fitted. What needs no memory: were all the energy that the gas gives off
+/// while it grows to its present volume, E₀ − e(V) along the isentrope of detonation, in the motion across the axis, with a velocity of the gas in
+/// proportion to the radius (Gurney 1943), the wall would fly at √(2 (E₀ − e)/(ρ (M/C + ½))). Plastic work and motion along the axis
+/// leave a little less.
 #[test]
 fn cylinder_test() {
     let text = |path: &str| {
@@ -260,7 +283,22 @@ fn cylinder_test() {
     let node = mesh.node_sets.iter().find(|set| set.id == 1).expect("a set").nodes[0] as usize;
     for (way, speed) in [(6e-3, 1.18e3), (19e-3, 1.40e3)] {
         let state = tube.states.iter().find(|state| state.nodal("DISPLX")[node] >= way).expect("it goes as far");
-        close("cylinder test", &format!("speed of the wall at {way} m [m/s]"), state.nodal("VELX")[node], speed, 0.05);
+        let found = state.nodal("VELX")[node];
+        close("cylinder test", &format!("speed of the wall at {way} m [m/s]"), found, speed, 0.05);
+        between("cylinder test", "over that of all the energy", found / speed_of_all_the_energy(way), 0.88, 0.97);
     }
     between("cylinder test", "energy balance", tube.worst_balance(), 0.0, 1e-6);
+}
+
+/// Speed of the wall when it has gone this way, from energy alone. C of the isentrope follows from the JWL numbers of the deck and a
+/// detonation velocity of 6930 m/s by the conditions of Chapman and Jouguet, at p = 21 GPa.
+fn speed_of_all_the_energy(way: f64) -> f64 {
+    let (a, b, c, r1, r2, omega, energy): (f64, f64, f64, f64, f64, f64, f64) =
+        (371.2e9, 3.231e9, 1.045e9, 4.15, 0.95, 0.30, 7.0e9);
+    let (inside, outside, density, copper) = (12.7e-3f64, 15.3e-3f64, 1630.0, 8930.0);
+    let wall = outside * outside - inside * inside;
+    let volume = ((outside + way).powi(2) - wall) / (inside * inside);
+    let left = a / r1 * (-r1 * volume).exp() + b / r2 * (-r2 * volume).exp() + c / omega * volume.powf(-omega);
+    let masses = copper * wall / (density * inside * inside);
+    (2.0 * (energy - left) / (density * (masses + 0.5))).sqrt()
 }

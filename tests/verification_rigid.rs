@@ -278,6 +278,41 @@ fn a_driven_body() {
     between("body turned", "worst balance", turned.worst_balance(), 0.0, 1e-5);
 }
 
+/// Blocks of rigid bodies as histories see them: together they have the energy of the log, and a body its closed form, since what turns has
+/// the inertia of volumes.
+#[test]
+fn energies_of_rigid_blocks() {
+    let mesh = recipe(
+        "TITLE\n TWO\nBOX, 1, 0., 0., 0., 1., 2., 1., 1, 1, 1\nBOX, 2, 0., 0., 1., 1., 2., 2., 1, 1, 1\nMERGE, 1, 2\n\
+         BOX, 3, 5., 0., 0., 1., 1., 1., 1, 1, 1\n",
+    );
+    let law = |block: i32| STEEL.replace("MATERIAL, 1", &format!("MATERIAL, {block}"));
+    let (spin, speed) = (10.0, 3.0);
+    let deck = format!(
+        "TERMINATION TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT TIME, 0.01\nRIGID BODY, 1, 2\nRIGID BODY, 3\nTIME STEP MAXIMUM, 1.E-3\n\
+         INITIAL VELOCITY MATERIAL, 1, {speed}, 0., 0.\nINITIAL VELOCITY MATERIAL, 2, {speed}, 0., 0.\n\
+         INITIAL VELOCITY ANGULAR, 1, {spin}, 0.5, 1., 1.5, 0., 1., 0.\n\
+         INITIAL VELOCITY ANGULAR, 2, {spin}, 0.5, 1., 1.5, 0., 1., 0.\n\
+         INITIAL VELOCITY ANGULAR, 3, {spin}, 5.5, 0.5, 0.5, 1., 1., 0.\n{}{}{}",
+        law(1),
+        law(2),
+        law(3)
+    );
+    let run = run(&deck, &mesh);
+    let (mass, cube) = (7850.0 * 6.0, 7850.0);
+    // m (a² + c²)/12 of the long box about y, m/6 of a cube about any axis.
+    let long = 0.5 * mass * (speed * speed + spin * spin * (1.0 + 9.0) / 12.0);
+    let expected = [long, 0.5 * cube * spin * spin / 6.0];
+    for line in &run.lines {
+        let found = &line.block_kinetic;
+        for (body, (found, expected)) in [found[0] + found[1], found[2]].into_iter().zip(expected).enumerate() {
+            between("rigid blocks", &format!("body {}, error", body + 1), (found / expected - 1.0).abs(), 0.0, 1e-12);
+        }
+        let all: f64 = found.iter().sum();
+        between("rigid blocks", "log, error", (all / line.totals.kinetic - 1.0).abs(), 0.0, 1e-13);
+    }
+}
+
 /// Two rigid blocks, one on springs of what deforms, that hit each other on a plane with friction.
 fn busy() -> (String, Mesh) {
     let mut mesh = recipe(

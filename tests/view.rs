@@ -307,6 +307,48 @@ fn blocks_states_and_ranges_are_chosen() {
 }
 
 #[test]
+fn a_box_and_conditions_leave_the_rest_away() {
+    let infinite = f64::INFINITY;
+    let stress = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
+    let moved = State { displacement: |x| [0.0, 0.0, 10.0 * x[0].min(1.0)], ..State::of(&[1.0; 6]) };
+    let run = Run::new([3, 1, 2], &[State::of(&stress), moved]);
+    let path = run.folder.path().join("part.png");
+    let first = ViewOptions { state: StateChoice::Number(1), ..plain("left") };
+    let drawn = |options: &ViewOptions| draw(&run.results, &path, options).unwrap();
+    // The two cubes in the middle, with faces that the body did not show, in the colours of their elements.
+    let column = ViewOptions { region: [Some((1.0, 2.0)), None, None], ..first.clone() };
+    assert_eq!((drawn(&column).faces, drawn(&column).extremes), (10, Some((20.0, 50.0))));
+    let seen = run.picture(&ViewOptions { range: Some((10.0, 60.0)), ..column.clone() });
+    assert!(has_bar_colour(&seen, [557.0, 660.0], 0.2) && has_bar_colour(&seen, [557.0, 310.0], 0.8));
+    let one = ViewOptions { region: [Some((1.0, 2.0)), None, Some((1.0, infinite))], ..first.clone() };
+    assert_eq!((drawn(&one).faces, drawn(&one).extremes), (6, Some((50.0, 50.0))));
+    // Where the body is now decides: its right parts have gone up by ten.
+    let now = ViewOptions { state: StateChoice::Number(2), ..one.clone() };
+    assert_eq!(drawn(&now).faces, 10);
+    // Four cubes in the shape of an L, and those of its foot that are in a box too.
+    let strong = ViewOptions { criteria: vec![("vonmises".to_owned(), (25.0, infinite))], ..first.clone() };
+    assert_eq!((drawn(&strong).faces, drawn(&strong).extremes), (18, Some((30.0, 60.0))));
+    let both = ViewOptions { region: [None, None, Some((-infinite, 1.0))], ..strong.clone() };
+    assert_eq!((drawn(&both).faces, drawn(&both).extremes), (6, Some((30.0, 30.0))));
+    // Of nodes the mean of the corners counts: the cubes on the left have gone by half of ten.
+    let gone = ViewOptions { criteria: vec![("DISPLZ".to_owned(), (4.0, 6.0))], ..plain("left") };
+    assert_eq!(drawn(&gone).faces, 10);
+    // Nothing in one state is no mistake in a film; nothing at all is one.
+    let every = NonZeroUsize::MIN;
+    let frames = draw_many(&run.results, &run.folder.path().join("film.png"), every, &strong).unwrap();
+    assert_eq!(frames.iter().map(|frame| frame.faces).collect::<Vec<_>>(), [18, 0]);
+    let [some, none] = [0, 1].map(|i| pixel(&Pixmap::load_png(&frames[i].path).unwrap(), [557.0, 310.0]));
+    assert!(some != WHITE && none == WHITE);
+    let said = |options: &ViewOptions| run.refusal(options).to_string();
+    let nowhere = ViewOptions { region: [None, Some((7.0, 8.0)), None], ..first.clone() };
+    assert!(said(&nowhere).contains("no element is in the region"), "{}", said(&nowhere));
+    let unknown = ViewOptions { criteria: vec![("VONMISSES".to_owned(), (0.0, 1.0))], ..first };
+    assert!(said(&unknown).contains("did you mean VONMISES?"));
+    let mesh = ViewOptions { state: StateChoice::Mesh, ..strong };
+    assert!(said(&mesh).contains("a mesh has no values"), "{}", said(&mesh));
+}
+
+#[test]
 fn a_mesh_without_states_is_drawn_by_itself() {
     let folder = TempDir::new().unwrap();
     let (mesh, picture) = (folder.path().join("boxes.g"), folder.path().join("boxes.png"));

@@ -6,7 +6,7 @@ use super::terminal::say;
 use super::{DONE, Failure, options};
 use crate::material::response::{Motion, curve as response};
 use crate::output::print::scientific;
-use crate::plot::{self, Curve, PlotOptions, Site, Texts};
+use crate::plot::{self, Curve, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
 /// Draws the answers, and says where they end.
@@ -35,8 +35,7 @@ pub fn curve(options: &options::Explain, deck: &str, block: &str) -> Result<u8, 
         .map(|(motion, name)| {
             let points = response(&material.law, motion, options.strain, options.rate);
             let (x, y) = points.into_iter().map(|[x, y]| (x, y)).unzip();
-            let (label, site) = (name.to_owned(), Site::Global);
-            Curve { label, x, y, right: false, points: false, reference: false, run: 0, site }
+            Curve::of(name, x, y)
         })
         .collect();
     let texts = Texts {

@@ -326,6 +326,13 @@ pub struct View {
     /// Takes off what stands between a plane and the eye, and shows the section: z=50, or several planes with commas between
     #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
     pub cut: String,
+    /// Draws only the elements whose centre is in a box, where they are in the picture: x=0:5,z=:3; an end may be left out
+    #[arg(long, value_name = "BOX", default_value = "", hide_default_value = true)]
+    pub region: String,
+    /// Draws only the elements in which a variable is in a range: EQPS=0.2:, or several with commas between; an end may be
+    /// left out
+    #[arg(long = "where", value_name = "RANGES", default_value = "", hide_default_value = true)]
+    pub criteria: String,
     /// Draws a nodal vector, such as VEL or CONT, as arrows too
     #[arg(long, value_name = "NAME")]
     pub arrows: Option<String>,
@@ -390,7 +397,8 @@ pub struct Plot {
     /// Derivative with respect to time
     #[arg(long)]
     pub derive: bool,
-    /// Integral over time from the first state
+    /// Integral over time from the first state; what a history holds as means over its intervals (accelerations, forces of
+    /// contact) adds up to the change of velocity or momentum, all else is integrated by trapezoids
     #[arg(long)]
     pub integrate: bool,
     /// Channel frequency class of SAE J211 (ISO 6487): CFC60, CFC180, CFC600, CFC1000 or another number of hertz

@@ -75,6 +75,8 @@ fn view_options(options: &options::View) -> Result<ViewOptions, Failure> {
         blocks: options.block.clone(),
         hide: options.hide.clone(),
         cuts: planes("cut", &options.cut)?,
+        region: region(&options.region)?,
+        criteria: ranges("where", &options.criteria, "EQPS=0.2:")?,
         arrows: options.arrows.clone(),
         revolve: options.revolve,
         thickness: options.thickness,
@@ -115,6 +117,40 @@ pub(super) fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Fail
     };
     let texts = text.split(',').filter(|text| !text.trim().is_empty());
     texts.map(|text| plane(text).ok_or_else(|| wrong(text))).collect()
+}
+
+/// A box such as `x=0:5,z=:3`: what it is along each axis.
+fn region(text: &str) -> Result<[Option<(f64, f64)>; 3], Failure> {
+    let mut region = [None; 3];
+    for (name, ends) in ranges("region", text, "x=0:5")? {
+        let axis = ["x", "y", "z"].iter().position(|axis| axis.eq_ignore_ascii_case(&name));
+        let wrong = || Failure::input(format_args!("error: --region has {name:?}; expected x, y or z before the ="));
+        region[axis.ok_or_else(wrong)?] = Some(ends);
+    }
+    Ok(region)
+}
+
+/// A name, and the ends of its range.
+type NamedRange = (String, (f64, f64));
+
+/// Names with a range each, `x=0:5`, with commas between; an end that is left out is infinite.
+fn ranges(option: &str, text: &str, example: &str) -> Result<Vec<NamedRange>, Failure> {
+    let end = |text: &str, missing: f64| match text.trim() {
+        "" => Some(missing),
+        number => number.parse::<f64>().ok().filter(|number| number.is_finite()),
+    };
+    let range = |text: &str| {
+        let (name, ends) = text.split_once('=')?;
+        let (low, high) = ends.split_once(':')?;
+        let ends = (end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?);
+        (!name.trim().is_empty() && ends.0 <= ends.1).then(|| (name.trim().to_owned(), ends))
+    };
+    let wrong = |text: &str| {
+        let expected = format!("ranges such as {example}, the smaller end first, with commas between");
+        Failure::input(format_args!("error: --{option} has {text:?}; expected {expected}"))
+    };
+    let texts = text.split(',').filter(|text| !text.trim().is_empty());
+    texts.map(|text| range(text).ok_or_else(|| wrong(text))).collect()
 }
 
 /// Mirror planes: `xy` for those through the origin, or each with its place.

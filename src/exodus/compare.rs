@@ -99,7 +99,7 @@ impl Comparison {
     }
 }
 
-/// Compares coordinates, times and all variables of two files; works for meshes as well.
+/// Compares coordinates, times and all variables of two files; works for meshes and histories as well.
 ///
 /// Variables are matched by name without case, states, nodes and elements by their place in the file.
 ///
@@ -108,7 +108,7 @@ impl Comparison {
 /// to set against each other.
 pub fn compare(a: &Path, b: &Path, tolerance: &Tolerance) -> Result<Comparison, ResultsError> {
     let files = [Results::open(a)?, Results::open(b)?];
-    let meshes = [files[0].mesh()?, files[1].mesh()?];
+    let meshes = [files[0].mesh_if_any()?, files[1].mesh_if_any()?];
     if let Some(reason) = mesh_difference(&meshes[0], &meshes[1]) {
         return Err(ResultsError::DifferentMeshes { a: a.to_owned(), b: b.to_owned(), reason });
     }

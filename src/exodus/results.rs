@@ -101,6 +101,15 @@ impl Results {
         read::assemble(&self.path, &self.arrays)
     }
 
+    /// The same; nothing where the file holds variables of the whole body alone, as a history without points does.
+    ///
+    /// # Errors
+    /// As [`Results::mesh`].
+    pub fn mesh_if_any(&self) -> Result<Mesh, MeshError> {
+        let only_values = self.nodes == 0 && !self.global_names.is_empty();
+        if only_values { Ok(Mesh::default()) } else { self.mesh() }
+    }
+
     /// All global values of a state, in the order of [`Results::global_names`].
     ///
     /// # Errors

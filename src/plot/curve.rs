@@ -21,6 +21,8 @@ pub struct Curve {
     pub run: usize,
     /// Where its variable is.
     pub site: Site,
+    /// Each value is the mean from the value before it to its own place.
+    pub means: bool,
 }
 
 /// A curve's least, greatest and last value.
@@ -42,6 +44,13 @@ impl Extremes {
 }
 
 impl Curve {
+    /// A line on the left axis of something that belongs to the whole body.
+    pub fn of(label: impl Into<String>, x: Vec<f64>, y: Vec<f64>) -> Curve {
+        let label = label.into();
+        let site = Site::Global;
+        Curve { label, x, y, right: false, points: false, reference: false, run: 0, site, means: false }
+    }
+
     /// The extremes among finite values; `None` where there are none.
     pub fn extremes(&self) -> Option<Extremes> {
         let points =

@@ -60,8 +60,7 @@ pub fn whole_body(path: &Path) -> Result<Vec<Curve>, PlotError> {
     let run = Run::open(path)?;
     let curve = |name: &String| {
         let y = run.values(name, Site::Global)?;
-        let (label, x) = (name.clone(), run.times().to_vec());
-        Ok(Curve { label, x, y, right: false, points: false, reference: false, run: 0, site: Site::Global })
+        Ok(Curve { means: run.is_mean(name), ..Curve::of(name, run.times().to_vec(), y) })
     };
     run.names(Site::Global).iter().map(curve).collect()
 }

@@ -36,24 +36,30 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
         }
         for (chosen, right) in wanted {
             let y = values(run, &chosen)?;
-            let (x, label) = (run.times().to_vec(), chosen.label.clone());
-            curves.push(Curve { label, x, y, right, points: false, reference: false, run: number, site: chosen.site });
+            let (site, means) = (chosen.site, is_mean(run, &chosen));
+            let curve = Curve::of(chosen.label, run.times().to_vec(), y);
+            curves.push(Curve { right, run: number, site, means, ..curve });
         }
     }
     name_runs(&mut curves, runs);
     Ok(curves)
 }
 
-/// The values of the variable with this name; of several places at which it is there, those at `site`.
+/// The values of the variable with this name, and whether they are means over intervals; of several places at which it is there, those
+/// at `site`.
 ///
 /// # Errors
 /// When there is no such variable.
-pub fn one(run: &Run, name: &str, options: &PlotOptions, site: Site) -> Result<Vec<f64>, PlotError> {
+pub fn one(run: &Run, name: &str, options: &PlotOptions, site: Site) -> Result<(Vec<f64>, bool), PlotError> {
     let found = choose(run, name, options)?;
     match found.iter().find(|chosen| chosen.site == site).or(found.first()) {
-        Some(chosen) => values(run, chosen),
+        Some(chosen) => Ok((values(run, chosen)?, is_mean(run, chosen))),
         None => Err(missing(run, name, options)),
     }
+}
+
+fn is_mean(run: &Run, chosen: &Chosen) -> bool {
+    chosen.site == Site::Global && chosen.names.iter().all(|name| run.is_mean(name))
 }
 
 fn values(run: &Run, chosen: &Chosen) -> Result<Vec<f64>, PlotError> {

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::PlotError;
 use super::curve::Curve;
-use super::run::Site;
 
 /// The curves of a file of comma-separated values: the first column is what the others are over.
 ///
@@ -44,18 +43,7 @@ pub fn read(path: &Path) -> Result<Vec<Curve>, PlotError> {
         _ => stem.clone(),
     };
     let curves = columns.into_iter().enumerate();
-    Ok(curves
-        .map(|(i, y)| Curve {
-            label: label(i),
-            x: x.clone(),
-            y,
-            right: false,
-            points: true,
-            reference: true,
-            run: 0,
-            site: Site::Global,
-        })
-        .collect())
+    Ok(curves.map(|(i, y)| Curve { points: true, reference: true, ..Curve::of(label(i), x.clone(), y) }).collect())
 }
 
 fn fields(line: &str) -> Vec<String> {

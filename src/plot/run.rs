@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::PlotError;
 use crate::exodus::Results;
 use crate::exodus::pieces::{any_pieces_of, pieces_of};
+use crate::means::Means;
 
 /// Results of a run, all its parts and pieces.
 pub struct Run {
@@ -19,6 +20,8 @@ struct Part {
     pieces: Vec<Results>,
     /// States that count: those before the next part begins, of those that all pieces have.
     states: usize,
+    /// Which variables are means over intervals.
+    means: Means,
 }
 
 /// Where a variable's values are.
@@ -58,8 +61,10 @@ impl Run {
         // A run that goes on from before the end of the one before replaces what that one went on to.
         for i in (1..parts.len()).rev() {
             let Some(&begin) = parts[i].times().first() else { continue };
+            // A state that only the end of a run was a reason for lies inside an interval over which the next run has means.
+            let since = parts[i].means.since.unwrap_or(f64::INFINITY);
             for part in &mut parts[..i] {
-                part.states = part.times().iter().take_while(|&&time| time < begin).count();
+                part.states = part.times().iter().take_while(|&&time| time < begin && time <= since).count();
             }
         }
         let times: Vec<f64> = parts.iter().flat_map(|part| part.times().iter().copied()).collect();
@@ -87,6 +92,11 @@ impl Run {
     /// The title.
     pub fn title(&self) -> String {
         self.first().map(|file| file.title().trim().to_owned()).unwrap_or_default()
+    }
+
+    /// Whether each value of a variable of the whole body is the mean since the state before.
+    pub fn is_mean(&self, name: &str) -> bool {
+        !self.parts.is_empty() && self.parts.iter().all(|part| part.means.is_mean(name))
     }
 
     /// Names of variables at a site.
@@ -155,7 +165,8 @@ impl Part {
         let files = if whole { vec![path.to_owned()] } else { pieces_of(path)?.1 };
         let pieces = files.iter().map(|file| Results::open(file)).collect::<Result<Vec<_>, _>>()?;
         let states = pieces.iter().map(|piece| piece.times().len()).min().unwrap_or(0);
-        Ok(Part { pieces, states })
+        let means = Means::read(&pieces.first().map(Results::info).unwrap_or_default());
+        Ok(Part { pieces, states, means })
     }
 
     /// When the program was started that wrote it, as year, month, day and time; `None` where its records do not tell.

@@ -63,6 +63,18 @@ pub fn integral(times: &[f64], values: &[f64]) -> Vec<f64> {
     all
 }
 
+/// Integral over time from the first state of values that are means since the state before: their sum, each as many times as its interval
+/// is long. The first state has no interval.
+pub fn sum_of_means(times: &[f64], means: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut all = vec![0.0; times.len().min(1)];
+    for (t, mean) in times.windows(2).zip(means.iter().skip(1)) {
+        sum += (t[1] - t[0]) * mean;
+        all.push(sum);
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -79,6 +91,17 @@ mod tests {
         for (area, t) in integral(&times, &straight).iter().zip(times) {
             assert!((area - (t * t + t)).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn means_add_up_to_what_has_changed() {
+        let times = [0.0, 0.1, 0.25, 0.5, 0.6, 1.0];
+        let velocity = times.map(|t: f64| (7.0 * t).sin());
+        let change = |i: usize| (velocity[i] - velocity[i - 1]) / (times[i] - times[i - 1]);
+        let means: Vec<f64> = (0..6).map(|i| if i == 0 { 99.0 } else { change(i) }).collect();
+        let found = sum_of_means(&times, &means);
+        assert!((0..6).all(|i| (found[i] - velocity[i]).abs() < 1e-15), "{found:?}");
+        assert!(sum_of_means(&[], &[]).is_empty());
     }
 
     #[test]

@@ -46,21 +46,11 @@ fn quoted(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::run::Site;
     use super::*;
 
     #[test]
     fn curves_over_the_same_times_share_a_column() {
-        let curve = |label: &str, x: &[f64], y: &[f64]| Curve {
-            label: label.into(),
-            x: x.to_vec(),
-            y: y.to_vec(),
-            right: false,
-            points: false,
-            reference: false,
-            run: 0,
-            site: Site::Global,
-        };
+        let curve = |label: &str, x: &[f64], y: &[f64]| Curve::of(label, x.to_vec(), y.to_vec());
         let curves = [
             curve("A", &[0.0, 1e-9], &[1.5, f64::NAN]),
             curve("B, b", &[0.0, 1e-9], &[2.0, -3e7]),

@@ -8,7 +8,7 @@ use super::filter::{Class, ENOUGH_SAMPLES, filtered};
 use super::options::PlotOptions;
 use super::pick;
 use super::run::Run;
-use super::signal::{derivative, even_times, integral, interpolate};
+use super::signal::{derivative, even_times, integral, interpolate, sum_of_means};
 
 /// Works on all curves and returns what the user should know.
 ///
@@ -22,10 +22,12 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
             enough(curve)?;
             curve.y = derivative(&curve.x, &curve.y);
             curve.label = format!("d/dt {}", curve.label);
+            curve.means = false;
         }
         if options.integrate {
-            curve.y = integral(&curve.x, &curve.y);
+            curve.y = if curve.means { sum_of_means(&curve.x, &curve.y) } else { integral(&curve.x, &curve.y) };
             curve.label = format!("integral of {}", curve.label);
+            curve.means = false;
         }
         if let Some(class) = options.filter {
             enough(curve)?;
@@ -38,7 +40,7 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
     if let Some(name) = &options.over {
         for curve in curves.iter_mut() {
             let run = &runs[curve.run];
-            let values = pick::one(run, name, options, curve.site)?;
+            let (values, _) = pick::one(run, name, options, curve.site)?;
             curve.x = curve.x.iter().map(|&time| interpolate(run.times(), &values, time)).collect();
         }
     }
@@ -62,7 +64,8 @@ fn subtract(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result
     let path = Path::new(what);
     if !path.exists() {
         for curve in curves.iter_mut() {
-            let values = pick::one(&runs[curve.run], what, options, curve.site)?;
+            let (values, means) = pick::one(&runs[curve.run], what, options, curve.site)?;
+            curve.means &= means;
             curve.y.iter_mut().zip(values).for_each(|(y, other)| *y -= other);
             curve.label = format!("{} − {}", curve.label, what.to_uppercase());
         }
@@ -73,6 +76,8 @@ fn subtract(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result
     let per_run = curves.len() / runs.len().max(1);
     for (place, curve) in curves.iter_mut().enumerate() {
         let Some(their) = theirs.get(place % per_run.max(1)) else { continue };
+        // Means over other intervals are others.
+        curve.means &= their.means && their.x == curve.x;
         let at = |time: &f64| interpolate(&their.x, &their.y, *time);
         let differences = curve.x.iter().zip(&curve.y).map(|(time, y)| y - at(time)).collect();
         curve.y = differences;
@@ -114,21 +119,11 @@ fn filter(curve: &mut Curve, class: Class, second: f64) -> Result<Option<String>
 
 #[cfg(test)]
 mod tests {
-    use super::super::run::Site;
     use super::*;
 
     fn curve(count: usize, interval: f64) -> Curve {
         let x: Vec<f64> = (0..count).map(|i| i as f64 * interval).collect();
-        Curve {
-            label: "A".into(),
-            y: vec![1.0; count],
-            x,
-            right: false,
-            points: false,
-            reference: false,
-            run: 0,
-            site: Site::Global,
-        }
+        Curve::of("A", x, vec![1.0; count])
     }
 
     #[test]

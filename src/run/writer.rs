@@ -28,6 +28,8 @@ pub(super) struct Writer<'a> {
     log: Option<PrintLog>,
     watched: HistoryPlan,
     histories: Option<ResultsWriter>,
+    /// When the last state of the histories was due in the run that this one continues.
+    since: Option<f64>,
     pub(super) restarts: Option<RestartFiles<'a>>,
     files: &'a Files,
     step_log: &'a [StepColumns],
@@ -78,6 +80,7 @@ impl<'a> Writer<'a> {
             log: None,
             watched: HistoryPlan::new(job.mesh, job.model, solver),
             histories: None,
+            since: solver.remembered.since(),
             restarts: RestartFiles::new(job, solver),
             files: job.files,
             step_log: &job.model.step_log,
@@ -147,7 +150,7 @@ impl<'a> Writer<'a> {
             global: self.watched.names(),
             nodal: Vec::new(),
             element: Vec::new(),
-            info: [self.watched.records(), of_plot.info.clone()].concat(),
+            info: [self.watched.records(self.since), of_plot.info.clone()].concat(),
             title: of_plot.title.clone(),
             qa: of_plot.qa.clone(),
         };

@@ -17,6 +17,7 @@ use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::{Block, Mesh};
 use crate::model::{InitialVelocity, Model, Unknown};
 use crate::partition::Share;
+use std::collections::HashMap;
 
 /// Everything a rank owns.
 pub struct Domain {
@@ -223,16 +224,20 @@ impl Domain {
     }
 
     fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {
+        // Blocks that are to turn alike turn the nodes that they share once: which block has turned a node how.
+        let mut turned: HashMap<u32, Vec<Turned>> = HashMap::new();
         for initial in &model.initial_velocities {
             match *initial {
                 InitialVelocity::Material { block, velocity } => {
                     for node in nodes_of_block(mesh, block, local) {
                         self.set_velocity(node, velocity);
+                        turned.remove(&node);
                     }
                 }
                 InitialVelocity::NodeSet { node_set, velocity } => {
                     for node in nodes_of_set(mesh, node_set, local) {
                         self.set_velocity(node, velocity);
+                        turned.remove(&node);
                     }
                 }
                 InitialVelocity::Radial { block, speed, point, axis } => {
@@ -243,11 +248,17 @@ impl Domain {
                         let distance = dot(arm, arm).sqrt();
                         let factor = if distance > 0.0 { speed / distance } else { 0.0 };
                         self.set_velocity(node, scaled(arm, factor));
+                        turned.remove(&node);
                     }
                 }
                 InitialVelocity::Angular { block, omega, point, axis } => {
                     let spin = scaled(axis, omega);
                     for node in nodes_of_block(mesh, block, local) {
+                        let known = turned.entry(node).or_default();
+                        if known.iter().any(|(other, motion)| *other != block && *motion == [spin, point]) {
+                            continue;
+                        }
+                        known.push((block, [spin, point]));
                         let arm = subtract(self.nodes.position(node), point);
                         self.set_velocity(node, add(self.nodes.velocity(node), cross(spin, arm)));
                         if let Ok(place) = self.rotations.binary_search_by_key(&node, |(node, _)| *node) {
@@ -268,6 +279,9 @@ impl Domain {
         self.nodes.rows[node as usize].0[4..7].copy_from_slice(&velocity);
     }
 }
+
+/// A block that has been given a rotation: its number, angular velocity and a point of the axis.
+type Turned = (i64, [[f64; 3]; 2]);
 
 /// Marks a node that a rank does not have.
 pub(super) const ABSENT: u32 = u32::MAX;

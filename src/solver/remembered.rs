@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 /// What is watched: a kind, and a number of that kind.
 pub type Key = (u8, i64);
 
+/// What stands for the state itself: of it only the time is kept.
+const STATE: Key = (0, 0);
+
 /// Velocities of what is watched, on the first rank.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Remembered {
@@ -27,6 +30,16 @@ impl Remembered {
             Some((then, before)) if time > then => [0, 1, 2].map(|i| (velocity[i] - before[i]) / (time - then)),
             _ => [0.0; 3],
         }
+    }
+
+    /// Keeps the time of a state that was due.
+    pub fn mark(&mut self, time: f64) {
+        self.velocities.insert(STATE, (time, [0.0; 3]));
+    }
+
+    /// Time of the last state that was due, on the first rank.
+    pub fn since(&self) -> Option<f64> {
+        self.velocities.get(&STATE).map(|(time, _)| *time)
     }
 
     /// Visits what is kept.

@@ -2,7 +2,7 @@
 
 use super::table::labels;
 use super::{Axis, Row};
-use crate::plot::{self, Curve, PlotError, PlotOptions, Site, Texts};
+use crate::plot::{self, Curve, PlotError, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
 /// Writes a picture for each variable into a folder, and returns their names. One curve for each combination of the other
@@ -49,17 +49,7 @@ fn curves(rows: &[Row], over: usize, label: &str) -> Vec<Curve> {
         let found = row.found.iter().flatten().find(|found| found.label == label);
         let y = found.map_or(f64::NAN, |found| found.filtered.unwrap_or(found.peak));
         let place = curves.iter().position(|curve| curve.label == name).unwrap_or_else(|| {
-            let (label, x, y) = (name, Vec::new(), Vec::new());
-            curves.push(Curve {
-                label,
-                x,
-                y,
-                right: false,
-                points: true,
-                reference: false,
-                run: 0,
-                site: Site::Global,
-            });
+            curves.push(Curve { points: true, ..Curve::of(name, Vec::new(), Vec::new()) });
             curves.len() - 1
         });
         curves[place].x.push(x.parse().unwrap_or(f64::NAN));

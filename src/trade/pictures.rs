@@ -2,7 +2,7 @@
 
 use super::knobs::Knob;
 use super::{Judgement, Row};
-use crate::plot::{self, Curve, Log, PlotError, PlotOptions, Site, Texts};
+use crate::plot::{self, Curve, Log, PlotError, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
 /// Least error that is drawn, where there is none: it has no logarithm.
@@ -46,16 +46,8 @@ fn draw(path: PathBuf, curves: &[Curve], texts: &Texts, log: Log) -> Result<Path
 }
 
 fn curve(label: String, points: &[[f64; 2]]) -> Curve {
-    Curve {
-        label,
-        x: points.iter().map(|point| point[0]).collect(),
-        y: points.iter().map(|point| point[1]).collect(),
-        right: false,
-        points: true,
-        reference: false,
-        run: 0,
-        site: Site::Global,
-    }
+    let (x, y) = points.iter().map(|&[x, y]| (x, y)).unzip();
+    Curve { points: true, ..Curve::of(label, x, y) }
 }
 
 /// Knobs whose way is drawn.

@@ -79,7 +79,7 @@ pub fn picture(results: &Path, options: &ViewOptions) -> Result<(Vec<u8>, Summar
     let subject = Subject::open(results, options)?;
     let state = subject.state(options.state)?;
     let shot = subject.shot(state)?;
-    let studio = Studio::new(&subject, options, Survey::of(&shot.scene, &Axes::new(subject.from())));
+    let studio = Studio::new(&subject, options, Survey::of(&shot.scene, &Axes::new(subject.from())).of_all(&subject)?);
     let image = studio.picture(&shot, state)?;
     let unnamed = Path::new("");
     Ok((png(&image, unnamed)?, studio.summary(unnamed, &shot, state)))
@@ -122,6 +122,14 @@ impl Survey {
             survey.body.include(scene.positions[node]);
         }
         survey
+    }
+
+    /// Itself, if there is anything to be seen.
+    fn of_all(self, subject: &Subject) -> Result<Survey, ViewError> {
+        match self.body == Bounds::EMPTY {
+            true => Err(subject.nothing("no element is in the region and fulfils the conditions asked for")),
+            false => Ok(self),
+        }
     }
 
     fn and(mut self, other: Survey) -> Survey {
@@ -227,7 +235,14 @@ impl<'a> Studio<'a> {
         };
         let title = if subject.title().is_empty() { file_name(subject.path()) } else { subject.title().to_owned() };
         let origin = format!("urto {} · {}", env!("CARGO_PKG_VERSION"), file_name(subject.path()));
-        Notes { title, subtitle: said.join("  ·  "), remarks: self.remarks(shown), origin, key }
+        Notes {
+            title,
+            subtitle: said.join("  ·  "),
+            remarks: self.remarks(shown),
+            origin,
+            key,
+            turned: subject.turned(),
+        }
     }
 
     /// What the picture does to the body, so that nobody takes it for the body itself.
@@ -253,6 +268,8 @@ impl<'a> Studio<'a> {
             let cuts: Vec<String> = options.cuts.iter().map(|&(axis, place)| plane(axis, place)).collect();
             remarks.push(format!("cut at {}", cuts.join(", ")));
         }
+        remarks.extend(options.region.iter().zip(["x", "y", "z"]).filter_map(|(ends, axis)| between(axis, (*ends)?)));
+        remarks.extend(options.criteria.iter().filter_map(|(name, ends)| between(&name.to_uppercase(), *ends)));
         if !options.blocks.is_empty() {
             let ids: Vec<String> = options.blocks.iter().map(i64::to_string).collect();
             remarks.push(format!("block {} only", ids.join(", ")));
@@ -299,6 +316,16 @@ fn is_signed(options: &ViewOptions, ends: Option<(f64, f64)>) -> bool {
             low < 0.0 && high > 0.0 && low.abs().min(high) >= TRACE * low.abs().max(high)
         }
         _ => false,
+    }
+}
+
+/// A range in words; none if it has no ends.
+fn between(name: &str, (low, high): (f64, f64)) -> Option<String> {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => Some(format!("{name} from {low} to {high}")),
+        (true, false) => Some(format!("{name} from {low}")),
+        (false, true) => Some(format!("{name} up to {high}")),
+        (false, false) => None,
     }
 }
 

@@ -30,6 +30,11 @@ pub struct ViewOptions {
     pub hide: Vec<i64>,
     /// Planes across an axis (0 to 2) at a place; what is between them and the eye is taken off.
     pub cuts: Vec<(usize, f64)>,
+    /// The box, along x, y and z, that the centres of the elements drawn are in, in the body as it is drawn; infinite where
+    /// nothing is said.
+    pub region: [Option<(f64, f64)>; 3],
+    /// Variables, and the ranges that they are in in the elements drawn.
+    pub criteria: Vec<(String, (f64, f64))>,
     /// Which colours mean which values.
     pub map: MapChoice,
     /// Stem of a nodal vector that is drawn as arrows.
@@ -68,6 +73,8 @@ impl Default for ViewOptions {
             blocks: Vec::new(),
             hide: Vec::new(),
             cuts: Vec::new(),
+            region: [None; 3],
+            criteria: Vec::new(),
             map: MapChoice::default(),
             arrows: None,
             revolve: None,

@@ -131,3 +131,28 @@ fn moved_nodes_are_a_difference_and_other_meshes_cannot_be_compared() {
     let error = compare(&a, &folder.path().join("none.g"), &Tolerance::EXACT).unwrap_err();
     assert!(error.to_string().contains("none.g: cannot be read: No such file"), "{error}");
 }
+
+/// Histories of blocks have variables of the whole body and no mesh.
+#[test]
+fn histories_without_a_mesh_are_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, value: f64| {
+        let path = folder.path().join(name);
+        let none = Mesh::default();
+        let mut header = results_header(&none);
+        (header.nodal, header.element, header.global) = (Vec::new(), Vec::new(), vec!["KE_BLOCK1".into()]);
+        let mut writer = ResultsWriter::create(&path, &header).unwrap();
+        writer.write_state(0.0, &[1.0], &[], &[]).unwrap();
+        writer.write_state(0.5, &[value], &[], &[]).unwrap();
+        path
+    };
+    let [a, b, c] = [("a.h", 2.0), ("b.h", 2.0), ("c.h", 3.0)].map(|(name, value)| write(name, value));
+    assert!(compare(&a, &b, &Tolerance::EXACT).unwrap().is_same());
+    let found = compare(&a, &c, &Tolerance::EXACT).unwrap();
+    assert_eq!(
+        found.differences[0].to_string(),
+        "global variable KE_BLOCK1: 1 of 2 values differ, most in state 2 (time 5e-1): 2e0 and 3e0, difference 1.000e0, relative 3.333e-1"
+    );
+    let with_mesh = written(folder.path(), "a.e", 1, |_, _| ());
+    assert!(matches!(compare(&a, &with_mesh, &Tolerance::EXACT), Err(ResultsError::DifferentMeshes { .. })));
+}

@@ -4,7 +4,7 @@ use urto::comm::{Communicator, run_threads};
 use urto::deck::Source;
 use urto::mesh::Mesh;
 use urto::model::{Model, examine};
-use urto::output::{Collector, FieldList, Schedule};
+use urto::output::{Collector, FieldList, Schedule, block_energies};
 use urto::solver::{Body, Request, Solver, Stop, Totals};
 
 /// A finished run.
@@ -34,7 +34,7 @@ pub struct State {
 }
 
 /// A step line.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Line {
     /// Steps taken so far.
     pub step: u64,
@@ -48,6 +48,8 @@ pub struct Line {
     pub totals: Totals,
     /// Relative error of the energy balance.
     pub balance: f64,
+    /// Kinetic energy of each block, in scenes with rigid bodies.
+    pub block_kinetic: Vec<f64>,
 }
 
 impl State {
@@ -166,14 +168,14 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
     };
     loop {
         if let Err(stop) = solver.prepare(Request::Continue, comm) {
-            record.lines.push(line(solver, comm));
+            record.lines.push(line(solver, mesh, comm));
             record.states.push(state(solver, &fields, &collector, comm));
             record.stop = Some(stop);
             return record;
         }
         let last = solver.time + 0.5 * solver.time_step >= model.termination_time;
         if log.due(solver.time, solver.time_step) || last || solver.step == 0 {
-            record.lines.push(line(solver, comm));
+            record.lines.push(line(solver, mesh, comm));
         }
         if plots.due(solver.time, solver.time_step) || last || solver.step == 0 {
             record.states.push(state(solver, &fields, &collector, comm));
@@ -188,8 +190,13 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
     }
 }
 
-fn line(solver: &mut Solver, comm: &mut dyn Communicator) -> Line {
+fn line(solver: &mut Solver, mesh: &Mesh, comm: &mut dyn Communicator) -> Line {
     let totals = solver.totals(comm);
+    let mut energies = Vec::new();
+    if solver.domain.rigid.is_some() {
+        solver.refresh();
+        energies = block_energies(mesh.blocks.len(), solver, comm);
+    }
     Line {
         step: solver.step,
         time: solver.time,
@@ -197,6 +204,7 @@ fn line(solver: &mut Solver, comm: &mut dyn Communicator) -> Line {
         stable_step: solver.stable_step,
         totals,
         balance: totals.relative_error(solver.initial_energy),
+        block_kinetic: energies.chunks_exact(4).map(|of_block| of_block[0]).collect(),
     }
 }
 

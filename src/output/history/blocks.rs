@@ -1,14 +1,15 @@
 //! Blocks seen as bodies: where the mass goes, how it turns, what energy it has.
 //!
 //! Sums run over the elements that are left, each with its corners' shares of its mass, so that blocks that share nodes do
-//! not share mass.
+//! not share mass. What a rigid block has beyond the masses at its corners, since it turns as the volume that it is, comes on top.
 
 use super::summed;
 use crate::comm::{Communicator, ExactSum};
 use crate::mesh::{Block, Mesh};
-use crate::solver::Solver;
 use crate::solver::elements::{ElementBlock, Energies, Group, Sample};
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
+use crate::solver::rigid::Turning;
+use crate::solver::{RigidBodies, Solver};
 use nalgebra::{Matrix3, Vector3};
 
 /// Sums of a block: mass; mass times displacement, velocity, place, angular momentum; second moments of mass; energies.
@@ -95,7 +96,27 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
             }
         }
     }
+    let rigid = solver.domain.rigid.iter().filter(|_| comm.rank() == 0);
+    for (block, turning) in rigid.flat_map(RigidBodies::surplus_of_blocks) {
+        let Ok(place) = blocks.binary_search(&block) else { continue };
+        let own = &mut sums[SUMS * place..SUMS * (place + 1)];
+        own.iter_mut().zip(surplus(&turning)).for_each(|(sum, part)| sum.add(part));
+    }
     summed(sums, comm).chunks_exact(SUMS).map(Motion::of).collect()
+}
+
+/// The part of the sums that turns with a body, about its centre.
+fn surplus(turning: &Turning) -> [f64; SUMS] {
+    let mut sums = [0.0; SUMS];
+    sums[10..13].copy_from_slice(&turning.momentum);
+    // Second moments S of the inertia tr(S) 1 − S.
+    let inertia = turning.inertia;
+    let half = 0.5 * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
+    for (k, (a, b)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
+        sums[13 + k] = if a == b { half - inertia[a][a] } else { -inertia[a][b] };
+    }
+    sums[19] = turning.energy;
+    sums
 }
 
 /// An element's part of the sums. Places are measured from the origin of the mesh.

@@ -14,6 +14,7 @@ pub use blocks::{block_energies, block_energy_names};
 
 use super::plane;
 use crate::comm::{Communicator, ExactSum};
+use crate::means::Means;
 use crate::mesh::{Dimension, Mesh};
 use crate::model::{Model, Watched};
 use crate::solver::{Remembered, Solver};
@@ -80,9 +81,10 @@ impl HistoryPlan {
         self.points.names().into_iter().chain(blocks).chain(groups).chain(contacts).collect()
     }
 
-    /// Lines for the records: where points are.
-    pub fn records(&self) -> Vec<String> {
-        self.points.records()
+    /// Lines for the records: where points are, and which variables are means, after the last state that was due at the time `since`.
+    pub fn records(&self, since: Option<f64>) -> Vec<String> {
+        let beginnings = ["ACCL"].into_iter().chain(resultants::MEANS).map(String::from).collect();
+        [self.points.records(), Means { beginnings, since }.lines()].concat()
     }
 
     /// A mesh of nothing but the watched elements, to show where they are.
@@ -101,6 +103,9 @@ impl HistoryPlan {
         let mut points = points?;
         let time = solver.time;
         let kept = &mut solver.remembered;
+        if due {
+            kept.mark(time);
+        }
         let mut values = Vec::new();
         for (number, point) in points.iter_mut().enumerate() {
             accelerate(kept, (POINT, number as i64 + 1), time, due, point, self.points.acceleration(number));

@@ -2,6 +2,9 @@
 
 use crate::model::Watched;
 
+/// How the names of those begin that are means over intervals.
+pub const MEANS: [&str; 6] = ["FX_WALL", "FY_WALL", "FZ_WALL", "FX_CONTACT", "FY_CONTACT", "FZ_CONTACT"];
+
 /// Names of the variables of what a command watches; none where it watches no contact.
 pub fn names(watched: &Watched) -> Vec<String> {
     const OF_WALL: [&str; 5] = ["FX", "FY", "FZ", "WORK", "FRICE"];

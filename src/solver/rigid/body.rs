@@ -23,6 +23,17 @@ pub fn applied(c: &Compliance, f: &Six) -> Six {
     std::array::from_fn(|i| product(&c[i], f))
 }
 
+/// What turns about the centre of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turning {
+    /// Its inertia in space.
+    pub inertia: Matrix,
+    /// Its angular momentum.
+    pub momentum: [f64; 3],
+    /// Its kinetic energy.
+    pub energy: f64,
+}
+
 /// A rigid body. All ranks have the same, to the bit.
 #[derive(Debug, Clone)]
 pub struct RigidBody {
@@ -132,8 +143,20 @@ impl RigidBody {
 
     /// Kinetic energy at the present state that is not in the rows of its nodes.
     pub fn surplus_energy(&self) -> f64 {
+        self.turning(&self.shape.surplus).energy
+    }
+
+    /// What each of its blocks, by its position in the mesh, has at the present state that is not in the rows of its nodes.
+    pub fn surplus_of_blocks(&self) -> impl Iterator<Item = (usize, Turning)> + '_ {
+        self.shape.surplus_of.iter().map(|(block, inertia)| (*block, self.turning(inertia)))
+    }
+
+    /// What an inertia at the start has from turning with the body, at the present state.
+    fn turning(&self, at_start: &Matrix) -> Turning {
         let [[_, before], [_, after]] = [self.motion(false), self.motion(true)];
-        0.5 * dot(before, times(&turned(&self.frame, &self.shape.surplus), after))
+        let inertia = turned(&self.frame, at_start);
+        let energy = 0.5 * dot(before, times(&inertia, after));
+        Turning { inertia, momentum: times(&inertia, scaled(add(before, after), 0.5)), energy }
     }
 
     /// Finds the velocities of the coming step under these forces and their moment about the centre, and its weight.

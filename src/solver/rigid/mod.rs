@@ -12,7 +12,7 @@ mod hold;
 mod shape;
 mod turn;
 
-pub use body::{Compliance, RigidBody, Six, applied, product};
+pub use body::{Compliance, RigidBody, Six, Turning, applied, product};
 pub use shape::{BodyShape, bodies_of_blocks, shapes};
 
 use super::Body;
@@ -289,6 +289,11 @@ impl RigidBodies {
     /// Kinetic energy at the present state that is not in the nodes: the same on all ranks.
     pub fn surplus_energies(&self) -> impl Iterator<Item = f64> + '_ {
         self.bodies.iter().map(RigidBody::surplus_energy)
+    }
+
+    /// What blocks, by their positions in the mesh, have from turning that is not in the nodes: the same on all ranks.
+    pub fn surplus_of_blocks(&self) -> impl Iterator<Item = (usize, Turning)> + '_ {
+        self.bodies.iter().flat_map(RigidBody::surplus_of_blocks)
     }
 
     /// Forces that hold and drive bodies: node of the mesh, axis, force.

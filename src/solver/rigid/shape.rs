@@ -33,6 +33,8 @@ pub struct BodyShape {
     pub of_nodes: Matrix,
     /// The part of the inertia that is not in the masses of the nodes and in the rotary inertias of those that can turn.
     pub surplus: Matrix,
+    /// What each of its blocks, by its position in the mesh, has of that.
+    pub surplus_of: Vec<(usize, Matrix)>,
 }
 
 /// Of each block of the mesh, which body it belongs to.
@@ -95,7 +97,7 @@ fn weighed(
     }
     shape.centre = scaled(moment, 1.0 / shape.mass);
     // Second moments Σ m r rᵀ, from which inertia follows.
-    let (mut of_nodes, mut of_rows, mut surplus) = (Moments::default(), Moments::default(), Moments::default());
+    let (mut of_nodes, mut of_rows) = (Moments::default(), Moments::default());
     for &node in &shape.nodes {
         of_rows.point(subtract(body.positions[node as usize], shape.centre), body.node_mass[node as usize]);
         if let Some(rotation) = body.rotations.of(node) {
@@ -103,6 +105,7 @@ fn weighed(
         }
     }
     of_nodes.second = of_rows.second;
+    let mut surpluses = vec![Moments::default(); mesh.blocks.len()];
     let mut elements = body.elements.clone();
     let (mut corners, mut shares) = (Vec::new(), Vec::new());
     for element in 0..body.element_nodes.len() {
@@ -120,6 +123,7 @@ fn weighed(
         let density = model.materials[body.block_material[block]].density;
         let mass = elements[block].weigh(&sample, density, &mut shares);
         let at = |corner: &[f64; 3]| subtract(*corner, shape.centre);
+        let surplus = &mut surpluses[block];
         for (corner, share) in corners.iter().zip(&shares) {
             surplus.point(at(corner), -mass * share);
         }
@@ -127,9 +131,16 @@ fn weighed(
         let arms: Vec<[f64; 3]> = corners.iter().map(at).collect();
         surplus.element(mesh.blocks[block].shape, &arms, mass, elements[block].touch(attributes));
     }
-    let inertia = sum(&of_rows.inertia(), &surplus.inertia());
+    let owned = (0..owners.len()).filter(|&block| owners[block] == Some(number));
+    shape.surplus_of = owned.map(|block| (block, surpluses[block].inertia())).collect();
+    let surplus = shape.surplus_of.iter().fold([[0.0; 3]; 3], |all, (_, own)| sum(&all, own));
+    let inertia = sum(&of_rows.inertia(), &surplus);
     let stiffened = stiffened(&inertia);
-    shape.surplus = sum(&surplus.inertia(), &sum(&stiffened, &inertia.map(|row| scaled(row, -1.0))));
+    let added = sum(&stiffened, &inertia.map(|row| scaled(row, -1.0)));
+    shape.surplus = sum(&surplus, &added);
+    if let Some((_, first)) = shape.surplus_of.first_mut() {
+        *first = sum(first, &added);
+    }
     shape.of_nodes = self::stiffened(&of_nodes.inertia());
     shape.inertia = stiffened;
     shape

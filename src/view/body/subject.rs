@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::bars::add_tubes;
+use super::choice::{choose_arrows, choose_criteria, choose_field, is_shown, mesh_alone, shown_elements};
 use super::field::{Field, Names, Place};
 use super::quarters::quarter;
 use super::revolve::{Turn, revolve};
 use super::scene::{Scene, Values};
 use super::section::{Between, Cutting, Plane};
+use super::selection::{self, Criterion};
 use super::thickness::{Added, thicken};
 use crate::depiction::{Depiction, RigidPlane};
 use crate::exodus::{Results, ResultsError};
@@ -31,8 +33,6 @@ pub struct Face {
 const FATES: [(&str, f64); 2] = [("DEATH", 1.0), ("STATUS", 0.0)];
 /// Radius of bars of which nothing is told, as a part of the size of the mesh.
 const THINNEST: f64 = 0.004;
-/// The word that asks for colours by block.
-const NO_VARIABLE: &str = "none";
 
 /// A results file opened to be drawn.
 pub struct Subject<'a> {
@@ -47,7 +47,9 @@ pub struct Subject<'a> {
     arrows: Option<Vec<String>>,
     /// Positions, in the whole mesh, of the elements of the blocks shown.
     elements: Vec<usize>,
-    /// The surface of the blocks shown, if elements cannot die.
+    /// What values of elements must be for them to be drawn.
+    criteria: Vec<Criterion>,
+    /// The surface of the blocks shown, if it is the same in all states.
     skin: Option<Vec<Face>>,
     /// What the results tell of the deck.
     told: Depiction,
@@ -72,13 +74,15 @@ impl<'a> Subject<'a> {
         let field = if mesh_alone(options, results.times()) { None } else { choose_field(path, options, &names)? };
         let displacement = names.displacement();
         let arrows = choose_arrows(path, options, &names)?;
+        let criteria = choose_criteria(path, options, &names)?;
         let mesh = results.mesh()?;
         let elements = shown_elements(path, &mesh, options)?;
         let (path, skin) = (path.to_owned(), None);
         let told = Depiction::read(&results.info());
-        let mut subject = Subject { path, options, field, displacement, arrows, elements, skin, told, results, mesh };
+        let mut subject =
+            Subject { path, options, field, displacement, arrows, elements, criteria, skin, told, results, mesh };
         subject.sizes_are_known()?;
-        if !subject.mortal() {
+        if !subject.mortal() && !subject.selects() {
             subject.skin = Some(subject.surface_of(&subject.elements));
         }
         Ok(subject)
@@ -135,13 +139,11 @@ impl<'a> Subject<'a> {
     /// The body at a state.
     ///
     /// # Errors
-    /// When values cannot be read, or nothing is left to be seen.
+    /// When values cannot be read, or nothing is left to be seen. Where only a part of the body is asked for, there may be
+    /// nothing of it in one of many states.
     pub fn shot(&self, state: Option<usize>) -> Result<Shot, ViewError> {
-        let alive = match state {
-            Some(state) if self.mortal() => Some(self.alive(state)?),
-            _ => None,
-        };
-        let elements = alive.as_deref().unwrap_or(&self.elements);
+        let drawn = if self.skin.is_none() { Some(self.drawn(state)?) } else { None };
+        let elements = drawn.as_deref().unwrap_or(&self.elements);
         let skin = match &self.skin {
             Some(skin) => skin.clone(),
             None => self.surface_of(elements),
@@ -156,7 +158,7 @@ impl<'a> Subject<'a> {
             let quads = skin.iter().map(|face| face.nodes).collect();
             let values = self.values(&skin, &made, state)?;
             let mut copy = Scene { positions, quads, values, seams, vectors: self.vectors(&made, state)? };
-            if let (Dimension::Two, Some(angle)) = (self.mesh.dimension, self.options.revolve) {
+            if let (true, Some(angle)) = (self.turned(), self.options.revolve) {
                 copy = self.revolved(&copy, elements, angle, state)?;
             }
             dropped += copy.drop_unusable_faces();
@@ -166,10 +168,9 @@ impl<'a> Subject<'a> {
                 _ => scene = Some(copy),
             }
         }
-        let nothing = |reason| ViewError::Nothing { path: self.path.clone(), reason };
-        let mut scene = scene.ok_or_else(|| nothing("no element is left"))?;
-        if scene.quads.is_empty() {
-            return Err(nothing(match dropped {
+        let mut scene = scene.ok_or_else(|| self.nothing("no element is left"))?;
+        if scene.quads.is_empty() && !self.selects() {
+            return Err(self.nothing(match dropped {
                 0 if !self.options.cuts.is_empty() => "the cut has taken off all of it",
                 0 => "no element is left",
                 _ => "no face has finite coordinates",
@@ -181,11 +182,21 @@ impl<'a> Subject<'a> {
         Ok(Shot { scene, dropped })
     }
 
+    /// That nothing is to be seen, and why.
+    pub fn nothing(&self, reason: &'static str) -> ViewError {
+        ViewError::Nothing { path: self.path.clone(), reason }
+    }
+
     /// Where the eye is: straight above a plane, unless another direction is asked for.
     pub fn from(&self) -> Direction {
         let flat = self.mesh.dimension == Dimension::Two && self.options.revolve.is_none();
         let top = Direction { azimuth: -90.0, elevation: 90.0 };
         if flat && self.options.from == Direction::ISOMETRIC { top } else { self.options.from }
+    }
+
+    /// Whether a section is turned about its axis.
+    pub fn turned(&self) -> bool {
+        self.mesh.dimension == Dimension::Two && self.options.revolve.is_some()
     }
 
     /// A section turned about its axis, open towards the eye.
@@ -211,6 +222,31 @@ impl<'a> Subject<'a> {
     fn fate(&self) -> Option<(&'static str, f64)> {
         let names = self.results.element_names();
         FATES.into_iter().find(|(fate, _)| names.iter().any(|name| name.eq_ignore_ascii_case(fate)))
+    }
+
+    /// Whether only a part of the body is asked for, by its place or its values.
+    pub fn selects(&self) -> bool {
+        !self.criteria.is_empty() || self.options.region.iter().any(Option::is_some)
+    }
+
+    /// The elements that are drawn in a state.
+    fn drawn(&self, state: Option<usize>) -> Result<Vec<usize>, ViewError> {
+        let mut elements = match state {
+            Some(state) if self.mortal() => self.alive(state)?,
+            _ => self.elements.clone(),
+        };
+        if !self.selects() {
+            return Ok(elements);
+        }
+        let all: Vec<&[u32]> = self.mesh.elements().map(|(_, nodes)| nodes).collect();
+        if self.options.region.iter().any(Option::is_some) {
+            selection::in_region(&mut elements, &all, &self.positions(state)?, &self.options.region);
+        }
+        for criterion in &self.criteria {
+            let state = state.ok_or_else(|| selection::needs_a_state(criterion))?;
+            selection::by_value(&mut elements, &all, &self.values_of(&criterion.field, state)?, criterion);
+        }
+        Ok(elements)
     }
 
     fn alive(&self, state: usize) -> Result<Vec<usize>, ViewError> {
@@ -432,18 +468,23 @@ impl<'a> Subject<'a> {
         Err(ResultsError::Unusable { path: self.path.clone(), what }.into())
     }
 
+    /// The values of a field in a state, one per node or element; of a vector its length.
+    fn values_of(&self, field: &Field, state: usize) -> Result<Vec<f64>, ViewError> {
+        let read = |name: &String| self.read(field.place, name, state);
+        let components = field.names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        Ok(match components.as_slice() {
+            [x, y, z] => (0..x.len()).map(|i| dot([x[i], y[i], z[i]], [x[i], y[i], z[i]]).sqrt()).collect(),
+            [x, y] => x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()).collect(),
+            _ => components.into_iter().next().unwrap_or_default(),
+        })
+    }
+
     fn values(&self, skin: &[Face], made: &[Between], state: Option<usize>) -> Result<Values, ViewError> {
         let (Some(field), Some(state)) = (&self.field, state) else {
             let block_of: Vec<usize> = self.mesh.elements().map(|(block, _)| block).collect();
             return Ok(Values::Blocks(skin.iter().map(|face| block_of[face.element]).collect()));
         };
-        let read = |name: &String| self.read(field.place, name, state);
-        let components = field.names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let mut values: Vec<f64> = match components.as_slice() {
-            [x, y, z] => (0..x.len()).map(|i| dot([x[i], y[i], z[i]], [x[i], y[i], z[i]]).sqrt()).collect(),
-            [x, y] => x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()).collect(),
-            _ => components.into_iter().next().unwrap_or_default(),
-        };
+        let mut values = self.values_of(field, state)?;
         Ok(match field.place {
             Place::Nodes if field.is_status() => {
                 extend(&mut values, made);
@@ -480,49 +521,4 @@ fn extend(values: &mut Vec<f64>, made: &[Between]) {
         let (from, to) = (values[*a as usize], values[*b as usize]);
         values.push(from + part * (to - from));
     }
-}
-
-/// The mesh is drawn by itself: asked for, or all that a file without states has to show.
-fn mesh_alone(options: &ViewOptions, times: &[f64]) -> bool {
-    let nothing_else = times.is_empty() && options.state == StateChoice::Last && options.variable.is_none();
-    options.state == StateChoice::Mesh || nothing_else
-}
-
-fn choose_field(path: &Path, options: &ViewOptions, names: &Names) -> Result<Option<Field>, ViewError> {
-    let Some(name) = &options.variable else { return Ok(names.customary()) };
-    match names.find(name) {
-        Some(field) => Ok(Some(field)),
-        None if name.eq_ignore_ascii_case(NO_VARIABLE) => Ok(None),
-        None => {
-            let (path, near) = (path.to_owned(), names.nearest(name));
-            Err(ViewError::NoVariable { path, name: name.clone(), near, known: names.known() })
-        }
-    }
-}
-
-fn choose_arrows(path: &Path, options: &ViewOptions, names: &Names) -> Result<Option<Vec<String>>, ViewError> {
-    let Some(name) = &options.arrows else { return Ok(None) };
-    let vectors = Names { nodal: names.nodal, element: &[] };
-    match vectors.find(name).filter(|field| field.names.len() > 1) {
-        Some(field) => Ok(Some(field.names)),
-        None => {
-            let known = vectors.known().into_iter().filter(|n| vectors.find(n).is_some_and(|f| f.names.len() > 1));
-            let (path, near, known) = (path.to_owned(), vectors.nearest(name), known.collect());
-            Err(ViewError::NoVariable { path, name: name.clone(), near, known })
-        }
-    }
-}
-
-fn is_shown(options: &ViewOptions, id: i64) -> bool {
-    (options.blocks.is_empty() || options.blocks.contains(&id)) && !options.hide.contains(&id)
-}
-
-fn shown_elements(path: &Path, mesh: &Mesh, options: &ViewOptions) -> Result<Vec<usize>, ViewError> {
-    let mut named = options.blocks.iter().chain(&options.hide);
-    if let Some(&id) = named.find(|&&id| mesh.block_index(id).is_none()) {
-        let known = mesh.blocks.iter().map(|block| block.id.to_string()).collect();
-        return Err(ViewError::NoBlock { path: path.to_owned(), id, known });
-    }
-    let shown = |block: usize| is_shown(options, mesh.blocks[block].id);
-    Ok(mesh.elements().enumerate().filter(|(_, (block, _))| shown(*block)).map(|(element, _)| element).collect())
 }

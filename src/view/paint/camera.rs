@@ -72,8 +72,9 @@ impl Bounds {
 
     /// Lets the box hold another one.
     pub fn join(&mut self, other: Bounds) {
-        self.include(other.low);
-        self.include(other.high);
+        // What lies around nothing is nowhere, and no corner of its is to be included.
+        self.low = [0, 1, 2].map(|axis| self.low[axis].min(other.low[axis]));
+        self.high = [0, 1, 2].map(|axis| self.high[axis].max(other.high[axis]));
     }
 }
 

@@ -24,6 +24,8 @@ pub struct Notes {
     pub origin: String,
     /// What the colours mean.
     pub key: Key,
+    /// The body is a section turned about its y axis, which points up.
+    pub turned: bool,
 }
 
 /// What the colours mean.
@@ -112,7 +114,7 @@ pub fn annotate(picture: &mut Pixmap, layout: &Layout, notes: &Notes, axes: &Axe
         }
         Key::Names(names) => sheet.names(names),
     }
-    sheet.triad(axes);
+    sheet.triad(axes, notes.turned);
 }
 
 /// Writes the first of some texts that fits into a width in the middle of a place; the last one is shortened.
@@ -246,7 +248,8 @@ impl Sheet<'_> {
     }
 
     /// The directions of x, y and z; those that point at the viewer are drawn last.
-    fn triad(&mut self, axes: &Axes) {
+    /// The axes; of a turned body its own, radius and axis.
+    fn triad(&mut self, axes: &Axes, turned: bool) {
         if self.layout.unit < SMALLEST_TRIAD {
             return;
         }
@@ -254,8 +257,10 @@ impl Sheet<'_> {
         let unit = self.layout.unit.max(1.5 * SMALLEST_TRIAD);
         let origin = [88.0 * unit, self.layout.height - 88.0 * unit];
         let style = self.style(15.0, true, INK);
+        let shown: &[(usize, usize)] = if turned { &[(0, 0), (1, 2)] } else { &[(0, 0), (1, 1), (2, 2)] };
+        let unit_vector = |along: usize| [0, 1, 2].map(|i| f64::from(u8::from(i == along)));
         let mut arms: Vec<(usize, [f64; 3])> =
-            (0..3).map(|axis| (axis, axes.turn([0, 1, 2].map(|i| f64::from(u8::from(i == axis)))))).collect();
+            shown.iter().map(|&(axis, along)| (axis, axes.turn(unit_vector(along)))).collect();
         arms.sort_by(|a, b| a.1[2].total_cmp(&b.1[2]));
         for (axis, [right, up, _]) in arms {
             let (right, up) = (right as f32, up as f32);

@@ -54,7 +54,7 @@ pub(in crate::view) fn survey(subject: &Subject, states: &[Option<usize>], axes:
     for &state in states {
         all = all.and(Survey::of(&subject.shot(state)?.scene, axes));
     }
-    Ok(all)
+    all.of_all(subject)
 }
 
 /// Where the pictures go.
