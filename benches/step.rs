@@ -275,6 +275,25 @@ fn plane() {
     }
 }
 
+/// Double and single precision in turn, in a cache and at 64³.
+fn precision() {
+    println!("double and single precision, assumed strain, one rank: ns per element and step");
+    println!("  {:<34}{:>10}{:>10}{:>10}{:>10}", "", "set", "double", "single", "ratio");
+    for (name, law) in [("elastic", elastic()), ("elastic plastic", plastic())] {
+        for n in [16, 64] {
+            let mesh = cubes(n);
+            for set in InstructionSet::available().collect::<Vec<_>>().into_iter().rev() {
+                let [double, single] = [Precision::Double, Precision::Single].map(|precision| {
+                    let model = Model { precision, ..model(law.clone(), ASSUMED) };
+                    grind_of(&mesh, &model, set, 1)
+                });
+                let what = format!("{name}, {n}³");
+                println!("  {what:<34}{:>10}{double:>10.1}{single:>10.1}{:>10.2}", set.name(), single / double);
+            }
+        }
+    }
+}
+
 fn sizes() {
     println!("elastic, Flanagan-Belytschko, one rank, by size: ns per element and step");
     for n in [22, 32, 64, 100, 159] {
@@ -293,9 +312,14 @@ fn ranks() {
 
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    for (name, section) in
-        [("laws", laws as fn()), ("sizes", sizes), ("ranks", ranks), ("shells", shells), ("plane", plane)]
-    {
+    for (name, section) in [
+        ("laws", laws as fn()),
+        ("sizes", sizes),
+        ("precision", precision),
+        ("ranks", ranks),
+        ("shells", shells),
+        ("plane", plane),
+    ] {
         if wanted.is_empty() || wanted.iter().any(|w| w == name) {
             section();
         }

@@ -176,6 +176,12 @@ fn every_material() {
 }
 
 #[test]
+fn every_material_in_single_precision() {
+    let deck = text("decks/materials.i").replacen("TITLE", "PRECISION, SINGLE\nTITLE", 1);
+    on_any_number_of_ranks(&desk(&deck, "meshes/materials.mesh"));
+}
+
+#[test]
 fn swinging_cantilever() {
     on_any_number_of_ranks(&cantilever());
 }

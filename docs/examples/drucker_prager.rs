@@ -60,7 +60,7 @@ impl Kernel for Cone<'_> {
     const STATE: &'static [&'static str] = &["EQPS"];
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         // (i) elastic predictor
         let trial = self.elastic.trial(&step.strain, stress);
         let deviator = trial.deviator();

@@ -3,7 +3,7 @@
 //! SAFETY, for the whole file: as in `avx512.rs`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the four
 //! numbers from `part · 4` lie inside a row of eight; slicing checks it.
 
-use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, Corner, CornerForces, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -46,6 +46,8 @@ fn transpose(r: [__m256d; 4]) -> [F64x4; 4] {
 }
 
 impl Lanes for F64x4 {
+    type Row = Row;
+    const SINGLE: bool = false;
     const COUNT: usize = 4;
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -58,6 +60,14 @@ impl Lanes for F64x4 {
     #[inline(always)]
     fn store(self, row: &mut Row, part: usize) {
         unsafe { _mm256_store_pd(row.0[part * 4..part * 4 + 4].as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        Self::load(&rows[0], part)
+    }
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        self.store(&mut rows[0], part);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -97,7 +107,7 @@ impl Lanes for F64x4 {
         F64x4(unsafe { _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(shifted.0))) })
     }
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {
+    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
         let half = |i: usize, h: usize| unsafe {
             _mm256_load_pd(rows[index[part * 4 + i] as usize].0[h * 4..h * 4 + 4].as_ptr())
         };
@@ -106,7 +116,7 @@ impl Lanes for F64x4 {
         [first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]]
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize) {
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
         let turned = transpose([force[0].0, force[1].0, force[2].0, unsafe { _mm256_setzero_pd() }]);
         for (i, vector) in turned.into_iter().enumerate() {
             unsafe { _mm256_store_pd(out[part * 4 + i][corner].0.as_mut_ptr(), vector.0) }

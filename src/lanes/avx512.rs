@@ -7,7 +7,7 @@
 //! kernels that `solver::elements` enters after [`super::InstructionSet::detect`] has found these features. Loads
 //! and stores go through references to eight numbers, so they stay inside their object.
 
-use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, CHUNK, Corner, CornerForces, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -35,6 +35,8 @@ impl Neg for F64x8 {
 }
 
 impl Lanes for F64x8 {
+    type Row = Row;
+    const SINGLE: bool = false;
     const COUNT: usize = CHUNK;
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -47,6 +49,14 @@ impl Lanes for F64x8 {
     #[inline(always)]
     fn store(self, row: &mut Row, _part: usize) {
         unsafe { _mm512_store_pd(row.0.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        Self::load(&rows[0], part)
+    }
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        self.store(&mut rows[0], part);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -88,7 +98,7 @@ impl Lanes for F64x8 {
 
     /// Eight rows, one per lane, transposed in registers: 8 loads and 24 shuffles.
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; CHUNK], _part: usize) -> [Self; 8] {
+    fn gather(rows: &[Row], [index, _]: Corner, _part: usize) -> [Self; 8] {
         let row = |i: usize| unsafe { _mm512_load_pd(rows[index[i] as usize].0.as_ptr()) };
         let r: [__m512d; 8] = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
         unsafe {
@@ -116,7 +126,7 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, _part: usize) {
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, _part: usize) {
         unsafe {
             let zero = _mm512_setzero_pd();
             let (a, b) = (_mm512_unpacklo_pd(force[0].0, force[1].0), _mm512_unpackhi_pd(force[0].0, force[1].0));

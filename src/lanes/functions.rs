@@ -9,6 +9,11 @@ const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// Adding and taking off 1.5 · 2⁵² rounds to the nearest whole number.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
+/// The same two parts and the rounding number for single precision, which has 24 bits.
+const SINGLE_LN2: [f64; 2] = [0.693_359_375, -2.121_944_400_546_905_8e-4];
+/// See [`SINGLE_LN2`].
+const SINGLE_ROUNDING: f64 = 12_582_912.0;
+
 /// 1/k! from k = 13 down to 2.
 const FACTORIALS: [f64; 12] = [
     1.0 / 6_227_020_800.0,
@@ -25,17 +30,21 @@ const FACTORIALS: [f64; 12] = [
     0.5,
 ];
 
-/// eˣ, to two units in the last place. Arguments beyond ±708 are taken as ±708, where doubles end; NaN stays NaN.
+/// eˣ, to two units in the last place. Arguments beyond ±708 are taken as ±708, where doubles end, in single precision beyond
+/// ±87; NaN stays NaN.
 ///
 /// x = n ln 2 + r with |r| ≤ ½ ln 2, and the series of eʳ, whose first term left out is 5e-18.
 #[inline(always)]
 pub fn exp<V: Lanes>(x: V) -> V {
     // In this order a NaN passes.
-    let x = V::splat(-708.0).max(V::splat(708.0).min(x));
-    let n = (x * V::splat(std::f64::consts::LOG2_E) + V::splat(ROUNDING)) - V::splat(ROUNDING);
-    let r = (x - n * V::splat(LN2_HIGH)) - n * V::splat(LN2_LOW);
-    let mut sum = V::splat(FACTORIALS[0]);
-    for factorial in &FACTORIALS[1..] {
+    let x = V::either(-708.0, -87.0).max(V::either(708.0, 87.0).min(x));
+    let rounding = V::either(ROUNDING, SINGLE_ROUNDING);
+    let n = (x * V::splat(std::f64::consts::LOG2_E) + rounding) - rounding;
+    let r = (x - n * V::either(LN2_HIGH, SINGLE_LN2[0])) - n * V::either(LN2_LOW, SINGLE_LN2[1]);
+    // From 1/7! on is enough for 24 bits: what is left out is 5e-9.
+    let factorials = if V::SINGLE { &FACTORIALS[6..] } else { &FACTORIALS[..] };
+    let mut sum = V::splat(factorials[0]);
+    for factorial in &factorials[1..] {
         sum = sum * r + V::splat(*factorial);
     }
     (V::splat(1.0) + (r + r * r * sum)) * n.power_of_two()
@@ -56,14 +65,14 @@ const ODD: [f64; 11] = [
     1.0 / 3.0,
 ];
 
-/// ln x, to two units in the last place. Numbers below the smallest normal one, 2e-308, count as that; NaN and
+/// ln x, to two units in the last place. Numbers below the smallest normal one, 2e-308 or 1e-38, count as that; NaN and
 /// infinity give NaN.
 ///
 /// x = m 2ⁿ with √½ ≤ m < √2 and ln m = 2 artanh s, s = (m − 1)/(m + 1), |s| ≤ 0.172.
 #[inline(always)]
 pub fn ln<V: Lanes>(x: V) -> V {
     let one = V::splat(1.0);
-    let (mantissa, exponent) = x.max(V::splat(f64::MIN_POSITIVE)).split_exponent();
+    let (mantissa, exponent) = x.max(V::splat(V::TINY)).split_exponent();
     let half = V::splat(0.5);
     let root = V::splat(std::f64::consts::SQRT_2);
     let m = V::select_less(mantissa, root, mantissa, mantissa * half);
@@ -71,18 +80,21 @@ pub fn ln<V: Lanes>(x: V) -> V {
     let f = m - one;
     let s = f / (m + one);
     let square = s * s;
-    let mut sum = V::splat(ODD[0]);
-    for odd in &ODD[1..] {
+    // s¹⁰/11 is 2e-9.
+    let odds = if V::SINGLE { &ODD[7..] } else { &ODD[..] };
+    let mut sum = V::splat(odds[0]);
+    for odd in &odds[1..] {
         sum = sum * square + V::splat(*odd);
     }
     // 2 s = f − s f keeps the digits of f.
     let tail = s * ((square + square) * sum - f);
     // The last term is 0, or NaN.
-    n * V::splat(LN2_HIGH) + (f + (tail + n * V::splat(LN2_LOW))) + x * V::splat(0.0)
+    let [high, low] = [V::either(LN2_HIGH, SINGLE_LN2[0]), V::either(LN2_LOW, SINGLE_LN2[1])];
+    n * high + (f + (tail + n * low)) + x * V::splat(0.0)
 }
 
 /// xᵖ of x ≥ 0 for a fixed p > 0; the relative error is about p ln x units in the last place. Zero stays zero as
-/// far as p lets it: x counts as at least 2e-308.
+/// far as p lets it: x counts as at least the smallest normal number.
 #[inline(always)]
 pub fn power<V: Lanes>(x: V, p: f64) -> V {
     exp(ln(x) * V::splat(p))

@@ -1,4 +1,4 @@
-//! Eight elements at once: the small vector vocabulary in which the element and material kernels are written.
+//! Many elements at once: the small vector vocabulary in which the element and material kernels are written.
 //!
 //! A kernel is written once against [`Lanes`]; thin newtypes per instruction set carry it out. Which one runs is
 //! decided when the program starts ([`InstructionSet::detect`]). None of them fuses a multiplication with an
@@ -38,6 +38,7 @@ mod avx2;
 mod avx512;
 mod functions;
 mod portable;
+mod single;
 mod tensor;
 #[cfg(test)]
 mod tests;
@@ -48,12 +49,19 @@ pub(crate) use avx2::F64x4;
 pub(crate) use avx512::F64x8;
 pub use functions::{exp, ln, power};
 pub use portable::Pair;
+pub use single::Quad;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use single::{F32x8, F32x16};
 pub use tensor::{Matrix3, Sym3, multiply, multiply_transposed};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Elements per chunk. Element data is stored as rows of this many values, one per element.
+/// Elements per chunk. Element data is stored as rows of this many values, one per element; rows of single precision hold the
+/// values of two chunks.
 pub const CHUNK: usize = 8;
+
+/// Elements of a row at most.
+pub const MOST_LANES: usize = 16;
 
 /// Corners of an element at most.
 pub const MOST_CORNERS: usize = 8;
@@ -63,14 +71,73 @@ pub const MOST_CORNERS: usize = 8;
 #[repr(C, align(64))]
 pub struct Row(pub [f64; CHUNK]);
 
+/// One quantity of the sixteen elements of two chunks in single precision; one cache line.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(64))]
+pub struct SingleRow(pub [f32; MOST_LANES]);
+
+/// What rows of numbers of either precision have in common.
+pub trait Numbers: Copy + Default + Send + Sync {
+    /// Numbers in a row: elements that a kernel sees as one chunk.
+    const LANES: usize;
+    /// The same number for every element, rounded to the precision of the row.
+    fn filled(value: f64) -> Self;
+    /// The number of an element.
+    fn number(&self, lane: usize) -> f64;
+    /// Sets the number of an element, rounded to the precision of the row.
+    fn set(&mut self, lane: usize, value: f64);
+    /// Those of two stores that have rows of this precision.
+    fn among<'a>(double: &'a mut [Row], single: &'a mut [SingleRow]) -> &'a mut [Self];
+}
+
+impl Numbers for Row {
+    const LANES: usize = CHUNK;
+    #[inline(always)]
+    fn filled(value: f64) -> Self {
+        Row([value; CHUNK])
+    }
+    #[inline(always)]
+    fn number(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+    #[inline(always)]
+    fn among<'a>(double: &'a mut [Row], _: &'a mut [SingleRow]) -> &'a mut [Self] {
+        double
+    }
+}
+
+impl Numbers for SingleRow {
+    const LANES: usize = MOST_LANES;
+    #[inline(always)]
+    fn filled(value: f64) -> Self {
+        SingleRow([value as f32; MOST_LANES])
+    }
+    #[inline(always)]
+    fn number(&self, lane: usize) -> f64 {
+        f64::from(self.0[lane])
+    }
+    #[inline(always)]
+    fn set(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value as f32;
+    }
+    #[inline(always)]
+    fn among<'a>(_: &'a mut [Row], single: &'a mut [SingleRow]) -> &'a mut [Self] {
+        single
+    }
+}
+
 /// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
 #[inline(always)]
-pub fn prefetch(rows: &[Row]) {
+pub fn prefetch<R: Numbers>(rows: &[R]) {
     #[cfg(target_arch = "x86_64")]
     for row in rows {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(row.0.as_ptr().cast()) }
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(row).cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = rows;
@@ -81,19 +148,41 @@ pub fn prefetch(rows: &[Row]) {
 #[repr(C, align(32))]
 pub struct Force(pub [f64; 4]);
 
-/// A vector of floating-point lanes. Arithmetic is lane by lane; `COUNT` divides [`CHUNK`], and a chunk is worked
+/// Local nodes at a corner of the elements of a row: those of its first chunk, and of its second in single precision, which
+/// is the first again in double.
+pub type Corner<'a> = [&'a [u32; CHUNK]; 2];
+
+/// Forces on the corners of the elements of a row.
+pub type CornerForces = [[Force; MOST_CORNERS]; MOST_LANES];
+
+/// A vector of floating-point lanes. Arithmetic is lane by lane; `COUNT` divides the length of a row, and a row is worked
 /// off in parts of `COUNT` lanes: part `p` covers elements `p·COUNT ..`.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// Rows of its precision.
+    type Row: Numbers;
+    /// Whether its numbers are of single precision.
+    const SINGLE: bool;
+    /// The smallest positive normal number of its precision: a divisor that is at least this gives no infinity.
+    const TINY: f64 = if Self::SINGLE { f32::MIN_POSITIVE as f64 } else { f64::MIN_POSITIVE };
     /// Lanes per vector.
     const COUNT: usize;
-    /// The same number in every lane.
+    /// The same number in every lane, rounded to its precision.
     fn splat(value: f64) -> Self;
+    /// One of two numbers, for double or for single precision.
+    #[inline(always)]
+    fn either(double: f64, single: f64) -> Self {
+        Self::splat(if Self::SINGLE { single } else { double })
+    }
     /// One part of a row.
-    fn load(row: &Row, part: usize) -> Self;
+    fn load(row: &Self::Row, part: usize) -> Self;
     /// Writes one part of a row.
-    fn store(self, row: &mut Row, part: usize);
+    fn store(self, row: &mut Self::Row, part: usize);
+    /// One part of a row that is kept in double precision, chunk by chunk.
+    fn load_double(rows: &[Row], part: usize) -> Self;
+    /// Writes one part of such a row.
+    fn store_double(self, rows: &mut [Row], part: usize);
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// `self` where it is less than `other`, else `other` (also where one is NaN).
@@ -112,13 +201,29 @@ pub trait Lanes:
     fn any_less(a: Self, b: Self) -> bool;
     /// A positive normal number x as m · 2ⁿ with 1 ≤ m < 2: m and n.
     fn split_exponent(self) -> (Self, Self);
-    /// 2ⁿ of a whole number n from −1022 to 1023.
+    /// 2ⁿ of a whole number n from −1022 to 1023, in single precision from −126 to 127.
     fn power_of_two(self) -> Self;
     /// Fetches the rows named by one part of `index` and turns them: component `c` of the result holds number `c`
     /// of every fetched row.
-    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8];
+    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8];
+    /// The same less the rows named by `origin`, subtracted in double precision before they are rounded to that of the lanes.
+    #[inline(always)]
+    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
+        let (own, first) = (Self::gather(rows, index, part), Self::gather(rows, origin, part));
+        array![c in 8 => own[c] - first[c]]
+    }
+    /// In single precision: two numbers of eight bits and an exponent each, which [`Lanes::of_halves`] has put into one.
+    #[inline(always)]
+    fn halves(self) -> (Self, Self) {
+        (self, self)
+    }
+    /// In single precision: two numbers rounded to eight bits, in the place of one. What comes out is no number to compute with.
+    #[inline(always)]
+    fn of_halves(upper: Self, _lower: Self) -> Self {
+        upper
+    }
     /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
-    fn spread(force: [Self; 3], out: &mut [[Force; MOST_CORNERS]; CHUNK], corner: usize, part: usize);
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize);
 }
 
 /// Bits of the part of a double that is not its exponent.

@@ -1,6 +1,6 @@
 //! Lanes on any machine: two numbers side by side, or a single one (for tests and set-up).
 
-use super::{BIAS, CHUNK, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, Corner, CornerForces, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Two lanes without a promise of vector instructions; compilers find those that every 64-bit processor has. More
@@ -28,6 +28,8 @@ impl Neg for Pair {
 }
 
 impl Lanes for Pair {
+    type Row = Row;
+    const SINGLE: bool = false;
     const COUNT: usize = 2;
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -40,6 +42,14 @@ impl Lanes for Pair {
     #[inline(always)]
     fn store(self, row: &mut Row, part: usize) {
         row.0[2 * part..2 * part + 2].copy_from_slice(&self.0);
+    }
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        Self::load(&rows[0], part)
+    }
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        self.store(&mut rows[0], part);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -63,12 +73,12 @@ impl Lanes for Pair {
         Pair([self.0[0].power_of_two(), self.0[1].power_of_two()])
     }
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {
+    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
         let (first, second) = (&rows[index[2 * part] as usize].0, &rows[index[2 * part + 1] as usize].0);
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize) {
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
         for i in 0..2 {
             out[2 * part + i][corner] = Force([force[0].0[i], force[1].0[i], force[2].0[i], 0.0]);
         }
@@ -76,6 +86,8 @@ impl Lanes for Pair {
 }
 
 impl Lanes for f64 {
+    type Row = Row;
+    const SINGLE: bool = false;
     const COUNT: usize = 1;
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -88,6 +100,14 @@ impl Lanes for f64 {
     #[inline(always)]
     fn store(self, row: &mut Row, part: usize) {
         row.0[part] = self;
+    }
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        Self::load(&rows[0], part)
+    }
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        self.store(&mut rows[0], part);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -112,11 +132,11 @@ impl Lanes for f64 {
         f64::from_bits((self + (WHOLE + BIAS)).to_bits() << 52)
     }
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; CHUNK], part: usize) -> [Self; 8] {
+    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
         rows[index[part] as usize].0
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut [[Force; 8]; CHUNK], corner: usize, part: usize) {
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
         out[part][corner] = Force([force[0], force[1], force[2], 0.0]);
     }
 }

@@ -1,6 +1,6 @@
 //! Small tensors whose components are lanes.
 
-use super::{Lanes, Row};
+use super::Lanes;
 
 /// A 3 × 3 matrix, `m[row][column]`.
 pub type Matrix3<V> = [[V; 3]; 3];
@@ -25,7 +25,7 @@ pub struct Sym3<V> {
 impl<V: Lanes> Sym3<V> {
     /// From six consecutive rows xx, yy, zz, xy, yz, zx.
     #[inline(always)]
-    pub fn load(rows: &[Row], part: usize) -> Self {
+    pub fn load(rows: &[V::Row], part: usize) -> Self {
         let c: [V; 6] = array![i in 6 => V::load(&rows[i], part)];
         Sym3 { xx: c[0], yy: c[1], zz: c[2], xy: c[3], yz: c[4], zx: c[5] }
     }

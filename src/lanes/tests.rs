@@ -39,7 +39,7 @@ fn bits(x: f64) -> u64 {
 
 /// Result of every operation on all lanes of rows a, b, c: what the vector type stores, part after part.
 #[inline(always)]
-fn operate<V: Lanes>(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
+fn operate<V: Lanes<Row = Row>>(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
     let mut out = vec![Row::default(); 18];
     for part in 0..CHUNK / V::COUNT {
         let (x, y, z) = (V::load(a, part), V::load(b, part), V::load(c, part));
@@ -73,11 +73,11 @@ fn operate<V: Lanes>(a: &Row, b: &Row, c: &Row) -> Vec<Row> {
 
 /// Rows gathered, turned and spread again: components 0 to 2 come back as forces.
 #[inline(always)]
-fn turn<V: Lanes>(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8]; CHUNK]) {
+fn turn<V: Lanes<Row = Row>>(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, Box<CornerForces>) {
     let mut components = vec![Row::default(); 8];
-    let mut forces = [[Force([f64::NAN; 4]); 8]; CHUNK];
+    let mut forces = Box::new([[Force([f64::NAN; 4]); 8]; MOST_LANES]);
     for part in 0..CHUNK / V::COUNT {
-        let gathered = V::gather(rows, index, part);
+        let gathered = V::gather(rows, [index, index], part);
         for (row, component) in components.iter_mut().zip(gathered) {
             component.store(row, part);
         }
@@ -95,7 +95,7 @@ fn turn<V: Lanes>(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8];
 
 /// Whether any lane of any part of a is less than that of b.
 #[inline(always)]
-fn any<V: Lanes>(a: &Row, b: &Row) -> bool {
+fn any<V: Lanes<Row = Row>>(a: &Row, b: &Row) -> bool {
     (0..CHUNK / V::COUNT).any(|part| V::any_less(V::load(a, part), V::load(b, part)))
 }
 
@@ -121,11 +121,11 @@ mod wide {
         any::<F64x4>(a, b)
     }
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-    pub unsafe fn turn512(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8]; CHUNK]) {
+    pub unsafe fn turn512(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, Box<CornerForces>) {
         turn::<F64x8>(rows, index)
     }
     #[target_feature(enable = "avx2")]
-    pub unsafe fn turn256(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, [[Force; 8]; CHUNK]) {
+    pub unsafe fn turn256(rows: &[Row], index: &[u32; CHUNK]) -> (Vec<Row>, Box<CornerForces>) {
         turn::<F64x4>(rows, index)
     }
 }
@@ -163,7 +163,7 @@ fn all_any(a: &Row, b: &Row) -> Vec<bool> {
     all
 }
 
-fn all_turn(rows: &[Row], index: &[u32; CHUNK]) -> Vec<(Vec<Row>, [[Force; 8]; CHUNK])> {
+fn all_turn(rows: &[Row], index: &[u32; CHUNK]) -> Vec<(Vec<Row>, Box<CornerForces>)> {
     let mut all = vec![turn::<f64>(rows, index), turn::<Pair>(rows, index)];
     #[cfg(target_arch = "x86_64")]
     {

@@ -2,7 +2,7 @@
 
 use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Step};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 /// Poisson's ratios for which λ and μ are finite and positive definite.
 const POISSON_RANGE: Range = Range::Between { low: (-1.0, false), high: (0.5, false) };
@@ -75,10 +75,11 @@ impl Hooke {
 
 impl Kernel for Hooke {
     const STATE: &'static [&'static str] = &[];
+    const HYPOELASTIC: bool = true;
     const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [V::Row], _: usize) -> Response<V> {
         *stress = self.trial(&step.strain, stress);
         Response::returned(V::splat(1.0))
     }

@@ -3,7 +3,7 @@
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 /// Yield stress, for every law with one.
 pub(super) const YIELD_STRESS: Property =
@@ -127,10 +127,7 @@ impl Constants {
     fn radial_return<V: Lanes>(&self, xi: &Sym3<V>, radius: V) -> Return<V> {
         let norm = xi.contract(*xi).sqrt();
         let over = (norm - radius).max(V::splat(0.0)) * V::splat(self.plastic_share);
-        Return {
-            share: over / norm.max(V::splat(f64::MIN_POSITIVE)),
-            multiplier: over * V::splat(1.0 / self.elastic.two_mu),
-        }
+        Return { share: over / norm.max(V::splat(V::TINY)), multiplier: over * V::splat(1.0 / self.elastic.two_mu) }
     }
 }
 
@@ -140,10 +137,11 @@ struct Isotropic(Constants);
 
 impl Kernel for Isotropic {
     const STATE: &'static [&'static str] = &["EQPS"];
+    const HYPOELASTIC: bool = true;
     const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let common = &self.0;
         // (i) elastic predictor
         let trial = common.elastic.trial(&step.strain, stress);
@@ -169,10 +167,11 @@ struct Combined {
 
 impl Kernel for Combined {
     const STATE: &'static [&'static str] = &["EQPS", "ALPHA11", "ALPHA22", "ALPHA33", "ALPHA12", "ALPHA23", "ALPHA31"];
+    const HYPOELASTIC: bool = true;
     const FREQUENT: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let common = &self.common;
         // (i) elastic predictor, seen from the back stress
         let trial = common.elastic.trial(&step.strain, stress);

@@ -8,7 +8,7 @@ use super::plastic::{Flow, compose, radial_return};
 use super::{
     END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Refusal, Response, StateVariable, Step, Stiffness,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 parameters! {
     /// A solid under high pressure.
@@ -91,7 +91,7 @@ impl Kernel for Solid<'_> {
     const STIFFNESS: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, two_mu) = (self.law, V::splat(self.two_mu));
         // (i) elastic predictor and return of the deviator
         let mean = stress.trace() * V::splat(1.0 / 3.0);

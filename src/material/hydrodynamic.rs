@@ -6,7 +6,7 @@ use super::{
     CORNERS, END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start,
     StateVariable, Step, Stiffness,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 use std::sync::Arc;
 
 /// Pressure cutoff, for every law with an equation of state. Decks write it with either sign.
@@ -113,7 +113,7 @@ impl Kernel for Fluid<'_> {
     const FLUID: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [V::Row], _: usize) -> Response<V> {
         self.advance(step, stress, V::splat(1.0))
     }
 }
@@ -148,7 +148,7 @@ impl Kernel for Explosive<'_> {
     }
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let [lighting, rate] = [V::load(&state[0], part), V::load(&state[1], part)];
         let burning = (V::splat(step.time) - lighting) * rate;
         let burnt = V::load(&state[2], part).max(burning).min(V::splat(1.0));

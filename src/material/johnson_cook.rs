@@ -9,7 +9,7 @@ use super::property::STRESS;
 use super::{
     Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, exp, ln, power};
+use crate::lanes::{Lanes, Matrix3, Sym3, exp, ln, power};
 
 const fn damage(keyword: &'static str, symbol: &'static str, meaning: &'static str) -> Property {
     Property::required(keyword, symbol, "-", Range::Any, meaning).or(0.0)
@@ -193,7 +193,7 @@ impl JohnsonCookKernel<'_> {
         let [d1, d2, d3] = [V::splat(d[0]), V::splat(d[1]), V::splat(d[2])];
         let [d4, d5] = [V::splat(d[3]), V::splat(d[4])];
         let one = V::splat(1.0);
-        let triaxiality = mean / von_mises.max(V::splat(f64::MIN_POSITIVE));
+        let triaxiality = mean / von_mises.max(V::splat(V::TINY));
         let by_rate = one + d4 * ln(rate.max(one));
         let strain = (d1 + d2 * exp(d3 * triaxiality)) * by_rate * (one + d5 * hot);
         one / strain.max(V::splat(SMALLEST_FRACTURE_STRAIN))
@@ -202,9 +202,10 @@ impl JohnsonCookKernel<'_> {
 
 impl Kernel for JohnsonCookKernel<'_> {
     const STATE: &'static [&'static str] = &["EQPS", "HEAT", "DAMAGE", "EQPSDOT"];
+    const HYPOELASTIC: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, zero, one) = (self.law, V::splat(0.0), V::splat(1.0));
         let [eqps, heat, damage] = [V::load(&state[0], part), V::load(&state[1], part), V::load(&state[2], part)];
         let frequency = if step.time_step > 0.0 { 1.0 / step.time_step } else { 0.0 };

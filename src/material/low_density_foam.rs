@@ -9,7 +9,7 @@ use super::{
     Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
     Stiffness,
 };
-use crate::lanes::{CHUNK, Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Numbers, Sym3};
 use nalgebra::{Matrix3 as Dense, SymmetricEigen};
 
 parameters! {
@@ -125,7 +125,7 @@ fn clip<V: Lanes>(trial: &Sym3<V>, strength: V) -> (Sym3<V>, V) {
     if !V::any_less(strength * strength, trial.contract(*trial)) {
         return (*trial, V::splat(1.0));
     }
-    let mut rows = [Row::default(); 8];
+    let mut rows = [V::Row::default(); 8];
     for (row, value) in rows.iter_mut().zip(trial.to_array()) {
         value.store(row, 0);
     }
@@ -135,11 +135,11 @@ fn clip<V: Lanes>(trial: &Sym3<V>, strength: V) -> (Sym3<V>, V) {
 }
 
 /// Rows 0 to 5 hold stresses, row 6 strengths; row 7 takes the factors.
-fn clip_lanes(rows: &mut [Row; 8], count: usize) {
-    for lane in 0..count.min(CHUNK) {
-        let at = |i: usize| rows[i].0[lane];
+fn clip_lanes<R: Numbers>(rows: &mut [R; 8], count: usize) {
+    for lane in 0..count.min(R::LANES) {
+        let at = |i: usize| rows[i].number(lane);
         let (stress, strength) = (Sym3 { xx: at(0), yy: at(1), zz: at(2), xy: at(3), yz: at(4), zx: at(5) }, at(6));
-        rows[7].0[lane] = 1.0;
+        rows[7].set(lane, 1.0);
         if !stress.contract(stress).is_finite() || stress.contract(stress) <= strength * strength {
             continue;
         }
@@ -148,10 +148,10 @@ fn clip_lanes(rows: &mut [Row; 8], count: usize) {
         let clipped = eigen.eigenvalues.map(|s| s.clamp(-strength, strength));
         let c = eigen.eigenvectors * Dense::from_diagonal(&clipped) * eigen.eigenvectors.transpose();
         for (row, (i, j)) in rows.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]) {
-            row.0[lane] = c[(i, j)];
+            row.set(lane, c[(i, j)]);
         }
         let (before, after) = (stress.contract(stress), clipped.norm_squared());
-        rows[7].0[lane] = (after / before).sqrt().min(1.0);
+        rows[7].set(lane, (after / before).sqrt().min(1.0));
     }
 }
 
@@ -161,7 +161,7 @@ impl Kernel for FoamKernel<'_> {
     const STIFFNESS: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, one) = (self.law, V::splat(1.0));
         // (i) the skeleton's own stress, and its trial with ν = 0
         let skeleton = stress.add_diagonal(-V::load(&state[0], part));

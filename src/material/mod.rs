@@ -1,7 +1,7 @@
 //! Constitutive laws. A law is one file here and one line in [`laws!`](self) below; the deck parser, the manual,
 //! plot names and the solver's dispatch follow from its tables.
 
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 #[macro_use]
 mod parameters;
@@ -241,6 +241,10 @@ pub trait Kernel: Copy + Send + Sync {
     /// Whether the law is a fluid's: its hourglass modes are resisted by viscosity, whose work is heat in [`Step::energy`].
     const FLUID: bool = false;
 
+    /// Whether strain adds elastic stress, with the law's [`Law::moduli`], to what there is, unless the deviator is returned:
+    /// single precision then gives strain again that the stress was too large to take in.
+    const HYPOELASTIC: bool = false;
+
     /// Whether the law is used so much that it is compiled for each hourglass control of its own.
     const FREQUENT: bool = false;
 
@@ -249,7 +253,7 @@ pub trait Kernel: Copy + Send + Sync {
 
     /// Advances `stress` (force/length²) by a step, in the unrotated frame, and the state rows of this part of the
     /// chunk with it.
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V>;
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V>;
 }
 
 /// What a law tells the element about its step.

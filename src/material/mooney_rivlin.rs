@@ -2,7 +2,7 @@
 
 use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Step, Stiffness};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
+use crate::lanes::{Lanes, Matrix3, Sym3, power};
 
 parameters! {
     /// W = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3) + ½ K (J − 1)², with the invariants of b̄ = J^(−2/3) F Fᵀ.
@@ -80,7 +80,7 @@ impl Kernel for Rubber<'_> {
 
     /// σ = (2/J) dev[(C₁₀ + C₀₁ Ī₁) b̄ − C₀₁ b̄²] + K (J − 1) I. In the frame F Fᵀ is U².
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [Row], _: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, _: &mut [V::Row], _: usize) -> Response<V> {
         let law = self.law;
         let (one, zero) = (V::splat(1.0), V::splat(0.0));
         let u = &step.stretch;

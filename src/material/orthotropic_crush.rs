@@ -11,7 +11,7 @@ use super::{
     Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Start, StateVariable,
     Step,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::lanes::{Lanes, Matrix3, Sym3, array};
 
 const fn modulus(keyword: &'static str, meaning: &'static str) -> Property {
     Property::required(keyword, keyword, STRESS, Range::Positive, meaning)
@@ -145,7 +145,7 @@ impl Honeycomb<'_> {
         let trial = self.elastic.trial(strain, stress);
         let deviator = trial.deviator();
         let von_mises = (V::splat(1.5) * deviator.contract(deviator)).sqrt();
-        let allowed = V::splat(self.law.yield_stress) / von_mises.max(V::splat(f64::MIN_POSITIVE));
+        let allowed = V::splat(self.law.yield_stress) / von_mises.max(V::splat(V::TINY));
         let lost = V::splat(1.0) - V::splat(1.0).min(allowed);
         trial.zip(deviator, |t, d| t - lost * d)
     }
@@ -170,7 +170,7 @@ impl Kernel for Honeycomb<'_> {
     }
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let smallest = V::load(&state[0], part).min(step.volume);
         smallest.store(&mut state[0], part);
         // The frame turns with the element; in it the material's axes stay what they were at the start.
@@ -185,7 +185,7 @@ impl Kernel for Honeycomb<'_> {
         let trial = stress.zip(step.strain, |s, e| s + young * e);
         let (before, after) = (trial.contract(trial), new.contract(new));
         *stress = new;
-        let share = (after / before.max(V::splat(f64::MIN_POSITIVE))).sqrt();
+        let share = (after / before.max(V::splat(V::TINY))).sqrt();
         Response::returned(V::splat(1.0).min(share))
     }
 }

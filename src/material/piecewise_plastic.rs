@@ -10,7 +10,7 @@ use super::soil::interpolate;
 use super::{
     Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 parameters! {
     /// A tabulated curve and its rate.
@@ -130,9 +130,10 @@ struct PiecewiseKernel<'a> {
 
 impl Kernel for PiecewiseKernel<'_> {
     const STATE: &'static [&'static str] = &["EQPS", "EQPSDOT"];
+    const HYPOELASTIC: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         // In no time nothing flows by rate.
         let moves = step.time_step > 0.0;
         let frequency = if moves { 1.0 / step.time_step } else { 0.0 };

@@ -18,8 +18,8 @@ pub(super) struct Returned<V> {
     pub factor: V,
 }
 
-/// Part of the trial stress to which the yield condition is fulfilled.
-const ACCURACY: f64 = 1e-13;
+/// Part of the trial stress to which the yield condition is fulfilled, in double and in single precision.
+const ACCURACY: [f64; 2] = [1e-13, 1e-6];
 
 /// Bound on the iterations: bisection alone would leave 2⁻⁴⁰ of the increment.
 const ITERATIONS: usize = 40;
@@ -37,7 +37,7 @@ pub(super) fn radial_return<V: Lanes, F: Flow<V>>(deviator: &Sym3<V>, three_mu: 
         return Returned { increment: zero, factor: one };
     }
     let stiffness = V::splat(three_mu);
-    let tolerance = trial * V::splat(ACCURACY);
+    let tolerance = trial * V::either(ACCURACY[0], ACCURACY[1]);
     let over = (trial - start).max(zero);
     let (mut low, mut high) = (zero, over / stiffness);
     let mut x = high;
@@ -57,7 +57,7 @@ pub(super) fn radial_return<V: Lanes, F: Flow<V>>(deviator: &Sym3<V>, three_mu: 
         let inside = V::select_less(low, newton, V::select_less(newton, high, newton, middle), middle);
         x = V::select_less(tolerance, size, inside, x);
     }
-    let factor = one - stiffness * x / trial.max(V::splat(f64::MIN_POSITIVE));
+    let factor = one - stiffness * x / trial.max(V::splat(V::TINY));
     Returned { increment: x, factor: factor.max(zero) }
 }
 
@@ -82,15 +82,15 @@ pub(super) fn raised_by_rate<V: Lanes>([rest, slope]: [V; 2], increment: V, rate
 #[inline(always)]
 pub(super) fn largest_principal<V: Lanes>(s: &Sym3<V>) -> V {
     let (zero, half) = (V::splat(0.0), V::splat(0.5));
-    let tiny = V::splat(f64::MIN_POSITIVE);
+    let tiny = V::splat(V::TINY);
     let radius = (s.contract(*s) * V::splat(0.5 / 3.0)).sqrt();
-    let inverse = V::splat(1.0) / radius.max(V::splat(1e-150));
+    let inverse = V::splat(1.0) / radius.max(V::either(1e-150, 1e-30));
     // Components over √(J₂/3), so that no power leaves the range.
     let (xx, yy, zz) = (s.xx * inverse, s.yy * inverse, s.zz * inverse);
     let (xy, yz, zx) = (s.xy * inverse, s.yz * inverse, s.zx * inverse);
     let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
     let sum = (V::splat(1.0) + determinant * half).max(zero).min(V::splat(2.0));
-    let mut delta = (sum * V::splat(0.125)).sqrt().max(V::splat(1e-100));
+    let mut delta = (sum * V::splat(0.125)).sqrt().max(V::either(1e-100, 1e-18));
     for _ in 0..4 {
         let square = delta * delta;
         let value = V::splat(4.0) * square * delta + V::splat(6.0) * square - sum;
@@ -103,7 +103,7 @@ pub(super) fn largest_principal<V: Lanes>(s: &Sym3<V>) -> V {
 /// its strength that were and are left.
 #[inline(always)]
 pub(super) fn weakened_tension<V: Lanes>(mean: V, before: V, after: V) -> V {
-    let share = after / before.max(V::splat(f64::MIN_POSITIVE));
+    let share = after / before.max(V::splat(V::TINY));
     V::select_less(V::splat(0.0), mean, mean * share, mean)
 }
 

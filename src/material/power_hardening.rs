@@ -9,7 +9,7 @@ use super::elastic_plastic::YIELD_STRESS;
 use super::plastic::{Flow, compose, largest_principal, radial_return, weakened_tension};
 use super::property::STRESS;
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, power};
+use crate::lanes::{Lanes, Matrix3, Sym3, power};
 
 /// Exponents for which hardening is steepest at its start.
 const EXPONENT: Range = Range::Between { low: (0.0, false), high: (1.0, true) };
@@ -104,7 +104,7 @@ impl<V: Lanes> Flow<V> for Hardening<'_, V> {
     fn stress(&self, increment: V) -> (V, V) {
         let law = self.law;
         let strain = (self.eqps + increment - V::splat(law.luders)).max(V::splat(0.0));
-        let base = strain.max(V::splat(f64::MIN_POSITIVE));
+        let base = strain.max(V::splat(V::TINY));
         let hardening = V::splat(law.constant) * power(base, law.exponent);
         // Zero to a small power is not small in a double.
         let hardening = V::select_less(V::splat(0.0), strain, hardening, V::splat(0.0));
@@ -136,9 +136,10 @@ impl PowerKernel<'_> {
 
 impl Kernel for PowerKernel<'_> {
     const STATE: &'static [&'static str] = &["EQPS", "TEARING", "DECAY"];
+    const HYPOELASTIC: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let [eqps, tearing, before] = [V::load(&state[0], part), V::load(&state[1], part), V::load(&state[2], part)];
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         // (i) elastic predictor, with the tension that a growing crack still bears
@@ -152,7 +153,7 @@ impl Kernel for PowerKernel<'_> {
         *stress = compose(&deviator, back.factor, mean);
         // (iii) tearing parameter Σ ⟨2σ₁/(3(σ₁ − σ_m))⟩⁴ Δε̄ᵖ
         let above = largest_principal(&deviator) * back.factor;
-        let ratio = (above + mean).max(zero) / (above * V::splat(1.5)).max(V::splat(f64::MIN_POSITIVE));
+        let ratio = (above + mean).max(zero) / (above * V::splat(1.5)).max(V::splat(V::TINY));
         let ratio = ratio.min(V::splat(LARGEST_RATIO));
         let square = ratio * ratio;
         let torn = V::select_less(zero, back.increment, square * square * back.increment, zero);

@@ -8,7 +8,7 @@ use super::property::STRESS;
 use super::{
     Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, ln};
+use crate::lanes::{Lanes, Matrix3, Sym3, ln};
 
 parameters! {
     /// Pressure from a function of the largest compression so far, unloading with a constant bulk modulus; deviator returned
@@ -137,7 +137,7 @@ impl Kernel for SoilKernel<'_> {
     const VOLUME: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, zero, one) = (self.law, V::splat(0.0), V::splat(1.0));
         // (i) pressure: on the virgin curve where the compression is the largest so far, else unloaded from it
         let now = -ln(step.volume);
@@ -153,7 +153,7 @@ impl Kernel for SoilKernel<'_> {
         // (iii) return at this pressure
         let strength = V::splat(law.a0) + pressure * (V::splat(law.a1) + pressure * V::splat(law.a2));
         let von_mises = (V::splat(1.5) * deviator.contract(deviator)).sqrt();
-        let allowed = strength.max(zero) / von_mises.max(V::splat(f64::MIN_POSITIVE));
+        let allowed = strength.max(zero) / von_mises.max(V::splat(V::TINY));
         let factor = one.min(allowed);
         *stress = compose(&deviator, factor, -pressure);
         Response::returned(factor)

@@ -6,7 +6,7 @@ use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::elastic_plastic::{HARDENING_MODULUS, YIELD_STRESS};
 use super::plastic::{Flow, compose, radial_return, raised_by_rate};
 use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3};
+use crate::lanes::{Lanes, Matrix3, Sym3};
 
 parameters! {
     /// ε̄̇ᵖ = γ ⟨σ̄/Y − 1⟩ᵖ with Y = Y₀ + H ε̄ᵖ.
@@ -90,20 +90,21 @@ struct ViscoplasticKernel<'a> {
 
 impl Kernel for ViscoplasticKernel<'_> {
     const STATE: &'static [&'static str] = &["EQPS", "EQPSDOT"];
+    const HYPOELASTIC: bool = true;
 
     #[inline(always)]
-    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [Row], part: usize) -> Response<V> {
+    fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         // In no time nothing flows.
         let (frequency, rate) = match step.time_step > 0.0 {
-            true => (1.0 / step.time_step, 1.0 / (self.law.gamma * step.time_step)),
-            false => (0.0, f64::MAX.sqrt()),
+            true => (1.0 / step.time_step, V::splat(1.0 / (self.law.gamma * step.time_step))),
+            false => (0.0, V::either(f64::MAX.sqrt(), 1e18)),
         };
         // (i) elastic predictor
         let trial = self.elastic.trial(&step.strain, stress);
         let deviator = trial.deviator();
         let eqps = V::load(&state[0], part);
         // (ii) the increment whose overstress is what it leaves: implicit, stable for any step
-        let flow = Overstress { law: self.law, eqps, rate: V::splat(rate) };
+        let flow = Overstress { law: self.law, eqps, rate };
         let back = radial_return(&deviator, 1.5 * self.elastic.two_mu, &flow);
         *stress = compose(&deviator, back.factor, trial.trace() * V::splat(1.0 / 3.0));
         (eqps + back.increment).store(&mut state[0], part);

@@ -1,7 +1,7 @@
 //! Title, times, time step, hourglass control, bulk viscosity.
 
 use super::{
-    Analysis, BulkViscosity, Hourglass, MassScaling, ScaleMass, StepEstimate, StepModuli,
+    Analysis, BulkViscosity, Hourglass, MassScaling, Precision, ScaleMass, StepEstimate, StepModuli,
     problem::{Draft, Setter},
 };
 use crate::deck::{Card, Diagnostic, language};
@@ -16,6 +16,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("TIME STEP MODULI", time_step_moduli),
     ("TIME STEP ESTIMATE", time_step_estimate),
     ("TIME STEP MAXIMUM", time_step_maximum),
+    ("PRECISION", precision),
     ("MASS SCALING", mass_scaling),
     ("HOURGLASS STIFFENING", hourglass),
     ("HOURGLASS CONTROL", hourglass),
@@ -79,6 +80,10 @@ fn time_step_maximum(card: &Card, draft: &mut Draft) {
 fn time_step_estimate(card: &Card, draft: &mut Draft) {
     draft.model.step_estimate =
         if card.text("estimate") == "GLOBAL" { StepEstimate::Global } else { StepEstimate::Element };
+}
+
+fn precision(card: &Card, draft: &mut Draft) {
+    draft.model.precision = if card.text("precision") == "SINGLE" { Precision::Single } else { Precision::Double };
 }
 
 fn mass_scaling(card: &Card, draft: &mut Draft) {

@@ -50,6 +50,8 @@ pub struct Model {
     pub plot: PlotSchedule,
     /// How the time step follows from the stable one.
     pub time_step: TimeStepControl,
+    /// Precision of the state and the kernels of elements.
+    pub precision: Precision,
     /// What bounds the time step.
     pub step_estimate: StepEstimate,
     /// Blocks that move as one, a list for each body.
@@ -226,6 +228,16 @@ pub enum StepModuli {
     Elastic,
     /// PRONTO's effective moduli of the last increment: larger steps in plastic flow, no longer a bound.
     Effective,
+}
+
+/// PRECISION: of the state and the kernels of elements. Nodes, forces on them, energies and time are double in both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits.
+    Single,
 }
 
 /// TIME STEP ESTIMATE: what bounds the time step.

@@ -1,9 +1,9 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Restarts, StepEstimate,
-    StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial, material, output,
-    restart, rigid, section, tied,
+    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Precision, Restarts,
+    StepEstimate, StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial,
+    material, output, restart, rigid, section, tied,
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -134,6 +134,7 @@ impl Default for Model {
             },
             rigid_bodies: Vec::new(),
             ties: Vec::new(),
+            precision: Precision::default(),
             step_estimate: StepEstimate::default(),
             mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },

@@ -3,7 +3,7 @@
 use super::body::{Body, LoadedFace};
 use super::constraints::{Constraint, Motion};
 use super::contact::Contact;
-use super::elements::{ElementBlock, NewElement};
+use super::elements::{Element, ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
@@ -117,9 +117,11 @@ pub(super) fn point_name(name: &str, point: usize) -> String {
 /// Names of all that the elements of a body store, each once, in the order in which its blocks come.
 fn element_rows(body: &Body) -> Vec<&'static str> {
     let mut names: Vec<&str> = Vec::new();
-    for row in body.elements.iter().flat_map(|element| element.entry().rows) {
-        if !names.contains(&row.name) {
-            names.push(row.name);
+    let own =
+        |element: &Element| element.entry().rows.iter().map(|row| row.name).chain(element.carried().iter().copied());
+    for name in body.elements.iter().flat_map(own) {
+        if !names.contains(&name) {
+            names.push(name);
         }
     }
     names

@@ -15,12 +15,15 @@ use super::nodes::{Nodes, dot};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::lanes::Row;
 use crate::mesh::{Connectivity, Mesh, UNIT_CUBE};
-use crate::model::{Death, DeathVariable, Model};
+use crate::model::{Death, DeathVariable, Model, Precision};
 use delete::Deletions;
 use std::sync::Arc;
 
-/// Edge of the cube that stands in for what is gone, in units of the body's size.
+/// Edge of the cube that stands in for what is gone, in units of the body's size; in single precision products of its mass and
+/// volume must stay in range.
 const STAND_IN: f64 = 1e3;
+/// See [`STAND_IN`].
+const SINGLE_STAND_IN: f64 = 30.0;
 
 /// What is watched, what has gone, and its energy.
 pub struct Erosion {
@@ -59,7 +62,8 @@ impl Erosion {
             left[local[node as usize] as usize] += 1;
         }
         let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-        let edge = STAND_IN * if extent > 0.0 { extent } else { 1.0 };
+        let factor = if model.precision == Precision::Single { SINGLE_STAND_IN } else { STAND_IN };
+        let edge = factor * if extent > 0.0 { extent } else { 1.0 };
         let stand_in = nodes.len() as u32;
         for corner in UNIT_CUBE {
             let [x, y, z] = corner.map(|c| c * edge);

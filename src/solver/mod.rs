@@ -44,7 +44,7 @@ pub use trial::BlockTrial;
 use crate::comm::{Communicator, Traffic};
 use crate::lanes::{Force, InstructionSet};
 use crate::mesh::{Mesh, Shape};
-use crate::model::{Function, Model, MotionKind, StepEstimate, TimeStepControl, Unknown};
+use crate::model::{Function, Model, MotionKind, Precision, StepEstimate, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
 use elements::{PassOutcome, PassSettings, Sink};
@@ -132,7 +132,21 @@ impl Request {
 pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
     let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
     let all = mesh.blocks.iter().filter_map(unfit);
-    all.chain(without_eight_points(mesh, model)).collect()
+    all.chain(without_eight_points(mesh, model)).chain(beyond_single(mesh, model)).collect()
+}
+
+/// Blocks whose numbers single precision cannot hold.
+fn beyond_single(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let asked = |block: &&crate::mesh::Block| {
+        let one_point = block.shape == Shape::Hexahedron && !elements::eight_points::asked_for(block.id, model);
+        one_point && model.precision == Precision::Single
+    };
+    let unfit = |block: &crate::mesh::Block| {
+        let material = model.materials.iter().find(|material| material.block == block.id)?;
+        let body = (material.density, material.law.moduli());
+        Some((block.id, elements::hexahedron::range::beyond(block, &mesh.coordinates, body)?))
+    };
+    mesh.blocks.iter().filter(asked).filter_map(unfit).collect()
 }
 
 /// Blocks that are to have eight points and whose elements have not eight corners.

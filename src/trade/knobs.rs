@@ -3,8 +3,9 @@
 use super::edit::with_command;
 use crate::deck::Deck;
 use crate::mesh::{Dimension, Mesh, Shape};
-use crate::model::{ContactEdges, Hourglass, Model};
+use crate::model::{ContactEdges, Hourglass, Model, Precision};
 use crate::numbers::scientific;
+use crate::solver::elements::eight_points;
 
 /// Part by which round-off is imitated: it is far above that of a step and far below any error that is told.
 const ROUND_OFF: f64 = 1e-9;
@@ -24,6 +25,8 @@ pub enum Knob {
     Hourglass,
     /// Bulk viscosity.
     Viscosity,
+    /// Single precision.
+    Precision,
     /// Added mass.
     Mass,
     /// How contact is enforced.
@@ -42,6 +45,7 @@ impl Knob {
             Knob::TimeStep => "time step",
             Knob::Hourglass => "hourglass control",
             Knob::Viscosity => "bulk viscosity",
+            Knob::Precision => "precision",
             Knob::Mass => "mass scaling",
             Knob::Contact => "contact",
             Knob::Several => "several",
@@ -80,7 +84,7 @@ impl Variant {
             Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),
             Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Viscosity => true,
             // Another formulation is neither finer nor coarser.
-            Knob::None | Knob::Hourglass | Knob::Mass | Knob::Several => false,
+            Knob::None | Knob::Hourglass | Knob::Precision | Knob::Mass | Knob::Several => false,
         }
     }
 
@@ -120,6 +124,7 @@ pub fn variants(model: &Model, mesh: &Mesh, levels: &[u32]) -> Vec<Variant> {
     ));
     all.extend(hourglass(model, mesh));
     all.extend(viscosity(model));
+    all.extend(precision(model, mesh));
     all.extend(contact(model, mesh));
     all.extend(meshes);
     all
@@ -134,6 +139,15 @@ fn hourglass(model: &Model, mesh: &Mesh) -> Option<Variant> {
     };
     let without = &["HOURGLASS CONTROL", "HOURGLASS STIFFENING"];
     has.then(|| Variant::of(Knob::Hourglass, name, without, line.into(), 1.0))
+}
+
+fn precision(model: &Model, mesh: &Mesh) -> Option<Variant> {
+    let has = mesh.blocks.iter().any(|block| {
+        block.shape == Shape::Hexahedron && !block.is_empty() && !eight_points::asked_for(block.id, model)
+    });
+    let line = "PRECISION, SINGLE".to_string();
+    (has && model.precision == Precision::Double)
+        .then(|| Variant::of(Knob::Precision, "single", &["PRECISION"], line, 0.7))
 }
 
 fn viscosity(model: &Model) -> Vec<Variant> {

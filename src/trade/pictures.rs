@@ -51,8 +51,16 @@ fn curve(label: String, points: &[[f64; 2]]) -> Curve {
 }
 
 /// Knobs whose way is drawn.
-const DRAWN: [Knob; 7] =
-    [Knob::Mesh, Knob::TimeStep, Knob::Hourglass, Knob::Viscosity, Knob::Contact, Knob::Mass, Knob::Several];
+const DRAWN: [Knob; 8] = [
+    Knob::Mesh,
+    Knob::TimeStep,
+    Knob::Hourglass,
+    Knob::Viscosity,
+    Knob::Precision,
+    Knob::Contact,
+    Knob::Mass,
+    Knob::Several,
+];
 
 /// The front as a line, and for each knob the way that it goes from the deck as it is, from the cheapest to the dearest.
 fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {

@@ -2,7 +2,9 @@
 
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
-use crate::model::{Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, StepEstimate, StepModuli};
+use crate::model::{
+    Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, Precision, StepEstimate, StepModuli,
+};
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
 use crate::solver::{BlockMass, BodyShape, TiedReport};
@@ -121,6 +123,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
         StepModuli::Effective => "EFFECTIVE",
     };
     out += &leader("MODULI OF THE TIME STEP", moduli);
+    if model.precision == Precision::Single {
+        out += &leader("PRECISION OF HEXAHEDRA WITH ONE POINT", "SINGLE");
+    }
     if model.step_estimate == StepEstimate::Global {
         out += &leader("ESTIMATE OF THE TIME STEP", "GLOBAL");
     }

@@ -4,7 +4,7 @@ use crate::mesh::Shape;
 use crate::mesh::check::counted;
 use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
-use crate::model::{Hourglass, Model, MotionKind, PrescribedMotion, StepEstimate, Unknown};
+use crate::model::{Hourglass, Model, MotionKind, Precision, PrescribedMotion, StepEstimate, Unknown};
 
 /// A part of the code that has work to do.
 pub struct Feature {
@@ -96,9 +96,11 @@ fn solids(model: &Model, mesh: &Mesh) -> Vec<Feature> {
     };
     let estimate = (model.step_estimate == StepEstimate::Global)
         .then(|| Feature { what: "time steps of the mesh as a whole".into(), asked_by: "TIME STEP ESTIMATE".into() });
+    let single = (model.precision == Precision::Single)
+        .then(|| Feature { what: "hexahedra with one point in single precision".into(), asked_by: "PRECISION".into() });
     let viscosity = model.bulk_viscosity;
     let viscous = (viscosity.linear != 0.0 || viscosity.quadratic != 0.0)
         .then(|| Feature { what: "bulk viscosity".into(), asked_by: "BULK VISCOSITY, or its default".into() });
     let control = Feature { what: hourglass.into(), asked_by: "HOURGLASS CONTROL, or its default".into() };
-    laws.chain([control]).chain(viscous).chain(estimate).collect()
+    laws.chain([control]).chain(viscous).chain(estimate).chain(single).collect()
 }

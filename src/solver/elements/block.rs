@@ -2,8 +2,9 @@
 
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
-use crate::lanes::{CHUNK, Row};
+use crate::lanes::{CHUNK, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
+use crate::model::Precision;
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;
 
@@ -47,9 +48,12 @@ pub struct Group {
     pub mass: Vec<Row>,
     /// The same with what MASS SCALING has added; empty where it has added nothing.
     pub moving: Vec<Row>,
-    /// What the elements store, `stride` rows per chunk: their own numbers, then those of their law.
+    /// What the elements store, `stride` rows per chunk: their own numbers, then those of their law. Empty where that is
+    /// in single precision.
     pub state: Vec<Row>,
-    /// Rows per chunk.
+    /// The same in single precision, `stride` rows per two chunks; the number of chunks is even then.
+    pub single: Vec<SingleRow>,
+    /// Rows per chunk, or per two chunks.
     pub stride: usize,
     /// Which elements have been taken away; empty while none have.
     pub gone: Vec<bool>,
@@ -75,15 +79,21 @@ pub struct NewElement {
 }
 
 impl Group {
-    /// Elements at rest, with so many corners and unknowns. `start` fills in the numbers that an element stores, of which there
-    /// are `stride`.
+    /// Elements at rest, with so many corners and unknowns. `start` fills in the numbers that an element stores in this
+    /// precision, of which there are `stride`.
     pub fn new(
         elements: &[NewElement],
         [corners, unknowns]: [usize; 2],
-        stride: usize,
+        (precision, stride): (Precision, usize),
         start: impl Fn(&NewElement, &mut [f64]),
     ) -> Group {
-        let chunks = elements.len().div_ceil(CHUNK);
+        let lanes = match precision {
+            Precision::Double => CHUNK,
+            Precision::Single => SingleRow::LANES,
+        };
+        let rows = elements.len().div_ceil(lanes);
+        let chunks = rows * lanes / CHUNK;
+        let store = |of: Precision| if of == precision { rows * stride } else { 0 };
         let mut group = Group {
             places: elements.iter().map(|e| e.place).collect(),
             corners,
@@ -91,7 +101,8 @@ impl Group {
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
             mass: vec![Row::default(); chunks],
             moving: Vec::new(),
-            state: vec![Row::default(); chunks * stride],
+            state: vec![Row::default(); store(Precision::Double)],
+            single: vec![SingleRow::default(); store(Precision::Single)],
             stride,
             gone: Vec::new(),
             steps: Vec::new(),
@@ -122,8 +133,34 @@ impl Group {
         if let Some(moving) = self.moving.get_mut(chunk) {
             moving.0[lane] = mass;
         }
-        for (row, number) in self.state[chunk * self.stride..].iter_mut().zip(numbers) {
-            row.0[lane] = *number;
+        for row in 0..self.stride {
+            self.put(slot, row, numbers.get(row).copied().unwrap_or(0.0));
+        }
+    }
+
+    /// The bits of a number that the `i`-th element stores in single precision.
+    pub fn bits(&self, i: usize, row: usize) -> u32 {
+        self.single[i / SingleRow::LANES * self.stride + row].0[i % SingleRow::LANES].to_bits()
+    }
+
+    /// Sets those of a lane.
+    pub fn put_bits(&mut self, slot: usize, row: usize, bits: u32) {
+        self.single[slot / SingleRow::LANES * self.stride + row].0[slot % SingleRow::LANES] = f32::from_bits(bits);
+    }
+
+    /// One stored number of a lane.
+    fn number(&self, slot: usize, row: usize) -> f64 {
+        match self.single.is_empty() {
+            true => self.state[slot / CHUNK * self.stride + row].number(slot % CHUNK),
+            false => self.single[slot / SingleRow::LANES * self.stride + row].number(slot % SingleRow::LANES),
+        }
+    }
+
+    /// Sets one stored number of a lane.
+    pub fn put(&mut self, slot: usize, row: usize, value: f64) {
+        match self.single.is_empty() {
+            true => self.state[slot / CHUNK * self.stride + row].set(slot % CHUNK, value),
+            false => self.single[slot / SingleRow::LANES * self.stride + row].set(slot % SingleRow::LANES, value),
         }
     }
 
@@ -162,14 +199,14 @@ impl Group {
 
     /// One stored number of the `i`-th element.
     pub fn value(&self, i: usize, row: usize) -> f64 {
-        self.state[i / CHUNK * self.stride + row].0[i % CHUNK]
+        self.number(i, row)
     }
 
     /// Sets one stored number of the `i`-th element, and of the lanes that copy the last one.
     pub fn set_value(&mut self, i: usize, row: usize, value: f64) {
         let end = if i + 1 == self.len() { self.mass.len() * CHUNK } else { i + 1 };
         for slot in i..end {
-            self.state[slot / CHUNK * self.stride + row].0[slot % CHUNK] = value;
+            self.put(slot, row, value);
         }
     }
 
@@ -230,15 +267,21 @@ impl ElementBlock {
     pub fn group(element: &Element, law: &Law, density: f64, elements: &[NewElement]) -> Group {
         let entry = element.entry();
         let (of_points, of_law) = (element.point_rows(), state_names(law).len());
-        let stride = entry.rows.len() + element.points() * (of_points + of_law);
-        Group::new(elements, [entry.shape.corners(), entry.unknowns()], stride, |new, numbers| {
-            let (own, points) = numbers.split_at_mut(entry.rows.len());
-            let start = law.start(&element.start(new, density, own));
-            // A law may store nothing, and an element with one point nothing of it.
-            for point in points.chunks_exact_mut((of_points + of_law).max(1)) {
-                point[of_points..].copy_from_slice(&start);
-            }
-        })
+        let of_points = [element.points(), of_points + of_law];
+        let stride = entry.rows.len() + of_points[0] * of_points[1] + element.carried().len();
+        Group::new(
+            elements,
+            [entry.shape.corners(), entry.unknowns()],
+            (element.precision(), stride),
+            |new, numbers| {
+                let (own, points) = numbers.split_at_mut(entry.rows.len());
+                let start = law.start(&element.start(new, density, own));
+                // A law may store nothing, and an element with one point nothing of it.
+                for point in points[..of_points[0] * of_points[1]].chunks_exact_mut(of_points[1].max(1)) {
+                    point[element.point_rows()..].copy_from_slice(&start);
+                }
+            },
+        )
     }
 
     /// Place among the stored numbers of the first that belongs to a point of integration.

@@ -5,8 +5,8 @@
 //! whatever the steps do: forces of both states with the velocities of the one step, at the geometry where they acted. Δt̄ₙ₊₁
 //! is not known when fₙ₊₁ is; Δtₙ stands in for it, and the power that was booked so is kept to make good in the next step.
 
-use super::state_rows::accumulate;
-use crate::lanes::{Lanes, Row};
+use super::state_rows::{accumulate, accumulate_carried};
+use crate::lanes::Lanes;
 use crate::material::Kernel;
 
 /// Work or power of stress, bulk viscosity and, in fluids, hourglass resistance and held corners.
@@ -18,6 +18,8 @@ pub struct AccountRows {
     pub accounts: [usize; 3],
     /// First row of the law.
     pub law: usize,
+    /// In single precision: where the accounts keep what their sums lose, from the end of the law's rows.
+    pub carried: [usize; 3],
 }
 
 /// The step that is booked.
@@ -55,7 +57,7 @@ impl AccountRows {
     pub fn begin<V: Lanes, K: Kernel>(
         &self,
         powers: &StartPowers<V>,
-        state: &[Row],
+        state: &[V::Row],
         part: usize,
         steps: Steps,
     ) -> Works<V> {
@@ -73,7 +75,7 @@ impl AccountRows {
         &self,
         works: &Works<V>,
         [viscous, growth]: [V; 2],
-        state: &[Row],
+        state: &[V::Row],
         part: usize,
         steps: Steps,
     ) -> V {
@@ -93,14 +95,19 @@ impl AccountRows {
         &self,
         works: &Works<V>,
         powers: Works<V>,
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         steps: Steps,
     ) {
         let half_step = V::splat(0.5 * steps.time_step);
         for account in 0..if K::FLUID { 3 } else { 2 } {
-            let row = &mut state[self.accounts[account]];
-            accumulate(works[account] + half_step * powers[account], row, part);
+            let (row, work) = (self.accounts[account], works[account] + half_step * powers[account]);
+            if V::SINGLE {
+                let carried = self.law + K::STATE.len() + self.carried[account];
+                accumulate_carried(work, [row, carried], state, part);
+            } else {
+                accumulate(work, &mut state[row], part);
+            }
         }
         let sum = powers[0] + powers[1];
         let sum = if K::FLUID { sum + powers[2] } else { sum };

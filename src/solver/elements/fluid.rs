@@ -1,7 +1,7 @@
 //! What elements of fluids share in the plane and in space: how strongly hourglass modes are slowed and closing corners are held,
 //! and how far a volume may change in a step.
 
-use crate::lanes::{Lanes, Row};
+use crate::lanes::Lanes;
 
 /// Part α by which an hourglass mode is slowed in a stable step of its element.
 pub const SLOWED: f64 = 0.9;
@@ -34,7 +34,7 @@ const LEAST_REACH: f64 = 0.05;
 /// is smaller, or no number.
 #[inline(always)]
 pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
-    let tiny = V::splat(f64::MIN_POSITIVE);
+    let tiny = V::splat(V::TINY);
     let growing = V::splat(LARGEST_GROWTH) / rate.max(tiny);
     let shrinking = V::splat(LARGEST_SHRINKAGE) / (-rate).max(tiny);
     // In this order a NaN stays.
@@ -90,7 +90,7 @@ impl<V: Lanes> Brake<V> {
     /// The stable step with the forces that have been found.
     #[inline(always)]
     pub fn stable_step(&self, without: V) -> V {
-        let limit = V::splat(LARGEST_CLOSING) / self.closing.max(V::splat(f64::MIN_POSITIVE));
+        let limit = V::splat(LARGEST_CLOSING) / self.closing.max(V::splat(V::TINY));
         let slower = without / (V::splat(1.0) + V::splat(SHORTER) * self.most);
         // In this order a NaN of the element's own step stays.
         V::select_less(V::splat(0.0), self.most, limit.min(slower), without)
@@ -99,6 +99,6 @@ impl<V: Lanes> Brake<V> {
 
 /// Whether a row has a number below the start of the resistance in this part.
 #[inline(always)]
-pub fn any_close<V: Lanes>(row: &Row, part: usize) -> bool {
-    row.0[part * V::COUNT..(part + 1) * V::COUNT].iter().any(|least| *least < CLOSE)
+pub fn any_close<V: Lanes>(row: &V::Row, part: usize) -> bool {
+    V::any_less(V::load(row, part), V::splat(CLOSE))
 }

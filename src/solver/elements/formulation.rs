@@ -5,7 +5,7 @@ use super::pass::{Pass, PassOutcome, PassSettings};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
 use crate::mesh::{Block, Shape};
-use crate::model::Model;
+use crate::model::{Model, Precision};
 use crate::solver::nodes::Nodes;
 
 /// What the deck, the manual, restart files and the energy balance need to know of a kind of element.
@@ -116,6 +116,17 @@ pub trait Formulation: Sized {
     /// # Errors
     /// Why it cannot, for instance because a thickness or an area is missing.
     fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit>;
+
+    /// The precision of its state and of its kernel.
+    fn precision(&self) -> Precision {
+        Precision::Double
+    }
+
+    /// Names in restart files of the rows behind those of the law in which single precision keeps what its sums would lose. Their
+    /// bits are no numbers.
+    fn carried(&self) -> &'static [&'static str] {
+        &[]
+    }
 
     /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner; behind
     /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length². Called

@@ -22,7 +22,7 @@ mod uniaxial;
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
 use crate::mesh::Block;
-use crate::model::Model;
+use crate::model::{Model, Precision};
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
@@ -53,6 +53,16 @@ macro_rules! elements {
 
             /// The table entry of this kind.
             pub fn entry(&self) -> &'static Entry { match self { $(Element::$element(_) => &$module::ENTRY,)+ } }
+
+            /// See [`Formulation::precision`].
+            pub fn precision(&self) -> Precision {
+                match self { $(Element::$element(own) => own.precision(),)+ }
+            }
+
+            /// See [`Formulation::carried`].
+            pub fn carried(&self) -> &'static [&'static str] {
+                match self { $(Element::$element(own) => own.carried(),)+ }
+            }
 
             /// See [`Formulation::weigh`].
             pub fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {

@@ -1,7 +1,12 @@
 //! One pass over the elements of a block, compiled for every kind of element, law and instruction set.
 
 use super::block::Group;
-use crate::lanes::{CHUNK, Force, InstructionSet, Lanes, MOST_CORNERS, Pair, Row, Vectors, prefetch};
+use crate::lanes::{
+    CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Quad, Row,
+    Vectors, prefetch,
+};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::{F32x8, F32x16, F64x4, F64x8};
 use crate::model::{BulkViscosity, StepModuli};
 
 /// Where corner forces go.
@@ -70,6 +75,9 @@ pub trait StepKernel<const N: usize> {
     /// How many of the N, the last ones, are rotations: their rates are given as they are, and moments belong to them.
     const ROTATIONS: usize = 0;
 
+    /// Whether the forces of an element add up to nothing, so that rounding may be made good.
+    const BALANCED: bool = true;
+
     /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
     #[inline(always)]
     fn about_axis(&self) -> bool {
@@ -82,7 +90,7 @@ pub trait StepKernel<const N: usize> {
         &self,
         positions: &[[V; N]; 3],
         velocities: &[[V; N]; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, N>;
@@ -119,52 +127,74 @@ pub struct Pass<'a> {
     pub instructions: InstructionSet,
 }
 
-impl Pass<'_> {
-    /// Does a step of every element.
-    pub fn over<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
-        let (group, sink) = match self.sink {
-            Sink::Apart(slots) => (self.border, Target::Apart(slots)),
+impl<'a> Pass<'a> {
+    /// The group to advance, the nodes and where the forces go.
+    fn taken_apart(self) -> (&'a mut Group, &'a [Row], Target<'a>, InstructionSet) {
+        let Pass { border, interior, nodes, sink, instructions } = self;
+        match sink {
+            Sink::Apart(slots) => (border, nodes, Target::Apart(slots), instructions),
             Sink::Nodes { forces, border: slots } => {
-                let border: &Group = self.border;
-                (self.interior, Target::Nodes(Merge { forces, border, slots, next: 0 }))
+                (interior, nodes, Target::Nodes(Merge { forces, border, slots, next: 0 }), instructions)
             }
-        };
+        }
+    }
+
+    /// Does a step of every element, in double precision.
+    pub fn over<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
+        let (group, nodes, sink, instructions) = self.taken_apart();
         // Narrow builds compile one width: a sixth of a build's time is in the others, for every law and element.
         if cfg!(one_width) {
-            return chunks::<Pair, N, S>(group, self.nodes, sink, step);
+            return chunks::<Pair, N, S>(group, nodes, sink, step);
         }
-        match self.instructions.vectors() {
+        match instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { chunks_avx512(group, self.nodes, sink, step) },
+            Vectors::Avx512 => unsafe { chunks_avx512::<F64x8, N, S>(group, nodes, sink, step) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { chunks_avx2(group, self.nodes, sink, step) },
-            _ => chunks::<Pair, N, S>(group, self.nodes, sink, step),
+            Vectors::Avx2 => unsafe { chunks_avx2::<F64x4, N, S>(group, nodes, sink, step) },
+            _ => chunks::<Pair, N, S>(group, nodes, sink, step),
+        }
+    }
+
+    /// Does a step of every element, in single precision.
+    pub fn over_single<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
+        let (group, nodes, sink, instructions) = self.taken_apart();
+        if cfg!(one_width) {
+            return chunks::<Quad, N, S>(group, nodes, sink, step);
+        }
+        match instructions.vectors() {
+            // SAFETY: an instruction set is one that this processor has.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { chunks_avx512::<F32x16, N, S>(group, nodes, sink, step) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { chunks_avx2::<F32x8, N, S>(group, nodes, sink, step) },
+            _ => chunks::<Quad, N, S>(group, nodes, sink, step),
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-unsafe fn chunks_avx512<const N: usize, S: StepKernel<N>>(
+unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
     nodes: &[Row],
     sink: Target,
     kernel: &S,
 ) -> PassOutcome {
-    chunks::<crate::lanes::F64x8, N, S>(group, nodes, sink, kernel)
+    chunks::<V, N, S>(group, nodes, sink, kernel)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-unsafe fn chunks_avx2<const N: usize, S: StepKernel<N>>(
+unsafe fn chunks_avx2<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
     nodes: &[Row],
     sink: Target,
     kernel: &S,
 ) -> PassOutcome {
-    chunks::<crate::lanes::F64x4, N, S>(group, nodes, sink, kernel)
+    chunks::<V, N, S>(group, nodes, sink, kernel)
 }
 
 /// Where the forces of a chunk go, with what the merge of border elements has to remember.
@@ -209,7 +239,7 @@ impl Merge<'_> {
         &mut self,
         places: &[u32],
         connectivity: &[[u32; CHUNK]; N],
-        corner_forces: &[[Force; MOST_CORNERS]; CHUNK],
+        corner_forces: &[[Force; MOST_CORNERS]],
     ) {
         for (lane, &place) in places.iter().enumerate() {
             self.border_before(place);
@@ -228,19 +258,24 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     kernel: &S,
 ) -> PassOutcome {
     let stride = group.stride;
-    let mut corner_forces = [[Force::default(); MOST_CORNERS]; CHUNK];
-    let (mut smallest, mut smallest_chunk) = (Row([f64::INFINITY; CHUNK]), Row([f64::INFINITY; CHUNK]));
-    let mut failed_chunk = Row([f64::INFINITY; CHUNK]);
-    for (chunk, connectivity) in group.connectivity.as_chunks::<N>().0.iter().enumerate() {
-        let mut steps = group.steps.get_mut(chunk);
-        let (state, ahead) = group.state[chunk * stride..].split_at_mut(stride);
+    // Chunks of a row.
+    let abreast = V::Row::LANES / CHUNK;
+    let rows = V::Row::among(&mut group.state, &mut group.single);
+    let mut corner_forces: CornerForces = [[Force::default(); MOST_CORNERS]; MOST_LANES];
+    let (mut smallest, mut smallest_row) = (V::Row::filled(f64::INFINITY), V::Row::filled(f64::INFINITY));
+    let mut failed_row = V::Row::filled(f64::INFINITY);
+    for (row, connectivity) in group.connectivity.as_chunks::<N>().0.chunks_exact(abreast).enumerate() {
+        let chunk = row * abreast;
+        let mut steps = group.steps.get_mut(chunk..chunk + abreast);
+        let (state, ahead) = rows[row * stride..].split_at_mut(stride);
         // Two chunks ahead: nearer comes too late, and farther, or nodes as well, gained less wherever it was measured.
         prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
-        for part in 0..CHUNK / V::COUNT {
+        for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
             let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis(), places);
-            let material = V::load(&group.mass[chunk], part);
-            let moving = group.moving.get(chunk).map_or(material, |row| V::load(row, part));
+            let material = V::load_double(&group.mass[chunk..], part);
+            let moving = group.moving.get(chunk..).filter(|rows| !rows.is_empty());
+            let moving = moving.map_or(material, |rows| V::load_double(rows, part));
             let mass = Masses { material, moving };
             let outcome = kernel.step(&x, &v, state, part, mass);
             for corner in 0..N {
@@ -248,31 +283,52 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
                 V::spread(force, &mut corner_forces, corner, part);
             }
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
-            let (here, step) = (V::splat(chunk as f64), outcome.stable_step);
+            let (here, step) = (V::splat(row as f64), outcome.stable_step);
             let best = V::load(&smallest, part);
-            V::select_less(step, best, here, V::load(&smallest_chunk, part)).store(&mut smallest_chunk, part);
+            V::select_less(step, best, here, V::load(&smallest_row, part)).store(&mut smallest_row, part);
             V::select_less(step, best, step, best).store(&mut smallest, part);
-            if let Some(row) = &mut steps {
-                step.store(row, part);
+            if let Some(rows) = &mut steps {
+                step.store_double(rows, part);
             }
-            let failed = V::load(&failed_chunk, part);
-            V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_chunk, part);
+            let failed = V::load(&failed_row, part);
+            V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_row, part);
         }
-        let first = chunk * CHUNK;
-        let places = &group.places[first..group.places.len().min(first + CHUNK)];
-        match &mut sink {
-            Target::Apart(slots) => {
-                for (slots, forces) in slots[N * first..].chunks_exact_mut(N).zip(&corner_forces[..places.len()]) {
-                    slots.copy_from_slice(&forces[..N]);
+        if V::SINGLE && S::BALANCED {
+            balance::<N>(&mut corner_forces);
+        }
+        for (next, connectivity) in connectivity.iter().enumerate() {
+            let first = (chunk + next) * CHUNK;
+            let places = &group.places[group.places.len().min(first)..group.places.len().min(first + CHUNK)];
+            let forces = &corner_forces[next * CHUNK..][..CHUNK];
+            match &mut sink {
+                Target::Apart(slots) => {
+                    let slots = slots.get_mut(N * first..).unwrap_or_default();
+                    for (slots, forces) in slots.chunks_exact_mut(N).zip(&forces[..places.len()]) {
+                        slots.copy_from_slice(&forces[..N]);
+                    }
                 }
+                Target::Nodes(merge) => merge.chunk(places, connectivity, forces),
             }
-            Target::Nodes(merge) => merge.chunk(places, connectivity, &corner_forces),
         }
     }
     if let Target::Nodes(merge) = &mut sink {
         merge.border_before(u32::MAX);
     }
-    summarise(group, &smallest, &smallest_chunk, &failed_chunk)
+    summarise(group, &smallest, &smallest_row, &failed_row)
+}
+
+/// Makes the forces of each element add up to nothing again, which they have been rounded away from: momentum is kept.
+#[inline(always)]
+fn balance<const N: usize>(forces: &mut CornerForces) {
+    for corners in forces {
+        let mut sum = [0.0; 4];
+        for corner in &corners[1..N] {
+            for (sum, force) in sum.iter_mut().zip(corner.0) {
+                *sum += force;
+            }
+        }
+        corners[0] = Force(sum.map(|sum| 0.0 - sum));
+    }
 }
 
 /// Positions and velocities of the corners, relative to the first corner so that neither a far origin nor a fast
@@ -281,26 +337,37 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
 #[allow(clippy::type_complexity)]
 fn relative_corners<V: Lanes, const N: usize>(
     nodes: &[Row],
-    connectivity: &[[u32; CHUNK]; N],
+    connectivity: &[[[u32; CHUNK]; N]],
     part: usize,
     about_axis: bool,
     places: usize,
 ) -> ([[V; N]; 3], [[V; N]; 3]) {
-    let mut first = V::gather(nodes, &connectivity[0], part);
+    let at = |corner: usize| -> Corner { [&connectivity[0][corner], &connectivity[connectivity.len() - 1][corner]] };
     let zero = V::splat(0.0);
     let (mut x, mut v) = ([[zero; N]; 3], [[zero; N]; 3]);
+    if V::SINGLE {
+        // Far from the origin single precision would leave nothing of a difference.
+        for corner in 1..places {
+            let row = V::gather_from(nodes, at(0), at(corner), part);
+            for i in 0..3 {
+                (x[i][corner], v[i][corner]) = (row[i], row[4 + i]);
+            }
+        }
+        return (x, v);
+    }
+    let mut first = V::gather(nodes, at(0), part);
     if about_axis {
         (x[0][0], v[0][0], first[0], first[4]) = (first[0], first[4], zero, zero);
     }
     for corner in 1..places {
-        let row = V::gather(nodes, &connectivity[corner], part);
+        let row = V::gather(nodes, at(corner), part);
         for i in 0..3 {
             x[i][corner] = row[i] - first[i];
             v[i][corner] = row[4 + i] - first[4 + i];
         }
     }
     for corner in places..N {
-        let row = V::gather(nodes, &connectivity[corner], part);
+        let row = V::gather(nodes, at(corner), part);
         for i in 0..3 {
             v[i][corner] = row[4 + i];
         }
@@ -308,16 +375,16 @@ fn relative_corners<V: Lanes, const N: usize>(
     (x, v)
 }
 
-fn summarise(group: &Group, smallest: &Row, smallest_chunk: &Row, failed_chunk: &Row) -> PassOutcome {
-    (0..CHUNK).fold(PassOutcome::NOTHING, |outcome, lane| {
+fn summarise<R: Numbers>(group: &Group, smallest: &R, smallest_row: &R, failed_row: &R) -> PassOutcome {
+    (0..R::LANES).fold(PassOutcome::NOTHING, |outcome, lane| {
         // Lanes that fill up the last chunk repeat its last element.
-        let place = |chunk: f64| {
-            chunk.is_finite().then(|| group.places[(chunk as usize * CHUNK + lane).min(group.places.len() - 1)])
+        let place = |row: f64| {
+            row.is_finite().then(|| group.places[(row as usize * R::LANES + lane).min(group.places.len() - 1)])
         };
         outcome.and(PassOutcome {
-            stable_step: smallest.0[lane],
-            controlling: place(smallest_chunk.0[lane]),
-            failed: place(failed_chunk.0[lane]),
+            stable_step: smallest.number(lane),
+            controlling: place(smallest_row.number(lane)),
+            failed: place(failed_row.number(lane)),
         })
     })
 }

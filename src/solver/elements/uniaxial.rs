@@ -1,6 +1,6 @@
 //! Any three-dimensional law in uniaxial stress: the strain across is found such that the stress across vanishes.
 
-use crate::lanes::{Lanes, Row, Sym3};
+use crate::lanes::{Lanes, Sym3};
 use crate::material::{Kernel, Moduli, Response, Step};
 
 /// State variables of a law at most.
@@ -32,7 +32,7 @@ pub fn update<V: Lanes, K: Kernel>(
     [along, stretch_along, stretch_across]: [V; 3],
     old: [V; 2],
     [time, time_step]: [f64; 2],
-    law_state: &mut [Row],
+    law_state: &mut [V::Row],
     part: usize,
 ) -> Answer<V> {
     let (zero, two) = (V::splat(0.0), V::splat(2.0));
@@ -73,10 +73,9 @@ pub fn update<V: Lanes, K: Kernel>(
         before = [lateral, across];
         let way = lateral - last_lateral;
         // Where nothing has moved there is no secant.
-        let moved = V::select_less(way * way, V::splat(f64::MIN_POSITIVE), V::splat(1.0), way);
+        let moved = V::select_less(way * way, V::splat(V::TINY), V::splat(1.0), way);
         let secant = ((across - last_across) / moved).max(bulk * V::splat(0.9)).min(elastic);
-        let slope =
-            if call == 0 { returned } else { V::select_less(way * way, V::splat(f64::MIN_POSITIVE), elastic, secant) };
+        let slope = if call == 0 { returned } else { V::select_less(way * way, V::splat(V::TINY), elastic, secant) };
         lateral = lateral - across / slope;
     }
     let nothing = (old[0], zero, Response::returned(V::splat(1.0)));

@@ -4,6 +4,13 @@ use crate::lanes::CHUNK;
 use crate::restart::Archive;
 use crate::solver::elements::{ElementBlock, Group};
 
+/// A row of an element, and whether its numbers or their bits are kept, as whole numbers.
+#[derive(Clone, Copy)]
+enum Place {
+    Number(usize),
+    Bits(usize),
+}
+
 /// Visits the rows of all elements by their names: `rows` are the names of all that the model's elements store, `law_states`
 /// those that its laws store, `points` those of points of integration, and `count` is the number of local elements.
 pub(super) fn visit(
@@ -14,18 +21,22 @@ pub(super) fn visit(
     count: usize,
 ) {
     for name in rows {
-        let place = |block: &ElementBlock| block.element.entry().rows.iter().position(|row| row.name == *name);
+        let place = |block: &ElementBlock| {
+            let own = block.element.entry().rows.iter().position(|row| row.name == *name).map(Place::Number);
+            let carried = || block.element.carried().iter().position(|known| known == name);
+            own.or_else(|| carried().map(|k| Place::Bits(block.first_of_point(block.element.points()) + k)))
+        };
         visit_row(archive, blocks, name, count, place);
     }
     for name in law_states {
         let place = |block: &ElementBlock| {
             let place = block.state_names.iter().position(|known| known == name)?;
-            block.element.entry().points.is_none().then(|| block.first_of_law(0) + place)
+            block.element.entry().points.is_none().then(|| Place::Number(block.first_of_law(0) + place))
         };
         visit_row(archive, blocks, name, count, place);
     }
     for name in points {
-        visit_row(archive, blocks, name, count, |block| point_row(block, name));
+        visit_row(archive, blocks, name, count, |block| point_row(block, name).map(Place::Number));
     }
 }
 
@@ -44,14 +55,17 @@ fn visit_row(
     blocks: &mut [ElementBlock],
     name: &str,
     count: usize,
-    row: impl Fn(&ElementBlock) -> Option<usize>,
+    row: impl Fn(&ElementBlock) -> Option<Place>,
 ) {
     let mut values = vec![0.0; count];
     for block in blocks.iter() {
         let Some(row) = row(block) else { continue };
         for group in block.groups() {
             for (i, &place) in group.places.iter().enumerate() {
-                values[place as usize] = group.value(i, row);
+                values[place as usize] = match row {
+                    Place::Number(row) => group.value(i, row),
+                    Place::Bits(row) => f64::from(group.bits(i, row)),
+                };
             }
         }
     }
@@ -68,14 +82,15 @@ fn visit_row(
 
 impl Group {
     /// Sets one stored number of every element, given by the element's place in the rank's order.
-    fn set_row(&mut self, row: usize, values: &[f64]) {
+    fn set_row(&mut self, row: Place, values: &[f64]) {
         // Places, nodes and masses are of the problem and its cut; which are gone has been put back before,
         // and steps are put back by who wants them.
         let Group {
             places,
             mass,
-            state,
-            stride,
+            state: _,
+            single: _,
+            stride: _,
             moving: _,
             corners: _,
             unknowns: _,
@@ -83,11 +98,15 @@ impl Group {
             gone: _,
             steps: _,
         } = self;
-        let Some(&last) = places.last() else { return };
+        let (Some(&last), lanes) = (places.last(), mass.len() * CHUNK) else { return };
         // Lanes that fill up the last chunk copy its last element.
-        for slot in 0..mass.len() * CHUNK {
-            let place = places.get(slot).copied().unwrap_or(last);
-            state[slot / CHUNK * *stride + row].0[slot % CHUNK] = values[place as usize];
+        for slot in 0..lanes {
+            let place = self.places.get(slot).copied().unwrap_or(last);
+            let value = values[place as usize];
+            match row {
+                Place::Number(row) => self.put(slot, row, value),
+                Place::Bits(row) => self.put_bits(slot, row, value as u32),
+            }
         }
     }
 }

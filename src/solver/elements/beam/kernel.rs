@@ -2,7 +2,7 @@
 
 use super::section::MOST_FIBRES;
 use super::{point_rows, rows};
-use crate::lanes::{Lanes, Row, array};
+use crate::lanes::{Lanes, array};
 use crate::material::{Kernel, Moduli};
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::uniaxial;
@@ -57,7 +57,7 @@ pub fn axes<V: Lanes>(along: &[V; 3], y: &[V; 3]) -> Axes<V> {
     let e1: [V; 3] = array![i in 3 => along[i] / length];
     let lean = product(y, &e1);
     let across: [V; 3] = array![i in 3 => y[i] - lean * e1[i]];
-    let size = product(&across, &across).max(V::splat(f64::MIN_POSITIVE)).sqrt();
+    let size = product(&across, &across).max(V::splat(V::TINY)).sqrt();
     let e2: [V; 3] = array![i in 3 => across[i] / size];
     let e3 = cross(&e1, &e2);
     Axes { e: [e1, e2, e3], length }
@@ -108,7 +108,7 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
         &self,
         positions: &[[V; 4]; 3],
         velocities: &[[V; 4]; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 4> {
@@ -151,7 +151,7 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
 impl<K: Kernel> BeamStep<K> {
     /// Advances fibres, torsion and shear, books their energy and stores them: N, T, M_y, M_z, Q_y, Q_z.
     #[inline(always)]
-    fn resultants<V: Lanes>(&self, rates: &Rates<V>, length: V, state: &mut [Row], part: usize) -> [V; 6] {
+    fn resultants<V: Lanes>(&self, rates: &Rates<V>, length: V, state: &mut [V::Row], part: usize) -> [V; 6] {
         let (one, half, dt) = (V::splat(1.0), V::splat(0.5), V::splat(self.times[1]));
         let [area, iy, iz, torsion, _] = self.section;
         let [stretching, twisting, about_y, about_z] = array![i in 4 => rates.along[i] * dt];
@@ -208,7 +208,7 @@ impl<K: Kernel> BeamStep<K> {
 
     /// 2/ω with the largest ω² of stretching 2EA/Lm, shear 2S/Lm + LS/2I, bending 2EI/LI and torsion 2GJ/LI, m and I those of a node.
     #[inline(always)]
-    fn stable_step<V: Lanes>(&self, length: V, state: &[Row], part: usize, mass: V) -> V {
+    fn stable_step<V: Lanes>(&self, length: V, state: &[V::Row], part: usize, mass: V) -> V {
         let [area, iy, iz, torsion, _] = self.section;
         let [young, mu] = young_and_shear(self.moduli);
         let two = V::splat(2.0);

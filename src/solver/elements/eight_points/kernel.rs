@@ -2,7 +2,7 @@
 
 use super::field::{Field, Moments, SIGNS, contraction};
 use super::{point_rows, rows};
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
@@ -59,7 +59,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         &self,
         positions: &[Corners<V>; 3],
         velocities: &[Corners<V>; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 8> {
@@ -150,7 +150,7 @@ impl<K: Kernel> EightPointStep<K> {
         &self,
         (mean, field, [across_before, across]): (&Sym3<V>, &Field<V>, [[V; 2]; 2]),
         volume: V,
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
     ) -> Answer<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));

@@ -1,19 +1,23 @@
 //! What an element with an equation of state knows of its step before the law has found its stress; its accounts are those of
 //! [`AccountRows`].
 
+use super::carried;
 use super::fluid;
 use super::geometry::{Corners, Gradient, Modes, dot, gradient};
 use super::hourglass::Resistance;
 use super::kernel::{Settings, hourglass_rates};
 use super::kinematics::rotation_matrix;
 use super::rows;
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::Kernel;
 use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
 
 /// Where the accounts are.
-const ROWS: AccountRows =
-    AccountRows { accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY], law: rows::LAW };
+const ROWS: AccountRows = AccountRows {
+    accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY],
+    law: rows::LAW,
+    carried: [carried::ENERGIES, carried::ENERGIES + 2, carried::ENERGIES + 1],
+};
 
 /// Rows of the forces on corners, of fluids.
 pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
@@ -70,7 +74,7 @@ impl<V: Lanes> Start<V> {
     pub fn of<K: Kernel>(
         [x, v]: [&[Modes<V>; 3]; 2],
         [positions, velocities]: [&[Corners<V>; 3]; 2],
-        state: &[Row],
+        state: &[V::Row],
         part: usize,
         settings: &Settings,
     ) -> Start<V> {
@@ -106,7 +110,7 @@ impl<V: Lanes> Start<V> {
 
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
     #[inline(always)]
-    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [Row], part: usize, settings: &Settings) {
+    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {
         ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
     }
 }

@@ -4,7 +4,7 @@
 
 use super::geometry::Corners;
 use super::hourglass::Resistance;
-use crate::lanes::{Lanes, Row, array};
+use crate::lanes::{Lanes, array};
 use crate::mesh::corners::NEIGHBOURS;
 use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
 
@@ -64,7 +64,7 @@ impl<V: Lanes> Corner<V> {
 
 /// Power of the forces Λ on the corners' Jacobians that are kept in `rows`, at a geometry.
 #[inline(always)]
-pub fn power<V: Lanes>(x: &[Corners<V>; 3], v: &[Corners<V>; 3], rows: &[Row], part: usize) -> V {
+pub fn power<V: Lanes>(x: &[Corners<V>; 3], v: &[Corners<V>; 3], rows: &[V::Row], part: usize) -> V {
     let mut sum = V::splat(0.0);
     // Of corners that were not close there is none.
     if any_close::<V>(&rows[8], part) {
@@ -90,7 +90,7 @@ pub struct Held<V> {
 #[inline(always)]
 pub fn hold<V: Lanes>(
     [x, v]: [&[Corners<V>; 3]; 2],
-    rows: &mut [Row],
+    rows: &mut [V::Row],
     part: usize,
     [volume, mass, stable_step, b_squared]: [V; 4],
 ) -> Held<V> {

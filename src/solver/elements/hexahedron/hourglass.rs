@@ -37,6 +37,11 @@ pub trait Control: Copy + Send + Sync {
     const LENGTHS: bool;
     /// Advances the stored resistance `q` by the hourglass rates and returns the total resistance.
     fn resist<V: Lanes>(&self, rate: &Resistance<V>, q: &mut Resistance<V>, state: &State<V>) -> Resistance<V>;
+    /// Factor on the stored resistance in a step, and on what is added to it.
+    #[inline(always)]
+    fn kept<V: Lanes>(&self, _state: &State<V>) -> V {
+        V::splat(1.0)
+    }
     /// Part of the viscosity by which a fluid's modes are resisted, at most 1.
     fn of_fluids(&self) -> f64;
     /// Largest stable time step with hourglass control, given the one without, `stiffness_measure`, mass and μ.
@@ -139,6 +144,11 @@ impl Control for AssumedStrain {
         *q
     }
 
+    #[inline(always)]
+    fn kept<V: Lanes>(&self, state: &State<V>) -> V {
+        state.returned
+    }
+
     fn of_fluids(&self) -> f64 {
         self.factor.min(1.0)
     }
@@ -171,6 +181,14 @@ impl Control for Either {
         match self {
             Either::FlanaganBelytschko(control) => control.resist(rate, q, state),
             Either::AssumedStrain(control) => control.resist(rate, q, state),
+        }
+    }
+
+    #[inline(always)]
+    fn kept<V: Lanes>(&self, state: &State<V>) -> V {
+        match self {
+            Either::FlanaganBelytschko(control) => control.kept(state),
+            Either::AssumedStrain(control) => control.kept(state),
         }
     }
 

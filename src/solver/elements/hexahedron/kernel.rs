@@ -1,12 +1,13 @@
 //! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
 
+use super::carried;
 use super::exact::{self, Start};
 use super::fluid;
 use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
 use super::rows;
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
@@ -65,7 +66,7 @@ impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
         &self,
         positions: &[Corners<V>; 3],
         velocities: &[Corners<V>; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 8> {
@@ -79,7 +80,7 @@ impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
 fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     positions: &[Corners<V>; 3],
     velocities: &[Corners<V>; 3],
-    state: &mut [Row],
+    state: &mut [V::Row],
     part: usize,
     mass: Masses<V>,
     Physics { settings, law, control }: &Physics<K, H>,
@@ -102,25 +103,31 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let hourglass_rate = hourglass_rates(&v, &middle, &velocity_gradient);
 
     // (ii) frame, stretch and strain increment
-    let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
-    let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
-    let Motion { strain, frame: r, middle: r_middle } =
-        kinematics::advance::<V, false>(&velocity_gradient, &mut frame, &mut stretch, time_step);
-    store(frame, state, rows::FRAME, part);
-    store(stretch.to_array(), state, rows::STRETCH, part);
+    let (motion, stretch) = if V::SINGLE {
+        carried::advance::<V, K>(&velocity_gradient, state, part, time_step)
+    } else {
+        let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
+        let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
+        let motion = kinematics::advance::<V, false>(&velocity_gradient, &mut frame, &mut stretch, time_step);
+        store(frame, state, rows::FRAME, part);
+        store(stretch.to_array(), state, rows::STRETCH, part);
+        (motion, stretch)
+    };
+    let Motion { strain, frame: r, middle: r_middle } = motion;
 
     // (iii) stress
     let old = Sym3::load(&state[rows::STRESS..], part);
     let mut stress = old;
-    let (own, law_state) = state.split_at_mut(rows::LAW);
     let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
     let inverse_volume = V::splat(settings.density) / mass.material;
     let (energy, swept) = match &start {
         Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
         None => (zero, zero),
     };
+    let carries = V::SINGLE && K::HYPOELASTIC;
+    let felt = if carries { carried::with_rest::<V, K>(&strain, state, part) } else { strain };
     let motion = Step {
-        strain,
+        strain: felt,
         stretch,
         volume: if K::VOLUME { volume(&x) * inverse_volume } else { V::splat(1.0) },
         middle_volume: middle_volume * inverse_volume,
@@ -129,11 +136,14 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         time: settings.time,
         time_step: settings.time_step,
     };
-    let response = law.update(&motion, &mut stress, law_state, part);
-    store(stress.to_array(), own, rows::STRESS, part);
+    let response = law.update(&motion, &mut stress, &mut state[rows::LAW..], part);
+    store(stress.to_array(), state, rows::STRESS, part);
+    if carries {
+        carried::keep_rest::<V, K>(&felt, [&old, &stress], state, part, settings);
+    }
     if !K::EQUATION {
         let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
-        accumulate(power * middle_volume, &mut own[rows::INTERNAL_ENERGY], part);
+        book::<V, K>(power * middle_volume, INTERNAL, state, part);
     }
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
@@ -153,10 +163,10 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
     let damping = damping(settings.viscosity, bound, rate);
     let viscous = damping * modulus * bound * rate;
-    let last = V::load(&own[rows::VISCOUS_STRESS], part);
-    viscous.store(&mut own[rows::VISCOUS_STRESS], part);
+    let last = V::load(&state[rows::VISCOUS_STRESS], part);
+    viscous.store(&mut state[rows::VISCOUS_STRESS], part);
     if !K::EQUATION {
-        accumulate((last + viscous) * half * strain.trace() * middle_volume, &mut own[rows::VISCOUS_ENERGY], part);
+        book::<V, K>((last + viscous) * half * strain.trace() * middle_volume, VISCOUS, state, part);
     }
     let stable_step = damped_step(bound, damping);
 
@@ -178,14 +188,14 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         let rates = exact::rates(&v, &x, &start.flow, gradient.volume192);
         let resistance = fluid::resistance(&rates, control.of_fluids(), light, stable_step);
         for i in 0..3 {
-            store(resistance[i], own, rows::HOURGLASS + 4 * i, part);
+            store(resistance[i], state, rows::HOURGLASS + 4 * i, part);
         }
         held = fluid::hold([positions, velocities], &mut state[exact::corner_rows::<K>()], part, sizes);
         let of_modes = exact::power(&resistance, &rates) + held.power;
         start.finish::<K>([stress.xx * start.growth, viscous * start.growth, of_modes], state, part, settings);
         resistance
     } else {
-        resist(*control, &hourglass_rate, [&r_middle, &r], own, part, &hourglass_state)
+        resist::<V, K, H>(control, &hourglass_rate, [&r_middle, &r], state, part, &hourglass_state)
     };
     let stable_step =
         if K::FLUID { held.stable_step } else { control.stable_step(stable_step, stiffness_measure, light, mu) };
@@ -208,6 +218,21 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         force = array![i in 3 => array![n in 8 => force[i][n] + held.force[i][n]]];
     }
     Outcome { force, stable_step }
+}
+
+/// Accounts of energies, by their place behind the internal one.
+const INTERNAL: usize = 0;
+const HOURGLASS_WORK: usize = rows::HOURGLASS_ENERGY - rows::INTERNAL_ENERGY;
+const VISCOUS: usize = rows::VISCOUS_ENERGY - rows::INTERNAL_ENERGY;
+
+/// Adds to an account.
+#[inline(always)]
+fn book<V: Lanes, K: Kernel>(energy: V, account: usize, state: &mut [V::Row], part: usize) {
+    if V::SINGLE {
+        carried::book(energy, [account, K::STATE.len()], state, part);
+    } else {
+        accumulate(energy, &mut state[rows::INTERNAL_ENERGY + account], part);
+    }
 }
 
 /// Volume of the element.
@@ -234,11 +259,11 @@ pub(in crate::solver::elements) fn hourglass_rates<V: Lanes>(
 /// Rates belong to the middle of the step and are turned by its frame. Turned by the frame at the end, the stiffness
 /// would have a skew part, and hourglass modes of a spinning body would grow by a factor per revolution.
 #[inline(always)]
-fn resist<V: Lanes, H: hourglass::Control>(
+fn resist<V: Lanes, K: Kernel, H: hourglass::Control>(
     control: &H,
     rate: &Resistance<V>,
     [middle, r]: [&Matrix3<V>; 2],
-    own: &mut [Row],
+    own: &mut [V::Row],
     part: usize,
     state: &hourglass::State<V>,
 ) -> Resistance<V> {
@@ -246,8 +271,13 @@ fn resist<V: Lanes, H: hourglass::Control>(
         middle[0][i] * rate[0][a] + middle[1][i] * rate[1][a] + middle[2][i] * rate[2][a]
     }]];
     let old: Resistance<V> = array![i in 3 => array![a in 4 => V::load(&own[rows::HOURGLASS + 4 * i + a], part)]];
-    let mut q = old;
-    let total = control.resist(&local, &mut q, state);
+    let [q, total] = if V::SINGLE {
+        carried::resist::<V, K, H>(control, &local, &old, own, part, state)
+    } else {
+        let mut q = old;
+        let total = control.resist(&local, &mut q, state);
+        [q, total]
+    };
     let mut work = V::splat(0.0);
     for i in 0..3 {
         store(q[i], own, rows::HOURGLASS + 4 * i, part);
@@ -256,7 +286,7 @@ fn resist<V: Lanes, H: hourglass::Control>(
             work = work + (total[i][a] + (old[i][a] - q[i][a]) * V::splat(0.5)) * local[i][a];
         }
     }
-    accumulate(work * state.time_step, &mut own[rows::HOURGLASS_ENERGY], part);
+    book::<V, K>(work * state.time_step, HOURGLASS_WORK, own, part);
     array![i in 3 => array![a in 4 => r[i][0] * total[0][a] + r[i][1] * total[1][a] + r[i][2] * total[2][a]]]
 }
 

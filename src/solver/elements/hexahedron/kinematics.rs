@@ -49,6 +49,24 @@ fn turn<V: Lanes>(q: &[V; 4], t: &[V; 3]) -> [V; 4] {
     [w * scale, x * scale, y * scale, z * scale]
 }
 
+/// q ⊗ (1, t)/|(1, t)| − q, without the cancellation, and with a pull towards the length of one.
+#[inline(always)]
+fn turn_by<V: Lanes>(q: &[V; 4], t: &[V; 3]) -> [V; 4] {
+    let one = V::splat(1.0);
+    let across = [
+        -(q[1] * t[0] + q[2] * t[1] + q[3] * t[2]),
+        q[0] * t[0] + (q[2] * t[2] - q[3] * t[1]),
+        q[0] * t[1] + (q[3] * t[0] - q[1] * t[2]),
+        q[0] * t[2] + (q[1] * t[1] - q[2] * t[0]),
+    ];
+    let square = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+    let root = (one + square).sqrt();
+    let scale = one / root;
+    let excess = ((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])) - one;
+    let shrink = square * scale / (root + one) + excess * V::splat(0.5);
+    array![i in 4 => across[i] * scale - q[i] * shrink]
+}
+
 /// (tr(U) I − U)⁻¹ z by cofactors. The matrix is singular only when two principal stretches sum to zero, which
 /// an element that has not inverted cannot reach.
 #[inline(always)]
@@ -77,10 +95,54 @@ pub fn advance<V: Lanes, const MIDDLE: bool>(
     stretch: &mut Sym3<V>,
     time_step: V,
 ) -> Motion<V> {
-    let half = V::splat(0.5);
     let old = rotation_matrix(frame);
+    let Increment { strain, half_turn, correction } =
+        increment::<V, MIDDLE>(velocity_gradient, &old, stretch, time_step);
+    *frame = turn(frame, &half_turn);
+    *stretch = advance_stretch(stretch, &strain, &correction);
+    motion(strain, &old, frame)
+}
+
+/// The same for a frame and a stretch that are sums of small parts and keep what their last digits cannot hold: what is to be
+/// added to both.
+#[inline(always)]
+pub fn parts<V: Lanes>(
+    velocity_gradient: &Matrix3<V>,
+    frame: &[V; 4],
+    stretch: &Sym3<V>,
+    time_step: V,
+) -> (Sym3<V>, [V; 4], Sym3<V>) {
+    let old = rotation_matrix(frame);
+    let Increment { strain, half_turn, correction } =
+        increment::<V, false>(velocity_gradient, &old, stretch, time_step);
+    (strain, turn_by(frame, &half_turn), stretch_increment(stretch, &strain, &correction))
+}
+
+/// The motion of a step whose strain increment, frame at the start and quaternion at the end are known.
+#[inline(always)]
+pub fn motion<V: Lanes>(strain: Sym3<V>, old: &Matrix3<V>, frame: &[V; 4]) -> Motion<V> {
+    let new = rotation_matrix(frame);
+    let middle = array![i in 3 => array![j in 3 => (old[i][j] + new[i][j]) * V::splat(0.5)]];
+    Motion { strain, frame: new, middle }
+}
+
+/// What a step does to a frame and a stretch.
+struct Increment<V> {
+    strain: Sym3<V>,
+    half_turn: [V; 3],
+    correction: [V; 3],
+}
+
+#[inline(always)]
+fn increment<V: Lanes, const MIDDLE: bool>(
+    velocity_gradient: &Matrix3<V>,
+    old: &Matrix3<V>,
+    stretch: &Sym3<V>,
+    time_step: V,
+) -> Increment<V> {
+    let half = V::splat(0.5);
     // l Δt seen in the frame at the start of the step.
-    let l = multiply_transposed(&old, &multiply(velocity_gradient, &old));
+    let l = multiply_transposed(old, &multiply(velocity_gradient, old));
     let l = array![i in 3 => array![j in 3 => l[i][j] * time_step]];
     let d = Sym3::of(&l);
     let w = [(l[2][1] - l[1][2]) * half, (l[0][2] - l[2][0]) * half, (l[1][0] - l[0][1]) * half];
@@ -101,12 +163,7 @@ pub fn advance<V: Lanes, const MIDDLE: bool>(
         ];
         half_turn = array![i in 3 => (w[i] - before[i]) * half];
     }
-    *frame = turn(frame, &half_turn);
-    let strain = at_half_turn(&d, &half_turn);
-    *stretch = advance_stretch(&u, &strain, &correction);
-    let new = rotation_matrix(frame);
-    let middle = array![i in 3 => array![j in 3 => (old[i][j] + new[i][j]) * half]];
-    Motion { strain, frame: new, middle }
+    Increment { strain: at_half_turn(&d, &half_turn), half_turn, correction }
 }
 
 /// axial(U d): the part of U d that is not symmetric.
@@ -144,10 +201,16 @@ fn at_half_turn<V: Lanes>(d: &Sym3<V>, half_turn: &[V; 3]) -> Sym3<V> {
 /// U + sym(l̃ U + ½ l̃ l̃ U) with l̃ = d + skew(c).
 #[inline(always)]
 fn advance_stretch<V: Lanes>(u: &Sym3<V>, d: &Sym3<V>, c: &[V; 3]) -> Sym3<V> {
+    u.zip(stretch_increment(u, d, c), |a, b| a + b)
+}
+
+/// sym(l̃ U + ½ l̃ l̃ U) with l̃ = d + skew(c).
+#[inline(always)]
+fn stretch_increment<V: Lanes>(u: &Sym3<V>, d: &Sym3<V>, c: &[V; 3]) -> Sym3<V> {
     let l = [[d.xx, d.xy - c[2], d.zx + c[1]], [d.xy + c[2], d.yy, d.yz - c[0]], [d.zx - c[1], d.yz + c[0], d.zz]];
     let lu = multiply(&l, &u.matrix());
     let half = V::splat(0.5);
     let m = u.matrix();
     let middle: Matrix3<V> = array![i in 3 => array![j in 3 => m[i][j] + lu[i][j] * half]];
-    u.zip(Sym3::of(&multiply(&l, &middle)), |a, b| a + b)
+    Sym3::of(&multiply(&l, &middle))
 }

@@ -1,15 +1,18 @@
 //! The eight-node hexahedron with one point of integration (Flanagan and Belytschko 1981), also as wedge or pyramid.
 
+mod carried;
 mod exact;
 mod fluid;
 pub mod geometry;
 pub mod hourglass;
 pub(super) mod kernel;
 pub mod kinematics;
+pub mod range;
 pub(super) mod vibration;
 
 use super::{
-    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Probe, Sample, StoredRow, Unfit,
+    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Probe, Sample, StepKernel,
+    StoredRow, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
@@ -17,7 +20,7 @@ use crate::mesh::check::hexahedron_volume;
 use crate::mesh::corners::least_corner;
 use crate::mesh::hexahedron::{least_share, mass_shares};
 use crate::mesh::{Block, Shape};
-use crate::model::{Hourglass, Model, StepModuli};
+use crate::model::{Hourglass, Model, Precision, StepModuli};
 use crate::solver::body::centroid;
 use crate::solver::nodes::Nodes;
 use crate::vector::{add, cross, dot, normalized, scaled, subtract};
@@ -106,11 +109,24 @@ pub struct Hexahedron {
     pub hourglass: Hourglass,
     /// The least part of an eighth of its mass that any node has of an element: 1 but where corners coincide.
     pub least_share: f64,
+    /// Precision of state and kernel.
+    pub precision: Precision,
 }
 
 impl Formulation for Hexahedron {
     fn of_block(_: &Block, model: &Model) -> Result<Self, Unfit> {
-        Ok(Hexahedron { hourglass: model.hourglass, least_share: 1.0 })
+        Ok(Hexahedron { hourglass: model.hourglass, least_share: 1.0, precision: model.precision })
+    }
+
+    fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    fn carried(&self) -> &'static [&'static str] {
+        match self.precision {
+            Precision::Double => &[],
+            Precision::Single => &carried::NAMES,
+        }
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
@@ -119,7 +135,7 @@ impl Formulation for Hexahedron {
 
     fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
         let (axes, start) = begin(element);
-        unstressed(&axes, own);
+        unstressed(&axes, self.precision, own);
         start
     }
 
@@ -137,7 +153,7 @@ impl Formulation for Hexahedron {
             viscosity: settings.bulk_viscosity,
             effective_moduli: settings.moduli == StepModuli::Effective,
         };
-        law.accept(OfLaw { control: self.hourglass, pass, settings })
+        law.accept(OfLaw { control: self.hourglass, pass, settings, precision: self.precision })
     }
 
     /// A viscosity of hourglass control and laws whose stiffness changes would need more than a stiffness.
@@ -147,18 +163,19 @@ impl Formulation for Hexahedron {
     }
 
     fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
-        pass.over(&Vibration {
+        let vibration = Vibration {
             probe,
             moduli: law.moduli(),
             control: either(self.hourglass),
             least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
-        });
+        };
+        over(self.precision, pass, &vibration);
     }
 
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
-        unstressed(&[1.0, 0.0, 0.0, 0.0], own);
+        unstressed(&[1.0, 0.0, 0.0, 0.0], self.precision, own);
         density * edge * edge * edge
     }
 
@@ -175,7 +192,12 @@ impl Formulation for Hexahedron {
     }
 
     fn stretch(&self, group: &Group, i: usize, _: &Nodes) -> Sym3<f64> {
-        tensor(group, i, rows::STRETCH)
+        let stored = tensor(group, i, rows::STRETCH);
+        match self.precision {
+            Precision::Double => stored,
+            // See `carried`.
+            Precision::Single => stored.add_diagonal(1.0),
+        }
     }
 
     fn least_corner(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
@@ -229,8 +251,8 @@ pub(super) fn mean_power(stress: &Matrix3<f64>, now: &[[f64; 3]; 8], v: &[[f64; 
 }
 
 /// Rows of an element in this frame that has not been strained.
-fn unstressed(frame: &[f64; 4], own: &mut [f64]) {
-    own[rows::STRETCH..rows::STRETCH + 3].fill(1.0);
+fn unstressed(frame: &[f64; 4], precision: Precision, own: &mut [f64]) {
+    own[rows::STRETCH..rows::STRETCH + 3].fill(if precision == Precision::Double { 1.0 } else { 0.0 });
     own[rows::FRAME..rows::FRAME + 4].copy_from_slice(frame);
 }
 
@@ -244,6 +266,7 @@ struct OfLaw<'a> {
     control: Hourglass,
     pass: Pass<'a>,
     settings: Settings,
+    precision: Precision,
 }
 
 impl KernelVisitor for OfLaw<'_> {
@@ -282,7 +305,15 @@ impl KernelVisitor for HasConstantStiffness {
 
 impl OfLaw<'_> {
     fn with_control<K: Kernel, H: Control>(self, law: &K, control: &H) -> PassOutcome {
-        self.pass.over(&Physics { settings: self.settings, law, control })
+        over(self.precision, self.pass, &Physics { settings: self.settings, law, control })
+    }
+}
+
+/// A pass in the precision of a block.
+fn over<S: StepKernel<8>>(precision: Precision, pass: Pass, step: &S) -> PassOutcome {
+    match precision {
+        Precision::Double => pass.over(step),
+        Precision::Single => pass.over_single(step),
     }
 }
 

@@ -9,7 +9,7 @@ use super::geometry::{self, Corners, dot, gradient, modes};
 use super::hourglass::{self, Control, Either, Resistance};
 use super::kernel::{corner_forces, hourglass_rates, lengths};
 use super::kinematics::rotation_matrix;
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array};
+use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::Moduli;
 use crate::model::BulkViscosity;
 use crate::solver::elements::Probe;
@@ -40,12 +40,15 @@ pub struct FrameRows {
 }
 
 impl StepKernel<8> for Vibration {
+    // Masses are no forces.
+    const BALANCED: bool = false;
+
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
         positions: &[Corners<V>; 3],
         velocities: &[Corners<V>; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 8> {

@@ -6,13 +6,16 @@ use super::kernel::{Rates, Settings, load, rates, rotated, solid, weighted_modes
 use super::kinematics::Flat;
 use super::rows;
 use super::sections::{Corners, Section};
-use crate::lanes::{Lanes, Row, array};
+use crate::lanes::{Lanes, array};
 use crate::material::Kernel;
 use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
 
 /// Where the accounts are.
-const ROWS: AccountRows =
-    AccountRows { accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY], law: rows::LAW };
+const ROWS: AccountRows = AccountRows {
+    accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY],
+    law: rows::LAW,
+    carried: [0; 3],
+};
 
 /// Rows of the forces on corners, of fluids: one each, and of the eight that there are the last four stay free.
 pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
@@ -59,7 +62,7 @@ impl<V: Lanes> Start<V> {
     pub fn of<K: Kernel>(
         section: Section,
         [x, v]: [&[Corners<V>; 2]; 2],
-        state: &[Row],
+        state: &[V::Row],
         part: usize,
         settings: &Settings,
     ) -> Start<V> {
@@ -88,7 +91,7 @@ impl<V: Lanes> Start<V> {
 
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
     #[inline(always)]
-    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [Row], part: usize, settings: &Settings) {
+    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {
         ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
     }
 }

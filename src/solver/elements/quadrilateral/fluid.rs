@@ -3,7 +3,7 @@
 
 use super::kernel;
 use super::sections::Corners;
-use crate::lanes::{Lanes, Row, array};
+use crate::lanes::{Lanes, array};
 use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
 
 /// Q = α (M/16) q̇/Δt, in space: the mode weighs M/16 per unit of its rate, and is slowed by the part α in a stable step Δt of its
@@ -83,7 +83,7 @@ impl<V: Lanes> Corner<V> {
 #[inline(always)]
 pub fn power<V: Lanes>(
     [x, v]: [&[Corners<V>; 2]; 2],
-    rows: &[Row],
+    rows: &[V::Row],
     part: usize,
     weights: Option<&(Corners<V>, V)>,
 ) -> V {
@@ -142,7 +142,7 @@ impl<V: Lanes> Held<V> {
 #[inline(always)]
 pub fn hold<V: Lanes>(
     [x, v]: [&[Corners<V>; 2]; 2],
-    rows: &mut [Row],
+    rows: &mut [V::Row],
     part: usize,
     [area, mass, stable_step, b_squared]: [V; 4],
     weights: Option<&(Corners<V>, V)>,

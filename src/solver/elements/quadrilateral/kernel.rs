@@ -6,7 +6,7 @@ use super::hourglass;
 use super::kinematics::{self, Flat, Motion};
 use super::rows;
 use super::sections::{Corners, Operator, Section};
-use crate::lanes::{Lanes, Row, Sym3, array};
+use crate::lanes::{Lanes, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::{BulkViscosity, Hourglass};
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
@@ -60,7 +60,7 @@ pub struct Physics<'a, K> {
 }
 
 #[inline(always)]
-pub(super) fn load<V: Lanes>(state: &[Row], first: usize, part: usize) -> [V; 4] {
+pub(super) fn load<V: Lanes>(state: &[V::Row], first: usize, part: usize) -> [V; 4] {
     array![i in 4 => V::load(&state[first + i], part)]
 }
 
@@ -93,7 +93,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         &self,
         positions: &[Corners<V>; 3],
         velocities: &[Corners<V>; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 4> {
@@ -381,7 +381,7 @@ fn resist<V: Lanes>(
     control: Hourglass,
     [rate, worked]: [&[V; 2]; 2],
     [[cm, sm], [c, s]]: [[V; 2]; 2],
-    (own, part): (&mut [Row], usize),
+    (own, part): (&mut [V::Row], usize),
     thickness: V,
     state: &hourglass::State<V>,
 ) -> [V; 2] {

@@ -109,7 +109,7 @@ fn times<V: Lanes>(a: &[V; 3], factor: V) -> [V; 3] {
 /// Unit vector; zero for zero.
 #[inline(always)]
 fn unit<V: Lanes>(a: &[V; 3]) -> [V; 3] {
-    let length = dot(a, a).max(V::splat(f64::MIN_POSITIVE)).sqrt();
+    let length = dot(a, a).max(V::splat(V::TINY)).sqrt();
     times(a, V::splat(1.0) / length)
 }
 
@@ -314,7 +314,7 @@ impl<V: Lanes> Geometry<V> {
         let (f11, f12) = (j11 * r11, j11 * r12 + j12 * r22);
         let (f21, f22) = (V::splat(0.0), j22 * r22);
         let (a, b) = (f11 + f22, f21 - f12);
-        let length = (a * a + b * b).max(V::splat(f64::MIN_POSITIVE)).sqrt();
+        let length = (a * a + b * b).max(V::splat(V::TINY)).sqrt();
         let (c, s) = (a / length, b / length);
         ([c, s], [c * f11 + s * f21, c * f22 - s * f12, c * f12 + s * f22])
     }

@@ -5,7 +5,7 @@ use super::plane_stress;
 use super::rule::MOST_POINTS;
 use super::stable_step::{self, CHANGE, Stiffness};
 use super::{point_rows, rows};
-use crate::lanes::{CHUNK, Lanes, Row, Sym3, array};
+use crate::lanes::{Lanes, Numbers, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
@@ -43,7 +43,7 @@ impl<K: Kernel> StepKernel<8> for ShellStep<K> {
         &self,
         positions: &[[V; 8]; 3],
         velocities: &[[V; 8]; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 8> {
@@ -133,7 +133,7 @@ fn turned_rates<V: Lanes>(rates: &Rates<V>, turn: [V; 2]) -> Motion<V> {
 impl<K: Kernel> ShellStep<K> {
     /// Advances all points and books their energy; stores thickness and resultants.
     #[inline(always)]
-    fn points<V: Lanes>(&self, motion: &Motion<V>, area: V, state: &mut [Row], part: usize) -> Found<V> {
+    fn points<V: Lanes>(&self, motion: &Motion<V>, area: V, state: &mut [V::Row], part: usize) -> Found<V> {
         let (zero, one, half) = (V::splat(0.0), V::splat(1.0), V::splat(0.5));
         let [time, step] = self.times;
         let step_lanes = V::splat(step);
@@ -224,7 +224,7 @@ impl<K: Kernel> ShellStep<K> {
         rates: &Rates<V>,
         geometry: &Geometry<V>,
         found: &Found<V>,
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
     ) -> Resistance<V> {
         let step = V::splat(self.times[1]);
@@ -294,7 +294,7 @@ impl<K: Kernel> ShellStep<K> {
 
     /// Bulk viscosity of the membrane as a mean stress, with its energy booked.
     #[inline(always)]
-    fn viscous<V: Lanes>(&self, rates: &Rates<V>, area: V, found: &Found<V>, state: &mut [Row], part: usize) -> V {
+    fn viscous<V: Lanes>(&self, rates: &Rates<V>, area: V, found: &Found<V>, state: &mut [V::Row], part: usize) -> V {
         let rate = rates.strain[0] + rates.strain[1];
         let bound = V::load(&state[rows::STEP], part);
         let damping = damping(self.viscosity, bound, rate);
@@ -319,7 +319,7 @@ impl<K: Kernel> ShellStep<K> {
         x: &Corners<V>,
         rates: &Rates<V>,
         found: &Found<V>,
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: V,
     ) -> V {
@@ -343,14 +343,14 @@ impl<K: Kernel> ShellStep<K> {
 
     /// Finds the steps of those lanes again that have changed much.
     #[inline(always)]
-    fn find_again<V: Lanes>(&self, x: &Corners<V>, found: &Found<V>, state: &mut [Row], part: usize, mass: V) {
-        let mut places = [[Row::default(); 3]; 4];
+    fn find_again<V: Lanes>(&self, x: &Corners<V>, found: &Found<V>, state: &mut [V::Row], part: usize, mass: V) {
+        let mut places = [[V::Row::default(); 3]; 4];
         for corner in 0..4 {
             for i in 0..3 {
                 x[corner][i].store(&mut places[corner][i], part);
             }
         }
-        let mut body = [Row::default(); 3];
+        let mut body = [V::Row::default(); 3];
         let (mu, nu) = (0.5 * self.moduli.two_mu, self.moduli.poisson());
         mass.store(&mut body[0], part);
         found.thickness.store(&mut body[1], part);
@@ -362,30 +362,30 @@ impl<K: Kernel> ShellStep<K> {
 
 /// See [`ShellStep::find_again`]: one lane after the other, so that nothing here is compiled for vectors.
 #[inline(never)]
-fn find_lanes(
+fn find_lanes<R: Numbers>(
     lanes: std::ops::Range<usize>,
-    places: &[[Row; 3]; 4],
-    body: &[Row; 3],
+    places: &[[R; 3]; 4],
+    body: &[R; 3],
     stiffness: &Stiffness,
-    state: &mut [Row],
+    state: &mut [R],
 ) {
-    for lane in lanes.filter(|&lane| lane < CHUNK) {
-        let changed = state[rows::CHANGED].0[lane];
+    for lane in lanes.filter(|&lane| lane < R::LANES) {
+        let changed = state[rows::CHANGED].number(lane);
         if changed.is_nan() || changed <= CHANGE {
             continue;
         }
-        let corners: Corners<f64> = [0, 1, 2, 3].map(|c: usize| [0, 1, 2].map(|i: usize| places[c][i].0[lane]));
-        let [mass, thickness, drill] = [0, 1, 2].map(|i: usize| body[i].0[lane]);
-        let inertia = state[rows::INERTIA].0[lane];
+        let corners: Corners<f64> = [0, 1, 2, 3].map(|c: usize| [0, 1, 2].map(|i: usize| places[c][i].number(lane)));
+        let [mass, thickness, drill] = [0, 1, 2].map(|i: usize| body[i].number(lane));
+        let inertia = state[rows::INERTIA].number(lane);
         let body = stable_step::Body { mass, inertia, thickness, drill };
-        state[rows::STEP].0[lane] = stable_step::stable_step(&corners, stiffness, &body);
-        state[rows::CHANGED].0[lane] = 0.0;
+        state[rows::STEP].set(lane, stable_step::stable_step(&corners, stiffness, &body));
+        state[rows::CHANGED].set(lane, 0.0);
     }
 }
 
 impl<V: Lanes> Found<V> {
     #[inline(always)]
-    fn store(&self, own: &mut [Row], part: usize) {
+    fn store(&self, own: &mut [V::Row], part: usize) {
         for i in 0..3 {
             self.force[i].store(&mut own[rows::RESULTANTS + i], part);
             self.moment[i].store(&mut own[rows::RESULTANTS + 3 + i], part);
@@ -407,7 +407,7 @@ fn drill_factor<V: Lanes>(found: &Found<V>, young: V, mu: f64) -> V {
     let [m11, m22, m12] = found.moment;
     let square = m11 * m11 + m22 * m22 + (m12 * m12 + m12 * m12);
     let t2 = found.thickness * found.thickness;
-    (V::splat(144.0 / mu) * square / (young * t2 * t2).max(V::splat(f64::MIN_POSITIVE))).max(V::splat(0.01))
+    (V::splat(144.0 / mu) * square / (young * t2 * t2).max(V::splat(V::TINY))).max(V::splat(0.01))
 }
 
 /// Resultants in the axes of the element, times the area.

@@ -1,6 +1,6 @@
 //! Any three-dimensional law in plane stress: the strain through the thickness is found such that the stress there vanishes.
 
-use crate::lanes::{Lanes, Row, Sym3};
+use crate::lanes::{Lanes, Sym3};
 use crate::material::{Kernel, Moduli, Response, Step};
 
 /// State variables of a law at most.
@@ -33,7 +33,7 @@ pub fn update<V: Lanes, K: Kernel>(
     strain: Sym3<V>,
     old: Sym3<V>,
     [time, time_step]: [f64; 2],
-    state: &mut [Row],
+    state: &mut [V::Row],
     part: usize,
 ) -> Answer<V> {
     let (zero, one) = (V::splat(0.0), V::splat(1.0));
@@ -48,7 +48,7 @@ pub fn update<V: Lanes, K: Kernel>(
     let mut normal = contraction * (strain.xx + strain.yy) - old.zz / elastic;
     let size = strain.xx * strain.xx + strain.yy * strain.yy + strain.xy * strain.xy;
     let shear = strain.yz * strain.yz + strain.zx * strain.zx;
-    let small = V::splat(ACCURACY) * ((size + shear).sqrt() * elastic + V::splat(f64::MIN_POSITIVE));
+    let small = V::splat(ACCURACY) * ((size + shear).sqrt() * elastic + V::splat(V::TINY));
     let (mut last_normal, mut last_left) = (zero, zero);
     let mut stress = old;
     let mut response = Response::returned(one);
@@ -77,9 +77,9 @@ pub fn update<V: Lanes, K: Kernel>(
         let returned = bulk + (elastic - bulk) * response.returned;
         let way = normal - last_normal;
         let still = way * way;
-        let moved = V::select_less(still, V::splat(f64::MIN_POSITIVE), one, way);
+        let moved = V::select_less(still, V::splat(V::TINY), one, way);
         let secant = ((left - last_left) / moved).max(bulk * V::splat(0.9)).min(elastic);
-        let secant = V::select_less(still, V::splat(f64::MIN_POSITIVE), elastic, secant);
+        let secant = V::select_less(still, V::splat(V::TINY), elastic, secant);
         let slope = if call == 0 { returned } else { secant };
         let correction = V::select_less(small, magnitude, left / slope, zero);
         // A lane that is done keeps what its secant was drawn through.

@@ -8,7 +8,7 @@ use super::{
     Energies, Entry, Formulation, Group, Masses, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
     StepKernel, StoredRow, Touch, Unfit, uniaxial,
 };
-use crate::lanes::{Lanes, Matrix3, Row, Sym3, array, exp};
+use crate::lanes::{Lanes, Matrix3, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
 use crate::mesh::{Block, Shape};
 use crate::model::Model;
@@ -191,7 +191,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         &self,
         positions: &[[V; 2]; 3],
         velocities: &[[V; 2]; 3],
-        state: &mut [Row],
+        state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
     ) -> Outcome<V, 2> {

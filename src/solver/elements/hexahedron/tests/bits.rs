@@ -10,11 +10,11 @@ fn instruction_sets() -> Vec<InstructionSet> {
 
 /// Everything that a pass over 19 random elements leaves behind after each of twenty cycles, as bits; the elements
 /// fill two chunks and three lanes of a third.
-fn history(law: Law, control: Hourglass, instructions: InstructionSet) -> Vec<u64> {
+fn history(precision: Precision, law: Law, control: Hourglass, instructions: InstructionSet) -> Vec<u64> {
     let mut random = Random(13);
     let points: Vec<[f64; 3]> = (0..19).flat_map(|_| random.warped(0.3)).collect();
     let cells: Vec<[u32; 8]> = (0..19u32).map(|e| std::array::from_fn(|n| 8 * e + n as u32)).collect();
-    let mut rig = Rig::new(&points, &cells, law, control);
+    let mut rig = Rig::of(precision, &points, &cells, law, control);
     rig.pass.bulk_viscosity = BulkViscosity { linear: 0.06, quadratic: 1.2 };
     rig.pass.moduli = StepModuli::Effective;
     rig.pass.instructions = instructions;
@@ -30,7 +30,20 @@ fn history(law: Law, control: Hourglass, instructions: InstructionSet) -> Vec<u6
         bits.extend(rig.forces.iter().flat_map(|f| f.0).map(f64::to_bits));
     }
     bits.extend(rig.block.interior.state.iter().flat_map(|row| row.0).map(f64::to_bits));
+    bits.extend(rig.block.interior.single.iter().flat_map(|row| row.0).map(|x| u64::from(x.to_bits())));
     bits
+}
+
+/// In both precisions.
+fn assert_agreement(law: &Law, control: Hourglass) {
+    for precision in [Precision::Double, Precision::Single] {
+        let histories: Vec<_> =
+            instruction_sets().iter().map(|&set| history(precision, law.clone(), control, set)).collect();
+        for (other, set) in histories.iter().zip(instruction_sets()) {
+            let first = other.iter().zip(&histories[0]).position(|(a, b)| a != b);
+            assert_eq!(first, None, "{precision:?}, {law:?}, {control:?}, {}", set.name());
+        }
+    }
 }
 
 #[test]
@@ -41,11 +54,7 @@ fn instruction_sets_agree_to_the_bit() {
     let viscous = Hourglass::FlanaganBelytschko { stiffness: 0.05, viscosity: 0.02 };
     for law in [elastic(0.3), plastic(1.0), plastic(0.3)] {
         for control in [ASSUMED, flanagan_belytschko(0.05), viscous, flanagan_belytschko(0.4)] {
-            let histories: Vec<_> = instruction_sets().iter().map(|&set| history(law.clone(), control, set)).collect();
-            for (other, set) in histories.iter().zip(instruction_sets()) {
-                let first = other.iter().zip(&histories[0]).position(|(a, b)| a != b);
-                assert_eq!(first, None, "{law:?}, {control:?}, {}", set.name());
-            }
+            assert_agreement(&law, control);
         }
     }
 }
@@ -57,11 +66,7 @@ fn instruction_sets_agree_for_every_law() {
     let problem = crate::model::examine(source, None).unwrap_or_else(|found| panic!("{}", found.render(false)));
     for law in problem.model.materials.into_iter().map(|material| material.law) {
         for control in [ASSUMED, flanagan_belytschko(0.05)] {
-            let histories: Vec<_> = instruction_sets().iter().map(|&set| history(law.clone(), control, set)).collect();
-            for (other, set) in histories.iter().zip(instruction_sets()) {
-                let first = other.iter().zip(&histories[0]).position(|(a, b)| a != b);
-                assert_eq!(first, None, "{law:?}, {control:?}, {}", set.name());
-            }
+            assert_agreement(&law, control);
         }
     }
 }
@@ -74,11 +79,17 @@ fn chunks_do_not_matter() {
     let elements: Vec<Corners> = (0..19).map(|_| random.warped(0.3)).collect();
     let cells: Vec<[u32; 8]> = (0..19u32).map(|e| std::array::from_fn(|n| 8 * e + n as u32)).collect();
     let velocities: Vec<[f64; 3]> = (0..152).map(|_| random.vector()).collect();
-    let mut together = Rig::new(&elements.concat(), &cells, elastic(0.3), ASSUMED);
+    for precision in [Precision::Double, Precision::Single] {
+        together_or_alone(precision, &elements, &cells, &velocities);
+    }
+}
+
+fn together_or_alone(precision: Precision, elements: &[Corners], cells: &[[u32; 8]], velocities: &[[f64; 3]]) {
+    let mut together = Rig::of(precision, &elements.concat(), cells, elastic(0.3), ASSUMED);
     let found = together.step(1e-3, |n| velocities[n]);
     let mut smallest = PassOutcome::NOTHING;
     for (e, corners) in elements.iter().enumerate() {
-        let mut alone = Rig::single(corners, elastic(0.3), ASSUMED);
+        let mut alone = Rig::of(precision, corners, &[[0, 1, 2, 3, 4, 5, 6, 7]], elastic(0.3), ASSUMED);
         let one = alone.step(1e-3, |n| velocities[8 * e + n]);
         smallest = smallest.and(PassOutcome { controlling: Some(e as u32), ..one });
         for n in 0..8 {

@@ -41,7 +41,11 @@ fn ratio(shape: Form, corners: &Corners, poisson: f64, hourglass: Hourglass) -> 
     });
     let exact = 2.0 / scaled.symmetric_eigenvalues().max().sqrt();
     let mut rig = Rig::single(corners, elastic(poisson), hourglass);
-    rig.block.element = Element::Hexahedron(Hexahedron { hourglass, least_share: least_share(&numbers, &shares) });
+    rig.block.element = Element::Hexahedron(Hexahedron {
+        hourglass,
+        least_share: least_share(&numbers, &shares),
+        precision: Precision::Double,
+    });
     exact / rig.step(0.0, |_| [0.0; 3]).stable_step
 }
 

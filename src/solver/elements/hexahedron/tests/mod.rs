@@ -19,7 +19,7 @@ use super::{Hexahedron, geometry, rows};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Kernel, KernelVisitor, Law};
 use crate::mesh::UNIT_CUBE as CUBE;
-use crate::model::{BulkViscosity, Hourglass, StepModuli};
+use crate::model::{BulkViscosity, Hourglass, Precision, StepModuli};
 use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
@@ -112,6 +112,10 @@ struct Rig {
 
 impl Rig {
     fn new(points: &[[f64; 3]], cells: &[[u32; 8]], law: Law, hourglass: Hourglass) -> Rig {
+        Rig::of(Precision::Double, points, cells, law, hourglass)
+    }
+
+    fn of(precision: Precision, points: &[[f64; 3]], cells: &[[u32; 8]], law: Law, hourglass: Hourglass) -> Rig {
         let state_names = law.accept(StateRows);
         let elements: Vec<NewElement> = cells
             .iter()
@@ -128,7 +132,7 @@ impl Rig {
                 }
             })
             .collect();
-        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0 });
+        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0, precision });
         let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
         Rig {
             block: ElementBlock {

@@ -1,0 +1,184 @@
+//! Eight lanes of single precision in one 256-bit register; a row is worked off in two parts.
+//!
+//! SAFETY, for the whole file: as in `lanes::avx512`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the eight numbers
+//! from `part · 8` lie inside a row of sixteen; slicing checks it. Four numbers of a node lie inside its row of eight.
+
+use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
+use crate::lanes::{CHUNK, Corner, CornerForces, Lanes, Row, SingleRow};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Eight numbers of single precision.
+#[derive(Clone, Copy)]
+pub struct F32x8(__m256);
+
+macro_rules! lane_by_lane {
+    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
+        impl $trait for F32x8 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self { F32x8(unsafe { $intrinsic(self.0, other.0) }) }
+        }
+    )+ };
+}
+lane_by_lane!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+
+impl Neg for F32x8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        F32x8(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
+    }
+}
+
+/// Eight doubles rounded.
+#[inline(always)]
+fn rounded(low: __m256d, high: __m256d) -> __m256 {
+    unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high)) }
+}
+
+/// Four rows transposed within each half of the register.
+#[inline(always)]
+fn transpose_halves(r: [__m256; 4]) -> [__m256; 4] {
+    unsafe {
+        let (l0, h0) = (_mm256_unpacklo_ps(r[0], r[1]), _mm256_unpackhi_ps(r[0], r[1]));
+        let (l1, h1) = (_mm256_unpacklo_ps(r[2], r[3]), _mm256_unpackhi_ps(r[2], r[3]));
+        [
+            _mm256_shuffle_ps::<0x44>(l0, l1),
+            _mm256_shuffle_ps::<0xee>(l0, l1),
+            _mm256_shuffle_ps::<0x44>(h0, h1),
+            _mm256_shuffle_ps::<0xee>(h0, h1),
+        ]
+    }
+}
+
+/// Rows of eight, one per lane, turned.
+#[inline(always)]
+fn turned(row: [__m256; 8]) -> [F32x8; 8] {
+    let a = transpose_halves([row[0], row[1], row[2], row[3]]);
+    let b = transpose_halves([row[4], row[5], row[6], row[7]]);
+    let low: [F32x8; 4] = array![c in 4 => F32x8(unsafe { _mm256_permute2f128_ps::<0x20>(a[c], b[c]) })];
+    let high: [F32x8; 4] = array![c in 4 => F32x8(unsafe { _mm256_permute2f128_ps::<0x31>(a[c], b[c]) })];
+    [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
+}
+
+#[inline(always)]
+fn half(row: &Row, h: usize) -> __m256d {
+    unsafe { _mm256_load_pd(row.0[h * 4..h * 4 + 4].as_ptr()) }
+}
+
+impl Lanes for F32x8 {
+    type Row = SingleRow;
+    const SINGLE: bool = true;
+    const COUNT: usize = CHUNK;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        F32x8(unsafe { _mm256_set1_ps(value as f32) })
+    }
+    #[inline(always)]
+    fn load(row: &SingleRow, part: usize) -> Self {
+        F32x8(unsafe { _mm256_load_ps(row.0[part * 8..part * 8 + 8].as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, row: &mut SingleRow, part: usize) {
+        unsafe { _mm256_store_ps(row.0[part * 8..part * 8 + 8].as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        F32x8(rounded(half(&rows[part], 0), half(&rows[part], 1)))
+    }
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        let row = &mut rows[part].0;
+        unsafe {
+            _mm256_store_pd(row[..4].as_mut_ptr(), _mm256_cvtps_pd(_mm256_castps256_ps128(self.0)));
+            _mm256_store_pd(row[4..].as_mut_ptr(), _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0)));
+        }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        F32x8(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        F32x8(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        F32x8(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
+        F32x8(unsafe { _mm256_blendv_ps(no.0, yes.0, _mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0)) })
+    }
+    #[inline(always)]
+    fn any_less(a: Self, b: Self) -> bool {
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0)) != 0 }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm256_castps_si256(self.0);
+            let mantissa = _mm256_and_si256(bits, _mm256_set1_epi32(MANTISSA_BITS as i32));
+            let one = _mm256_castps_si256(_mm256_set1_ps(1.0));
+            let whole = _mm256_castps_si256(_mm256_set1_ps(WHOLE));
+            let exponent = _mm256_castsi256_ps(_mm256_or_si256(_mm256_srli_epi32::<23>(bits), whole));
+            let exponent = F32x8(exponent) - F32x8(_mm256_set1_ps(WHOLE + BIAS));
+            (F32x8(_mm256_castsi256_ps(_mm256_or_si256(mantissa, one))), exponent)
+        }
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        unsafe {
+            let shifted = self + F32x8(_mm256_set1_ps(WHOLE + BIAS));
+            F32x8(_mm256_castsi256_ps(_mm256_slli_epi32::<23>(_mm256_castps_si256(shifted.0))))
+        }
+    }
+    #[inline(always)]
+    fn halves(self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm256_castps_si256(self.0);
+            let upper = _mm256_and_si256(bits, _mm256_set1_epi32(UPPER_HALF as i32));
+            (F32x8(_mm256_castsi256_ps(upper)), F32x8(_mm256_castsi256_ps(_mm256_slli_epi32::<16>(bits))))
+        }
+    }
+    #[inline(always)]
+    fn of_halves(upper: Self, lower: Self) -> Self {
+        unsafe {
+            let rounding = _mm256_set1_epi32(ROUNDING as i32);
+            let upper = _mm256_add_epi32(_mm256_castps_si256(upper.0), rounding);
+            let lower = _mm256_add_epi32(_mm256_castps_si256(lower.0), rounding);
+            let upper = _mm256_and_si256(upper, _mm256_set1_epi32(UPPER_HALF as i32));
+            F32x8(_mm256_castsi256_ps(_mm256_or_si256(upper, _mm256_srli_epi32::<16>(lower))))
+        }
+    }
+    #[inline(always)]
+    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8] {
+        turned(array![i in 8 => {
+            let own = &rows[index[part][i] as usize];
+            rounded(half(own, 0), half(own, 1))
+        }])
+    }
+    #[inline(always)]
+    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
+        turned(array![i in 8 => {
+            let (own, first) = (&rows[index[part][i] as usize], &rows[origin[part][i] as usize]);
+            unsafe {
+                let low = _mm256_sub_pd(half(own, 0), half(first, 0));
+                rounded(low, _mm256_sub_pd(half(own, 1), half(first, 1)))
+            }
+        }])
+    }
+    #[inline(always)]
+    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
+        let turned = transpose_halves([force[0].0, force[1].0, force[2].0, unsafe { _mm256_setzero_ps() }]);
+        for (i, pair) in turned.into_iter().enumerate() {
+            unsafe {
+                let first = _mm256_cvtps_pd(_mm256_castps256_ps128(pair));
+                _mm256_store_pd(out[part * 8 + i][corner].0.as_mut_ptr(), first);
+                let second = _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(pair));
+                _mm256_store_pd(out[part * 8 + 4 + i][corner].0.as_mut_ptr(), second);
+            }
+        }
+    }
+}
