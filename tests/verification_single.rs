@@ -199,8 +199,9 @@ fn every_law_with_the_same_bits_on_any_ranks() {
     assert!(runs[1..].iter().all(|other| bits(other) == bits(&runs[0])), "bits depend on ranks");
     let double = run(MATERIALS, &mesh).whole();
     for block in 0..14 {
-        let history =
-            |run: &Run| -> Vec<f64> { run.states.iter().flat_map(|state| state.element("SIGZZ")[8 * block..8 * block + 8].to_vec()).collect() };
+        let history = |run: &Run| -> Vec<f64> {
+            run.states.iter().flat_map(|state| state.element("SIGZZ")[8 * block..8 * block + 8].to_vec()).collect()
+        };
         let (a, b) = (history(&double), history(&runs[0]));
         let size = a.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let worst = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / size;
