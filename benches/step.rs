@@ -8,7 +8,6 @@ use urto::lanes::InstructionSet;
 use urto::material::{Elastic, ElasticPlastic, Law};
 use urto::mesh::{Block, Dimension, Mesh, NodeSet, Shape};
 use urto::model::*;
-use urto::partition::Decomposition;
 use urto::solver::{Body, Request, Solver};
 
 /// A box of n³ cubes of edge 1; node set 1 is the side x = 0.
@@ -138,7 +137,7 @@ fn grind_of(mesh: &Mesh, model: &Model, instructions: InstructionSet, ranks: usi
     let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(ranks);
     let contributors = body.contributors(&cut);
-    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), ranks);
+    let decomposition = body.decomposition(&contributors, ranks);
     let burst = (4_000_000 / count).clamp(3, 200);
     let run = |comm: &mut dyn Communicator| {
         let mut solver = Solver::new(mesh, model, &body, &decomposition.share(comm.rank()), comm);

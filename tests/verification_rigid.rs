@@ -388,3 +388,107 @@ fn a_rigid_sheet() {
     assert_same("ranks", &whole, &case.part(3, None, 60));
     assert_same("restart", &whole, &case.part(2, Some(&case.part(3, None, 25).end), 35));
 }
+
+/// Nodes of a plane that contains the direction in which they are held: to first order a body could turn about the line in which the plane meets the
+/// others, as all single equations allow; in truth it cannot.
+#[test]
+fn a_face_that_is_held_along_itself_does_not_turn() {
+    let mesh = recipe(
+        "TITLE\n HELD\nBOX, 1, 0., 0., 0., 1., 0.5, 0.4, 4, 2, 2\nBOX, 2, 0.1, 0., 0.4, 0.9, 0.5, 0.2, 5, 3, 1\n\
+         NODE SET FACE, 1, 1, LEFT\nSIDE SET FACE, 100, 2, TOP\n",
+    );
+    let deck = |rigid: &str| {
+        format!(
+            "TERMINATION TIME, 1.E-3\nOUTPUT TIME, 1.E-5\nPLOT TIME, 1.E-4\n{rigid}TIME STEP MAXIMUM, 1.E-6\nNO DISPLACEMENT, Z, 1\n\
+             FUNCTION, 1\n 0., 1.\n 1., 1.\nEND\nPRESSURE, 100, 1, 1.E7\nCONTACT MATERIAL, ALL\n{STEEL}{}",
+            STEEL.replace("MATERIAL, 1", "MATERIAL, 2")
+        )
+    };
+    let run = run(&deck("RIGID BODY, 1\n"), &mesh);
+    let moved = (0..mesh.coordinates.len()).filter(|&node| mesh.coordinates[node][2] <= 0.39);
+    let farthest = moved.map(|node| run.end().nodal("DISPLZ")[node].abs()).fold(0.0, f64::max);
+    between("held along itself", "farthest that the body goes", farthest, 0.0, 1e-12);
+    between("held along itself", "worst balance", run.worst_balance(), 0.0, 1e-3);
+    // A pressure that sets in at once gives ½ p²/E of a column and half of it again as motion; the pillar moves no more than that.
+    let stored = 1e7f64.powi(2) / 200e9 * 0.9 * 0.5 * 0.2;
+    between("held along itself", "energy of the pillar", run.last().totals.external / stored, 0.0, 4.0);
+}
+
+/// Motions that no rigid body can do end the run and are named; without them it would go astray or be no number.
+#[test]
+fn motions_that_contradict_each_other_are_told() {
+    let mut mesh = brick([2, 2, 2], [1.0, 1.0, 1.0]);
+    add_node_set(&mut mesh, 50, |x| x == [0.0, 0.0, 0.0]);
+    add_node_set(&mut mesh, 51, |x| x == [1.0, 0.0, 0.0]);
+    add_node_set(&mut mesh, 52, |x| x[0] == 0.0);
+    add_node_set(&mut mesh, 53, |x| x[0] == 1.0);
+    let head = "TERMINATION TIME, 1.\nOUTPUT TIME, 0.1\nPLOT TIME, 0.1\nRIGID BODY, 1\nTIME STEP MAXIMUM, 1.E-3\n\
+        FUNCTION, 1\n 0., 0.\n 2., 2.\nEND\n";
+    for (motions, told) in [
+        // Two nodes that are pulled apart.
+        ("PRESCRIBED DISPLACEMENT, X, 50, 1, 0.1\nNO DISPLACEMENT, X, 51\n", "wants it"),
+        // A bar pressed together, and bent across.
+        ("PRESCRIBED VELOCITY, X, 52, 1, 1.\nPRESCRIBED VELOCITY, X, 53, 1, -1.\n", "PRESCRIBED VELOCITY, X"),
+        ("PRESCRIBED VELOCITY, Z, 52, 1, 1.\nPRESCRIBED VELOCITY, Z, 53, 1, -1.\n", "PRESCRIBED VELOCITY, Z"),
+        // Two rates of one body.
+        (
+            "PRESCRIBED ANGULAR VELOCITY, Z, 50, 1, 1.\nPRESCRIBED ANGULAR VELOCITY, Z, 51, 1, 2.\n",
+            "PRESCRIBED ANGULAR VELOCITY, Z",
+        ),
+    ] {
+        let run = run_on(1, &format!("{head}{motions}{STEEL}"), &mesh);
+        let stop = run.stop.expect("the run ends").to_string();
+        assert!(
+            stop.contains("the rigid body of block 1 cannot do all that it is told") && stop.contains(told),
+            "{stop}"
+        );
+    }
+}
+
+/// A hinge takes what it does not allow of the velocity that a body is given, before the first step: a plate that is pushed along its
+/// hinge and across sets off with the angular momentum about the hinge alone.
+#[test]
+fn a_hinged_body_sets_off_as_its_hinge_allows() {
+    let (long, wide) = (0.5, 0.1);
+    let mut mesh = brick([10, 2, 2], [long, wide, wide]);
+    add_node_set(&mut mesh, 50, |x| x[0] == 0.0 && x[2] == 0.05);
+    let run = run(
+        &format!(
+            "TERMINATION TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT TIME, 0.1\nRIGID BODY, 1\nTIME STEP MAXIMUM, 1.E-3\n\
+             INITIAL VELOCITY MATERIAL, 1, 0.7, 0.3, 2.\nNO DISPLACEMENT, X, 50\nNO DISPLACEMENT, Y, 50\nNO DISPLACEMENT, Z, 50\n{STEEL}"
+        ),
+        &mesh,
+    );
+    let mass = 7850.0 * long * wide * wide;
+    let arm = 0.5 * long;
+    let inertia = mass * ((long * long + wide * wide) / 12.0 + arm * arm);
+    let spin = mass * arm * 2.0 / inertia;
+    for line in &run.lines {
+        // ½ θ² of the angle θ of a step, 6e-3, is what a hinge is told of too late.
+        close("hinged body", "kinetic energy", line.totals.kinetic, 0.5 * inertia * spin * spin, 2e-5);
+    }
+    between("hinged body", "worst balance", run.worst_balance(), 0.0, 2e-5);
+}
+
+/// One turn about the middle in a hundred steps comes back to where it began.
+#[test]
+fn a_prescribed_turn_is_the_angle_that_is_prescribed() {
+    let mut mesh = brick([2, 2, 2], [1.0, 1.0, 1.0]);
+    add_node_set(&mut mesh, 51, |x| x[0] == 0.5 && x[1] == 0.5);
+    let run = run(
+        &format!(
+            "TERMINATION TIME, 1.\nOUTPUT TIME, 0.1\nPLOT TIME, 0.25\nRIGID BODY, 1\nTIME STEP MAXIMUM, 1.E-2\nTIME STEP SCALE, 1.\n\
+             FUNCTION, 1\n 0., 0.\n 2., 2.\nEND\nPRESCRIBED ROTATION, Z, 51, 1, {}\nNO DISPLACEMENT, X, 51\nNO DISPLACEMENT, Y, 51\n\
+             NO DISPLACEMENT, Z, 51\n{STEEL}",
+            2.0 * PI
+        ),
+        &mesh,
+    );
+    let end = run.end();
+    let left = end.time - 1.0;
+    for name in ["DISPLX", "DISPLY"] {
+        let worst = end.nodal(name).iter().fold(0.0f64, |worst, u| worst.max(u.abs()));
+        // Round-off of a hundred steps, and of the time at which they end.
+        between("a whole turn", name, worst, 0.0, 1e-12 + 2.0 * PI * left.abs());
+    }
+}

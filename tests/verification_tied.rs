@@ -5,7 +5,7 @@
 mod support;
 
 use support::continued::{Case, assert_same};
-use support::meshes::{add_node_set, recipe};
+use support::meshes::{add_node_set, add_side_set, recipe};
 use support::run::{model, run, run_on};
 use support::{between, close};
 use urto::comm::Serial;
@@ -214,4 +214,140 @@ fn the_same_bits_on_any_ranks_and_after_a_restart() {
     let run = run_on(2, &deck, &mesh).whole();
     between("tied and struck", "worst balance", run.worst_balance(), 0.0, 5e-3);
     between("tied and struck", "energy that contact makes", run.last().totals.contact_gain, 0.0, 1e-9);
+}
+
+/// Block 1 stands on block 2; how the ties of side sets 100 and 200, these in the order given, are refused.
+fn refusal(mesh: &Mesh, ties: &str) -> String {
+    let model = model(&format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\n{ties}{LAWS}"), mesh);
+    let body = Body::new(mesh, &model).expect("materials");
+    body.tied.refusal(mesh, &body.node_mass).expect("a refusal")
+}
+
+#[test]
+fn what_cannot_be_tied_is_told() {
+    let apart = recipe(
+        "TITLE\n APART\nBOX, 1, 0., 0., 0., 1., 1., 0.6, 3, 3, 3\nBOX, 2, 0., 0., 0.9, 1., 1., 0.5, 2, 2, 2\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    assert!(refusal(&apart, "TIED CONTACT, 100, 200\n").contains("ties nothing"));
+    // A heavy coarse face of which a corner covers some nodes of a fine and light one.
+    let partly = recipe(
+        "TITLE\n PARTLY\nBOX, 1, 0., 0., 0., 1., 1., 0.05, 20, 20, 1\nBOX, 2, 0.55, 0.55, 0.05, 1., 1., 1., 1, 1, 1\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    assert!(refusal(&partly, "TIED CONTACT, 200, 100\n").contains("would have a mass of -"));
+}
+
+/// Nodes of a tied side set that face nothing touch the other block like any others: a block that hangs over the edge of the one it is
+/// tied to comes down on what lies beside it.
+#[test]
+fn what_is_not_tied_touches() {
+    let mesh = recipe(
+        "TITLE\n OVER\nBOX, 1, 0., 0., 0., 1., 1., 0.5, 5, 5, 2\nBOX, 2, 0., 0., 0.5, 2., 1., 0.2, 8, 4, 1\n\
+         BOX, 3, 1.2, 0., 0., 0.8, 1., 0.49, 3, 3, 2\nNODE SET FACE, 1, 1, BOTTOM\nNODE SET FACE, 1, 3, BOTTOM\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 100, 3, TOP\nSIDE SET FACE, 200, 2, BOTTOM\nSIDE SET FACE, 300, 2, TOP\n",
+    );
+    let run = run(
+        &format!(
+            "TERMINATION TIME, 0.02\nOUTPUT TIME, 1.E-4\nPLOT TIME, 1.E-3\nTIED CONTACT, 200, 100, 0.01\nCONTACT MATERIAL, ALL\n\
+             NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nFUNCTION, 1\n 0., 1.\n 1., 1.\nEND\n\
+             PRESSURE, 300, 1, 1.E6\n{LAWS}{}",
+            LAWS.split_once("END\n")
+                .map(|(first, _)| format!("{first}END\n").replace("MATERIAL, 1", "MATERIAL, 3"))
+                .unwrap_or_default()
+        ),
+        &mesh,
+    );
+    let hanging = |node: &usize| mesh.coordinates[*node][2] == 0.5 && mesh.coordinates[*node][0] > 1.3;
+    let lowest = (0..mesh.coordinates.len()).filter(hanging);
+    let deepest = |name: &str| {
+        let of = |state: &support::run::State| lowest.clone().map(|node| state.nodal(name)[node]).fold(0.0, f64::min);
+        run.states.iter().map(of).fold(0.0, f64::min)
+    };
+    // The gap is 10 mm; the support below gives way by p h/E of a pressure that is a few times the one above.
+    between("what is not tied", "deepest point", deepest("DISPLZ"), -0.0125, -0.0099);
+    between("what is not tied", "worst balance", run.worst_balance(), 0.0, 2e-3);
+}
+
+/// Coarse nodes follow finer ones that they cover in part, with weights of both signs: stable at the whole step.
+#[test]
+fn coarse_nodes_that_follow_finer_ones_are_stable() {
+    let mesh = recipe(
+        "TITLE\n COARSE\nBOX, 1, 0., 0., 0., 1., 1., 0.4, 6, 6, 2\nBOX, 2, 0.13, 0.21, 0.4, 1.1, 1., 0.5, 4, 4, 2\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    let deck = format!(
+        "TERMINATION TIME, 0.1\nOUTPUT TIME, 1.E-3\nPLOT TIME, 0.1\nTIME STEP SCALE, 1.\nTIED CONTACT, 200, 100\nBULK VISCOSITY, 0., 0.\n\
+         INITIAL VELOCITY MATERIAL, 2, 0.3, 0., -1.\n{LAWS}"
+    );
+    let parts = model(&deck, &mesh);
+    let body = Body::new(&mesh, &parts).expect("materials");
+    // At the step of the elements alone the energy grows a thousandfold in eight steps.
+    between("coarse on fine", "step over that of the elements", body.tied.step_part(), 0.2, 0.3);
+    let run = run(&deck, &mesh);
+    between("coarse on fine", "worst balance", run.worst_balance(), 0.0, 5e-3);
+    let last = &run.last().totals;
+    between(
+        "coarse on fine",
+        "kinetic energy at the end over the first",
+        last.kinetic / run.lines[0].totals.kinetic,
+        0.0,
+        1.0,
+    );
+}
+
+/// A block that is at rest and one that moves, tied: together they have the momentum that the deck gives, whichever follows.
+#[test]
+fn tied_nodes_share_the_momentum_that_they_are_given() {
+    let mesh = stack(3, 4);
+    for (follows, moves) in [("100, 200", 1), ("200, 100", 1), ("100, 200", 2)] {
+        let run = run(
+            &format!(
+                "TERMINATION TIME, 1.E-3\nOUTPUT TIME, 1.E-4\nPLOT TIME, 1.E-3\nTIED CONTACT, {follows}\n\
+                 INITIAL VELOCITY MATERIAL, {moves}, 0.5, 0., 2.\n{LAWS}"
+            ),
+            &mesh,
+        );
+        let mass = 1000.0 * if moves == 1 { 0.6 } else { 0.5 };
+        for line in &run.lines {
+            let [x, _, z] = line.totals.momentum;
+            close("tied and given a velocity", "momentum along x", x, 0.5 * mass, 1e-12);
+            close("tied and given a velocity", "momentum along z", z, 2.0 * mass, 1e-12);
+        }
+    }
+}
+
+/// A joint in two commands that meet in a line is the joint in one: nodes on the line follow what both sides ask for.
+#[test]
+fn joints_that_share_an_edge_are_one() {
+    let mut mesh = recipe(
+        "TITLE\n HALVES\nBOX, 1, 0., 0., 0., 1., 1., 0.6, 4, 4, 3\nBOX, 2, 0., 0., 0.601, 1., 1., 0.5, 3, 3, 2\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    add_side_set(&mut mesh, 101, |x| x[2] == 0.6 && x[0] <= 0.5);
+    add_side_set(&mut mesh, 102, |x| x[2] == 0.6 && x[0] >= 0.5);
+    let followers = |ties: &str| {
+        let model = model(&format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\n{ties}{LAWS}"), &mesh);
+        Body::new(&mesh, &model).expect("materials").tied.followers
+    };
+    let whole = followers("TIED CONTACT, 100, 200\n");
+    let halves = followers("TIED CONTACT, 101, 200\nTIED CONTACT, 102, 200\n");
+    assert_eq!(whole.len(), halves.len());
+    for (one, other) in whole.iter().zip(&halves) {
+        assert_eq!((one.node, one.leaders.len()), (other.node, other.leaders.len()));
+        for ((leader, weight), (same, found)) in one.leaders.iter().zip(&other.leaders) {
+            assert!(leader == same && (weight - found).abs() < 1e-14, "{weight} is not {found}");
+        }
+    }
+}
+
+/// CONTACT SURFACE with FIXED in the place of friction is TIED CONTACT, with the order of the sets by the partition.
+#[test]
+fn fixed_contact_is_tied() {
+    let mesh = stack(4, 3);
+    let ties = |line: &str| model(&format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\n{line}\n{LAWS}"), &mesh).ties;
+    let expected = ties("TIED CONTACT, 100, 200");
+    assert_eq!(ties("CONTACT SURFACE, 100, 200, FIXED"), expected);
+    assert_eq!(ties("CONTACT SURFACE, 200, 100, FIXED, 1."), expected);
+    assert_ne!(ties("CONTACT SURFACE, 200, 100, FIXED, 0.5"), expected);
 }

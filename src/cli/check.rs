@@ -100,6 +100,13 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific(tie.moved, 4)
         );
     }
+    if body.tied.excess > 0.0 {
+        out += &format!(
+            "  joints of TIED CONTACT shorten the step to {} of that of the elements: coarse faces follow finer ones; with the side sets \
+             the other way round they may not\n",
+            scientific(body.tied.step_part(), 3)
+        );
+    }
     for added in &body.added_mass.blocks {
         out += &format!(
             "  block {}: MASS SCALING adds {}, {} of its mass, to {} elements; one of them has {} times its mass\n",

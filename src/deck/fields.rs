@@ -154,6 +154,7 @@ impl FieldRule {
         };
         match &self.kind {
             Kind::Number => number("a number"),
+            Kind::NumberOr(word) => number("a number") + ", or " + word,
             Kind::Integer => number("a whole number"),
             Kind::Id(what) => format!("the number of a {what}"),
             Kind::IdOrAll(what) => format!("the number of a {what}, or ALL"),

@@ -139,6 +139,8 @@ pub struct FieldRule {
 pub enum Kind {
     /// A real number.
     Number,
+    /// A real number, or this word.
+    NumberOr(&'static str),
     /// A whole number.
     Integer,
     /// The number of something: "block", "node set", "side set", "function"; at least 0, of functions 1.
@@ -373,6 +375,7 @@ fn columns(text: &str) -> Vec<&str> {
 fn read_kind(text: &str) -> Result<Kind, String> {
     Ok(match text {
         "number" => Kind::Number,
+        "number-or-fixed" => Kind::NumberOr("FIXED"),
         "integer" => Kind::Integer,
         "block" => Kind::Id("block"),
         "block-or-all" => Kind::IdOrAll("block"),
@@ -390,7 +393,9 @@ fn read_kind(text: &str) -> Result<Kind, String> {
 
 fn read_default(text: &str, kind: &Kind) -> Absent {
     let is_value = match kind {
-        Kind::Number | Kind::Integer | Kind::Id(_) | Kind::IdOrAll(_) => super::number::parse(text).is_some(),
+        Kind::Number | Kind::NumberOr(_) | Kind::Integer | Kind::Id(_) | Kind::IdOrAll(_) => {
+            super::number::parse(text).is_some()
+        }
         _ => text.chars().all(|c| c.is_ascii_uppercase() || c == ' '),
     };
     match text {

@@ -157,6 +157,10 @@ fn field(rule: &FieldRule) -> (String, String) {
         Kind::NextLine => text += " Stands on the next line.",
         Kind::Integer => text += &format!(" {}.", capital(&rule.expected())),
         Kind::Number => text += &range_in_words(rule.range).map_or(String::new(), |r| format!(" {}.", capital(&r))),
+        Kind::NumberOr(word) => {
+            text += &range_in_words(rule.range).map_or(String::new(), |r| format!(" {}.", capital(&r)));
+            text += &format!(" Or {word}.");
+        }
         Kind::IdOrAll(_) => text += " Or ALL.",
         Kind::Id(_) | Kind::Words | Kind::Name => (),
     }

@@ -364,6 +364,7 @@ fn begins_well(entry: &Entry, fields: &[Field]) -> bool {
         (None, _) => entry.status != Status::Built || fields.is_empty(),
         (Some(Kind::Number | Kind::Integer | Kind::Id(_)), Some(field)) => field.number().is_some(),
         (Some(Kind::IdOrAll(_)), Some(field)) => field.number().is_some() || field.text == "ALL",
+        (Some(Kind::NumberOr(word)), Some(field)) => field.number().is_some() || field.text == *word,
         (Some(Kind::Choice(choices)), Some(_)) => {
             choices.iter().any(|choice| spelling::agreement(fields, &choice.name).is_some())
         }

@@ -35,7 +35,10 @@ impl Wrong {
 pub(super) fn read(rule: &FieldRule, fields: &[Field]) -> Result<(usize, Value), Wrong> {
     let Some(field) = fields.first() else { return Err(Wrong::hint("")) };
     match &rule.kind {
-        Kind::Number => real(rule, field).map(|value| (1, Value::Number(value))),
+        Kind::NumberOr(word) if spelling::agreement(fields, word) == Some(Agreement::Exact) => {
+            Ok((1, Value::Text((*word).into())))
+        }
+        Kind::Number | Kind::NumberOr(_) => real(rule, field).map(|value| (1, Value::Number(value))),
         Kind::Integer => integer(rule, field).map(|value| (1, Value::Integer(value))),
         Kind::Id(what) => id(what, field).map(|value| (1, Value::Integer(value))),
         Kind::IdOrAll(_) if spelling::agreement(fields, ALL) == Some(Agreement::Exact) => {

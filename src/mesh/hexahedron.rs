@@ -230,8 +230,8 @@ fn smallest_volume(corners: &[[f64; 3]; 8]) -> f64 {
     4.0 * f64::EPSILON * extent.fold(0.0, f64::max).powi(3)
 }
 
-/// Natural coordinates of the corners.
-const SIGNS: [[f64; 3]; 8] = [
+/// Natural coordinates of the corners, each ±1; the first four, in ξ and η, are those of a quadrilateral.
+pub const SIGNS: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],

@@ -2,8 +2,9 @@
 
 use super::{
     ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap, ContactSearch, ContactSurface,
-    Death, DeathVariable, ElementField, Friction, RigidSurface,
+    Death, DeathVariable, ElementField, Friction, RigidSurface, Tie,
     problem::{Draft, Setter},
+    tied,
 };
 use crate::deck::{Card, Diagnostic, spelling};
 use crate::vector::unit;
@@ -102,6 +103,10 @@ fn friction(card: &Card) -> Friction {
 }
 
 fn contact_surface(card: &Card, draft: &mut Draft) {
+    if tied::is_fixed(card) {
+        let side_sets = tied::sides(card).map(|side| card.integer(side));
+        return draft.model.ties.push(Tie { side_sets, tolerance: tied::TOLERANCE });
+    }
     draft.model.contact.surfaces.push(ContactSurface {
         side_sets: [card.integer("first"), card.integer("second")],
         friction: friction(card),

@@ -147,25 +147,20 @@ impl Body {
             block_body: rigid::bodies_of_blocks(mesh, model),
         };
         body.take_elements(mesh, model);
-        body.overlap = contact::remove_overlap(mesh, model, &mut body);
-        if body.overlap.nodes > 0 {
-            body.weigh(mesh, model);
+        if !model.ties.is_empty() {
+            let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut body.positions);
+            body.tied = Tied::new(mesh, model, positions);
         }
-        body.tie(mesh, model);
+        body.overlap = contact::remove_overlap(mesh, model, &mut body);
+        if body.overlap.nodes > 0 || !model.ties.is_empty() {
+            let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut body.positions);
+            body.tied.place(positions);
+            body.weigh(mesh, model);
+            body.tied.hand_over(&mut body.node_mass);
+        }
         body.rigid = rigid::shapes(mesh, model, &body);
         body.take_faces(mesh, model);
         Ok(body)
-    }
-
-    /// Lets surfaces follow others, as TIED CONTACT asks for.
-    fn tie(&mut self, mesh: &Mesh, model: &Model) {
-        if model.ties.is_empty() {
-            return;
-        }
-        let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut self.positions);
-        self.tied = Tied::new(mesh, model, positions);
-        self.weigh(mesh, model);
-        self.tied.hand_over(&mut self.node_mass);
     }
 
     /// Mass of each mesh block.

@@ -158,6 +158,7 @@ impl Domain {
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
         domain.rigid = RigidBodies::new(mesh, model, body, &local, &domain.nodes);
+        domain.nodes.passive = domain.rigid.iter().flat_map(RigidBodies::inside).collect();
         domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, body, &local);
         domain.contact =
@@ -357,6 +358,7 @@ fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
         places: share.nodes.partition_point(|&file| (file as usize) < mesh.coordinates.len()),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
+        passive: Vec::new(),
     }
 }
 

@@ -329,7 +329,7 @@ impl Solver {
     /// Brings what nobody asks for in a step up to the present, prepared state: nodes inside rigid bodies. Whoever looks at nodes
     /// one by one needs it.
     pub fn refresh(&mut self) {
-        if let Some(rigid) = &self.domain.rigid {
+        if let Some(rigid) = &mut self.domain.rigid {
             rigid.refresh(&mut self.domain.nodes);
         }
     }
@@ -508,6 +508,7 @@ impl Solver {
         }
         self.estimate(Votes { rest, ratio }, comm);
         let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
+        self.stable_step *= self.domain.ties.as_ref().map_or(1.0, |ties| ties.step_part);
         self.stable_step = self.stable_step.min(bodies).min(self.control.longest / self.control.scale);
         self.check_step(comm)?;
         let last = self.time_step;

@@ -1,6 +1,7 @@
 //! Nodes of one rank: position and velocity side by side in one cache line, and the force sums.
 
 use crate::lanes::{Force, Row};
+use std::ops::Range;
 
 pub use crate::vector::{add, cross, dot, scaled, subtract};
 
@@ -20,6 +21,8 @@ pub struct Nodes {
     pub file: Vec<u32>,
     /// Whether this rank answers for the node: one rank does, of those that share it.
     pub owned: Vec<bool>,
+    /// Nodes that are not integrated, ascending: those inside rigid bodies, on which no force acts.
+    pub passive: Vec<Range<usize>>,
 }
 
 impl Nodes {
@@ -63,14 +66,23 @@ impl Nodes {
 
     /// v ← v + Δt̄ f/m, x ← x + Δt v, f ← 0 (central differences with a changing step).
     pub fn integrate(&mut self, kick: f64, drift: f64) {
-        for (row, force) in self.rows.iter_mut().zip(&mut self.forces) {
-            let r = &mut row.0;
-            for i in 0..3 {
-                let velocity = r[4 + i] + kick * (force.0[i] * r[7]);
-                r[4 + i] = velocity;
-                r[i] += drift * velocity;
-            }
-            *force = Force::default();
+        let end = self.rows.len();
+        let mut begin = 0;
+        for range in self.passive.iter().cloned().chain(std::iter::once(end..end)) {
+            integrate(&mut self.rows[begin..range.start], &mut self.forces[begin..range.start], kick, drift);
+            begin = range.end;
         }
+    }
+}
+
+fn integrate(rows: &mut [Row], forces: &mut [Force], kick: f64, drift: f64) {
+    for (row, force) in rows.iter_mut().zip(forces) {
+        let r = &mut row.0;
+        for i in 0..3 {
+            let velocity = r[4 + i] + kick * (force.0[i] * r[7]);
+            r[4 + i] = velocity;
+            r[i] += drift * velocity;
+        }
+        *force = Force::default();
     }
 }

@@ -14,6 +14,30 @@ pub enum Stop {
     /// The kinetic energy is no longer a number, though those of all elements are.
     #[error("the kinetic energy is no longer a number: a rigid body or a node without elements moves so")]
     MotionNotFinite,
+    /// A rigid body does not do all that the deck tells it.
+    #[error("the rigid body of block {block} cannot do all that it is told: node {node} is {strayed:.4e} from where {command} wants it", strayed = .strayed.abs())]
+    Astray {
+        /// First block of the body.
+        block: i64,
+        /// Node that is held or driven.
+        node: i64,
+        /// What holds or drives it, with its axis.
+        command: String,
+        /// How far it is from where it is to be: a length, or an angle in radians.
+        strayed: f64,
+    },
+    /// A rigid body turns so fast that steps become hopelessly small.
+    #[error(
+        "the rigid body of block {block} turns at {rate:.4e} radians a time: the step in which it turns little is {ratio:.1e} of the first step"
+    )]
+    Spin {
+        /// First block of the body.
+        block: i64,
+        /// Its rate of rotation, 1/time.
+        rate: f64,
+        /// Its longest step over the first stable step of the run.
+        ratio: f64,
+    },
     /// The stable step has become hopelessly small.
     #[error("the stable time step has collapsed to {step:.6e}, {ratio:.1e} of its first value; element {} of block {} controls it, at ({:.6e}, {:.6e}, {:.6e})", .place.element, .place.block, .place.centre[0], .place.centre[1], .place.centre[2])]
     TimeStep {
@@ -101,6 +125,12 @@ impl Stop {
             Stop::NotFinite(_) => {
                 "a load or a prescribed motion of absurd size is the usual cause, or an unstable step: see whether TIME \
                  STEP SCALE is above 1, and what the last plot state shows there"
+            }
+            Stop::Astray { .. } => {
+                "motions of one RIGID BODY contradict each other: leave what follows from the others out, or let the block deform"
+            }
+            Stop::Spin { .. } => {
+                "a light body that is hit hard, or driven by moments, turns ever faster: see its forces, or hold it with NO ROTATION"
             }
             Stop::MotionNotFinite => {
                 "motions of one RIGID BODY that contradict each other are the usual cause, or loads of absurd size: see what the \

@@ -6,6 +6,7 @@ pub mod collapsed;
 pub mod continued;
 pub mod flow;
 pub mod gas;
+pub mod joined_scenes;
 pub mod meshes;
 pub mod momentum;
 pub mod penetration;

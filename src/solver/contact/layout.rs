@@ -32,8 +32,8 @@ pub struct Layout {
     pub edges: Vec<Edge>,
     /// Whether lines of the mesh meet edges that stand out.
     pub lines: bool,
-    /// Points of surfaces that TIED CONTACT joins: they do not touch each other. Empty without any.
-    pub tied: Vec<bool>,
+    /// For each point those that TIED CONTACT joins with it, ascending: they do not touch. Empty without any.
+    pub joined: Vec<Vec<u32>>,
     /// Whether there are surfaces; their edges meet all lines.
     pub surfaces: bool,
 }
@@ -59,9 +59,10 @@ impl Layout {
         self.edges[other as usize].stands_out() || self.lines || of_surface(edge)
     }
 
-    /// Whether all of these points are of tied surfaces.
-    pub fn are_tied(&self, points: &[u32]) -> bool {
-        !self.tied.is_empty() && points.iter().all(|&point| self.tied[point as usize])
+    /// Whether TIED CONTACT joins a point with any of some others.
+    pub fn are_joined(&self, point: u32, others: &[u32]) -> bool {
+        let own = self.joined.get(point as usize);
+        own.is_some_and(|own| others.iter().any(|other| own.binary_search(other).is_ok()))
     }
 
     /// The edge between two nodes of the mesh.

@@ -60,13 +60,12 @@ impl Contact {
         if told && self.remote.is_some() {
             self.problem.thin(changed.clone());
         } else if told {
-            // Faces that are shared would be copied.
-            self.problem.share_faces(Arc::default());
+            self.problem.release_faces();
         }
         let faces = Arc::make_mut(&mut self.layout.faces);
         changed.for_each(|(face, thinning)| faces.set_thinning(face, thinning));
         if told && self.remote.is_none() {
-            self.problem.share_faces(self.layout.faces.clone());
+            self.problem.share_faces(&self.layout.faces);
         }
     }
 

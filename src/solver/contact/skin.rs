@@ -19,15 +19,6 @@ fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
     middle.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
-/// Nodes of the side sets of TIED CONTACT, ascending.
-fn tied_nodes(mesh: &Mesh, model: &Model) -> Vec<u32> {
-    let sets = model.ties.iter().flat_map(|tie| tie.side_sets);
-    let mut nodes: Vec<u32> = sets.flat_map(|set| mesh.side_set_nodes(set)).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
-}
-
 /// What layouts are made of, and made of again when elements go.
 pub struct Skin {
     element_order: Arc<Vec<u32>>,
@@ -41,8 +32,8 @@ pub struct Skin {
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
-    /// Nodes of tied surfaces, ascending.
-    tied: Vec<u32>,
+    /// Nodes that TIED CONTACT joins, ascending, each with those that it follows or that follow it.
+    joined: Vec<(u32, Vec<u32>)>,
     /// Which edges may touch edges.
     edges_wanted: ContactEdges,
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
@@ -70,7 +61,7 @@ impl Skin {
             surface: contact.materials.is_some().then(|| surface(&chosen, body)),
             sets: side_set_faces(mesh, contact, body),
             more,
-            tied: tied_nodes(mesh, model),
+            joined: body.tied.joined(),
             // In the plane the edges are the faces.
             touching: Touching::of_chosen(Touching::new(mesh, model, body), |element| {
                 chosen[body.element_block[element as usize] as usize]
@@ -115,8 +106,16 @@ impl Skin {
         let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
-        if !self.tied.is_empty() {
-            layout.tied = layout.nodes.iter().map(|node| self.tied.binary_search(node).is_ok()).collect();
+        if !self.joined.is_empty() {
+            layout.joined = vec![Vec::new(); points];
+            for (node, others) in &self.joined {
+                let point = layout.point(*node);
+                if let Some(own) = layout.joined.get_mut(point as usize) {
+                    own.extend(
+                        others.iter().filter_map(|other| layout.nodes.binary_search(other).ok()).map(|p| p as u32),
+                    );
+                }
+            }
         }
         let body = (&*self.element_nodes, &self.element_block[..], &self.positions[..]);
         let distance = |element| self.touching.distance(element);

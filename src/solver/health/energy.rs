@@ -2,6 +2,7 @@
 
 use crate::comm::Communicator;
 use crate::model::Model;
+use crate::solver::rigid::RigidBodies;
 use crate::solver::{Body, Solver, Stop, Totals};
 
 /// Steps between checks of the energies; in the first ones, where instability shows, they are checked more often.
@@ -80,7 +81,16 @@ impl Solver {
     pub(in crate::solver) fn check_step(&mut self, comm: &mut dyn Communicator) -> Result<(), Stop> {
         let first = *self.first_stable_step.get_or_insert(self.stable_step);
         let ratio = self.stable_step / first;
+        if let Some((body, hold)) = self.domain.rigid.as_ref().and_then(RigidBodies::astray) {
+            let block = body.shape.blocks.first().copied().unwrap_or(0);
+            return Err(Stop::Astray { block, node: hold.id, command: hold.command(), strayed: hold.strayed });
+        }
         if ratio < SMALLEST_STEP_RATIO {
+            let fastest = self.domain.rigid.as_ref().and_then(RigidBodies::fastest);
+            if let Some(body) = fastest.filter(|body| body.longest_step() <= self.stable_step) {
+                let block = body.shape.blocks.first().copied().unwrap_or(0);
+                return Err(Stop::Spin { block, rate: body.rate(), ratio });
+            }
             let place = self.controlling_element(comm);
             return Err(Stop::TimeStep { step: self.stable_step, ratio, place });
         }

@@ -32,6 +32,8 @@ pub struct Facts {
     pub overlap: Overlap,
     /// The node that was moved farthest out of them, and the one that is left deepest inside an element.
     pub overlap_spots: [Option<Spot>; 2],
+    /// How many tied nodes are held although they follow others, and the first of them.
+    pub tied_held: (usize, Option<Spot>),
 }
 
 /// A block of the mesh.
@@ -86,6 +88,7 @@ impl Watch {
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
+            tied_held: tied_held(mesh, body),
         };
         Watch { facts, supplied: initial_energy, ..Watch::default() }
     }
@@ -245,6 +248,15 @@ fn farthest_moved(mesh: &Mesh, body: &Body) -> Option<Spot> {
     };
     let farthest = (0..mesh.coordinates.len()).fold(0, |best, node| if way(node) > way(best) { node } else { best });
     Some(Spot { node: Some(mesh.node_ids[farthest]), element: None, at: mesh.coordinates[farthest] })
+}
+
+/// Tied nodes that are held although they follow others, and the first of them.
+fn tied_held(mesh: &Mesh, body: &Body) -> (usize, Option<Spot>) {
+    let (count, first) = body.tied.held;
+    let spot = |node: usize| {
+        Some(Spot { node: Some(*mesh.node_ids.get(node)?), element: None, at: *mesh.coordinates.get(node)? })
+    };
+    (count, if count > 0 { spot(first as usize) } else { None })
 }
 
 /// The node that begins deepest inside an element.

@@ -3,7 +3,7 @@
 use super::hold::{Hold, independent};
 use super::shape::{BodyShape, Matrix};
 use super::turn::{self, Quaternion, STRAIGHT, matrix, moved, rotation, solved, times, turned};
-use crate::model::Function;
+use crate::model::{Function, Unknown};
 use crate::solver::constraints::StepTimes;
 use crate::vector::{add, cross, dot, scaled};
 
@@ -58,7 +58,10 @@ pub struct RigidBody {
     pub compliance: Compliance,
     /// The same if nothing held it.
     pub free: Compliance,
-    /// The holds that are independent of each other, and how they resist each other.
+    /// Holds that are independent of each other at the start. Others are checked, but not enforced: what would only become independent as the
+    /// body moves, would set in with a blow.
+    enforced: Vec<usize>,
+    /// Those of them that are so now, and how they resist each other.
     chosen: Vec<usize>,
     resistance: Vec<Vec<f64>>,
     /// Force and moment that act in the step, without contact and holds.
@@ -74,7 +77,7 @@ pub struct RigidBody {
 impl RigidBody {
     /// A body at rest.
     pub fn new(shape: BodyShape, holds: Vec<Hold>) -> RigidBody {
-        RigidBody {
+        let mut body = RigidBody {
             centre: shape.centre,
             velocity: [0.0; 3],
             momentum: [0.0; 3],
@@ -85,6 +88,7 @@ impl RigidBody {
             inertia: shape.inertia,
             compliance: [[0.0; 6]; 6],
             free: [[0.0; 6]; 6],
+            enforced: Vec::new(),
             chosen: Vec::new(),
             resistance: Vec::new(),
             load: [0.0; 6],
@@ -92,7 +96,11 @@ impl RigidBody {
             next: ([0.0; 3], [0.0; 3]),
             last: None,
             shape,
-        }
+        };
+        let free = body.freely();
+        let rows: Vec<Six> = body.holds.iter().map(|hold| hold.row(hold.arm)).collect();
+        body.enforced = independent(&rows, free).0;
+        body
     }
 
     /// Gives it the momentum and the angular momentum, about the centre, of the velocities of its nodes.
@@ -101,6 +109,28 @@ impl RigidBody {
         // Nodes turn as they were told to; the inertia is that of the volume.
         self.momentum = times(&self.shape.inertia, solved(&self.shape.of_nodes, [lx, ly, lz]));
         self.begin();
+        // What is held still takes up what it does not allow.
+        let still = |hold: &&Hold| hold.motion.is_none();
+        let rows: Vec<Six> = self.holds.iter().filter(still).map(|hold| hold.row(self.arm(hold.arm))).collect();
+        let (chosen, _) = independent(&rows, self.free);
+        let [[u, v, w], [x, y, z]] = self.motion(false);
+        let missed: Vec<f64> = chosen.iter().map(|&i| product(&rows[i], &[u, v, w, x, y, z])).collect();
+        let impulses = eliminated(&resistance(&rows, &chosen, &self.free), &missed);
+        for (&i, impulse) in chosen.iter().zip(impulses) {
+            for axis in 0..3 {
+                self.velocity[axis] -= rows[i][axis] * impulse / self.shape.mass;
+                self.momentum[axis] -= rows[i][3 + axis] * impulse;
+            }
+        }
+        self.begin();
+    }
+
+    /// What it is told and does not do, beyond a hundredth of its size, or of a radian.
+    pub fn astray(&self) -> Option<&Hold> {
+        let trace: f64 = (0..3).map(|i| self.shape.inertia[i][i]).sum();
+        let size = (trace / self.shape.mass).sqrt();
+        let limit = |hold: &Hold| ASTRAY * if hold.of == Unknown::Position { size } else { 1.0 };
+        self.holds.iter().find(|hold| hold.strayed.is_nan() || hold.strayed.abs() > limit(hold))
     }
 
     /// Finds frame and inertia of the present state; before a step.
@@ -108,21 +138,24 @@ impl RigidBody {
         self.frame = matrix(self.turn);
         self.inertia = turned(&self.frame, &self.shape.inertia);
         self.next = (self.velocity, self.momentum);
+        self.free = self.freely();
+        let enforced = self.enforced.iter().map(|&i| &self.holds[i]);
+        let rows: Vec<Six> = enforced.map(|hold| hold.row(self.arm(hold.arm))).collect();
+        let (chosen, compliance) = independent(&rows, self.free);
+        self.resistance = resistance(&rows, &chosen, &self.free);
+        self.compliance = compliance;
+        self.chosen = chosen.into_iter().map(|i| self.enforced[i]).collect();
+    }
+
+    /// What forces do to its velocities if nothing holds it.
+    fn freely(&self) -> Compliance {
         let (light, inverse) = (1.0 / self.shape.mass, turn::inverse(&self.inertia));
         let mut free = [[0.0; 6]; 6];
         for i in 0..3 {
             free[i][i] = light;
             free[3 + i][3..].copy_from_slice(&inverse[i]);
         }
-        let rows: Vec<Six> = self.holds.iter().map(|hold| hold.row(times(&self.frame, hold.arm))).collect();
-        (self.chosen, self.compliance) = independent(&rows, free);
-        if self.chosen.len() == 6 {
-            // What is left is round-off.
-            self.compliance = [[0.0; 6]; 6];
-        }
-        self.free = free;
-        let resists = |a: &usize| self.chosen.iter().map(|b| product(&rows[*a], &applied(&free, &rows[*b]))).collect();
-        self.resistance = self.chosen.iter().map(resists).collect();
+        free
     }
 
     /// Arm of a point at `arm` from the centre at the start.
@@ -163,15 +196,11 @@ impl RigidBody {
     pub fn load(&mut self, force: &Six, functions: &[Function], step: &StepTimes) {
         self.load = *force;
         (0..3).for_each(|i| self.load[i] += self.shape.mass * self.gravity[i]);
-        self.solve([0.0; 6], functions, step);
+        self.push([0.0; 6], functions, step);
     }
 
-    /// The same with forces of contact beside them.
+    /// The same with forces of contact, and their moment about the centre, beside them.
     pub fn push(&mut self, contact: Six, functions: &[Function], step: &StepTimes) {
-        self.solve(contact, functions, step);
-    }
-
-    fn solve(&mut self, contact: Six, functions: &[Function], step: &StepTimes) {
         let force: Six = std::array::from_fn(|i| self.load[i] + contact[i]);
         let velocity = [0, 1, 2].map(|i| self.velocity[i] + step.kick * (force[i] / self.shape.mass));
         let momentum = [0, 1, 2].map(|i| self.momentum[i] + step.kick * force[3 + i]);
@@ -182,15 +211,8 @@ impl RigidBody {
         let mut impulses = vec![0.0; self.chosen.len()];
         // Rotations in a step are small, and each pass is better than the one before by as much.
         for _ in 0..PASSES {
-            let turn = rotation(&self.inertia, scaled(self.next.1, step.drift));
-            let missed = |&i: &usize| {
-                let hold = &self.holds[i];
-                let arm = self.arm(hold.arm);
-                let at = self.centre[hold.axis] + arm[hold.axis];
-                let gone = step.drift * self.next.0[hold.axis] + moved(turn, arm)[hold.axis];
-                hold.missed([at, gone], turn, functions, step) / step.drift
-            };
-            let missed: Vec<f64> = self.chosen.iter().map(missed).collect();
+            let missed = self.missed(functions, step);
+            let missed: Vec<f64> = self.chosen.iter().map(|&i| missed[i] / step.drift).collect();
             let change = eliminated(&self.resistance, &missed);
             impulses.iter_mut().zip(&change).for_each(|(impulse, change)| *impulse -= change);
             self.next = (velocity, momentum);
@@ -206,10 +228,25 @@ impl RigidBody {
                 break;
             }
         }
-        self.holds.iter_mut().for_each(|hold| hold.reaction = 0.0);
+        let missed = self.missed(functions, step);
+        for (hold, missing) in self.holds.iter_mut().zip(missed) {
+            (hold.reaction, hold.missing) = (0.0, missing);
+        }
         for (&i, impulse) in self.chosen.iter().zip(&impulses) {
             self.holds[i].reaction = impulse / step.kick;
         }
+    }
+
+    /// By how much the coming step goes too far for each hold.
+    fn missed(&self, functions: &[Function], step: &StepTimes) -> Vec<f64> {
+        let turn = rotation(&self.inertia, scaled(self.next.1, step.drift));
+        let of = |hold: &Hold| {
+            let arm = self.arm(hold.arm);
+            let at = self.centre[hold.axis] + arm[hold.axis];
+            let gone = step.drift * self.next.0[hold.axis] + moved(turn, arm)[hold.axis];
+            hold.missed([at, gone], turn, functions, step)
+        };
+        self.holds.iter().map(of).collect()
     }
 
     /// Books half the step's work of what drives it and of its weight, before or after the kick.
@@ -256,11 +293,28 @@ impl RigidBody {
         dot(spin, spin).sqrt()
     }
 
+    /// Longest step in which it turns little, a time; without end for a body that does not turn.
+    pub fn longest_step(&self) -> f64 {
+        MOST_TURN / self.rate()
+    }
+
     /// Velocity at the present state of a point at `arm` now.
     pub fn velocity_at(&self, [velocity, spin]: [[f64; 3]; 2], arm: [f64; 3]) -> [f64; 3] {
         add(velocity, cross(spin, arm))
     }
 }
+
+/// What unit reactions of the chosen holds, by their rows, do to each other's velocities.
+fn resistance(rows: &[Six], chosen: &[usize], free: &Compliance) -> Vec<Vec<f64>> {
+    let resists = |a: &usize| chosen.iter().map(|b| product(&rows[*a], &applied(free, &rows[*b]))).collect();
+    chosen.iter().map(resists).collect()
+}
+
+/// A body turns by no more than this in a step, radians.
+const MOST_TURN: f64 = 0.1;
+
+/// A body is astray where it is farther than this from where it is told to be: a part of its size, or an angle.
+const ASTRAY: f64 = 0.01;
 
 /// Passes over what holds a body at most.
 const PASSES: usize = 30;

@@ -1,7 +1,7 @@
 //! What holds or drives a rigid body: nodes of node sets, each along one axis.
 //!
-//! A node that is held says something of all six unknowns of its body. Of the many nodes of a set four are enough, that do not lie
-//! in a plane: if they go where they shall, all do, as far as a rigid body can.
+//! Nodes that go alike along an axis say something of all six unknowns of their body: where one of them is along the axis, and, unless they lie on a
+//! line aslant, that the body turns about no other axis.
 
 use super::body::{Compliance, Six, applied, product};
 use super::turn::Quaternion;
@@ -15,6 +15,8 @@ use crate::vector::{cross, dot, scaled, subtract};
 pub struct Hold {
     /// Node of the mesh.
     pub node: u32,
+    /// Its number in the file.
+    pub id: i64,
     /// Where it is from the centre of the body at the start.
     pub arm: [f64; 3],
     /// Axis.
@@ -23,12 +25,18 @@ pub struct Hold {
     pub of: Unknown,
     /// What is prescribed; `None` holds it still.
     pub motion: Option<Motion>,
+    /// What the command that asks for it holds or drives, along which axis, and how.
+    pub asked: (Unknown, usize, Option<MotionKind>),
     /// Coordinate at the start.
     pub start: f64,
     /// Velocity over the last step.
     pub speed: f64,
     /// Angle so far.
     pub turned: f64,
+    /// How far the node is from where it is to be, a length, or an angle: the body cannot do all that it is told.
+    pub strayed: f64,
+    /// By how much the coming step misses.
+    pub missing: f64,
     /// Force or moment now.
     pub reaction: f64,
     /// Work done so far.
@@ -66,8 +74,27 @@ impl Hold {
         }
     }
 
+    /// The command that asks for it, with its axis.
+    pub fn command(&self) -> String {
+        let (of, axis, kind) = self.asked;
+        let name = match (of, kind) {
+            (Unknown::Position, None) => "NO DISPLACEMENT",
+            (Unknown::Position, Some(MotionKind::Displacement)) => "PRESCRIBED DISPLACEMENT",
+            (Unknown::Position, Some(MotionKind::Velocity)) => "PRESCRIBED VELOCITY",
+            (Unknown::Position, Some(MotionKind::Acceleration)) => "PRESCRIBED ACCELERATION",
+            (Unknown::Rotation, None) => "NO ROTATION",
+            (Unknown::Rotation, Some(MotionKind::Displacement)) => "PRESCRIBED ROTATION",
+            (Unknown::Rotation, Some(_)) => "PRESCRIBED ANGULAR VELOCITY",
+        };
+        format!("{name}, {}", ["X", "Y", "Z"][axis])
+    }
+
     /// Remembers a step.
     pub fn go(&mut self, gone: f64, turn: Quaternion, drift: f64) {
+        self.strayed = match self.motion.map(|motion| motion.kind) {
+            None | Some(MotionKind::Displacement) => self.missing,
+            Some(MotionKind::Velocity | MotionKind::Acceleration) => self.strayed + self.missing,
+        };
         let angle = angle(turn, self.axis);
         self.turned += angle;
         self.speed = match self.of {
@@ -77,8 +104,15 @@ impl Hold {
     }
 }
 
-/// 2 tan(θ/2) about an axis: the spin of straight paths times the step.
-pub fn angle(turn: Quaternion, axis: usize) -> f64 {
+/// θ n of the rotation about an axis n by the angle θ, along one axis.
+fn angle([real, x, y, z]: Quaternion, axis: usize) -> f64 {
+    let q = [x, y, z];
+    let sine = dot(q, q).sqrt();
+    if sine > 0.0 { 2.0 * libm::atan2(sine, real) * (q[axis] / sine) } else { 0.0 }
+}
+
+/// 2 tan(θ/2) n along an axis: the spin of straight paths times the step.
+pub fn spin_of_chords(turn: Quaternion, axis: usize) -> f64 {
     2.0 * turn[1 + axis] / turn[0]
 }
 
@@ -106,41 +140,101 @@ pub fn independent(rows: &[Six], free: Compliance) -> (Vec<usize>, Compliance) {
         }
         chosen.push(best.0);
     }
+    if chosen.len() == 6 {
+        // What is left is round-off.
+        left = [[0.0; 6]; 6];
+    }
     (chosen, left)
+}
+
+/// Nodes of a body that the deck holds or drives alike along an axis.
+struct Alike {
+    of: Unknown,
+    axis: usize,
+    motion: Option<Motion>,
+    nodes: Vec<u32>,
 }
 
 /// What the deck holds and drives of a body with these nodes and this centre.
 pub fn holds(mesh: &Mesh, model: &Model, (nodes, centre): (&[u32], [f64; 3]), positions: &[[f64; 3]]) -> Vec<Hold> {
+    let hold = |node: u32, (of, axis): (Unknown, usize), alike: &Alike| Hold {
+        node,
+        id: mesh.node_ids.get(node as usize).copied().unwrap_or(0),
+        arm: subtract(positions[node as usize], centre),
+        axis,
+        of,
+        // Where all go alike along an axis, nothing turns about the others.
+        motion: if of == alike.of { alike.motion } else { None },
+        asked: (alike.of, alike.axis, alike.motion.map(|motion| motion.kind)),
+        start: mesh.coordinates[node as usize][axis],
+        speed: 0.0,
+        turned: 0.0,
+        strayed: 0.0,
+        missing: 0.0,
+        reaction: 0.0,
+        work: 0.0,
+    };
+    let mut holds: Vec<Hold> = Vec::new();
+    for alike in held_alike(mesh, model, nodes) {
+        let Alike { of, axis, nodes: own, .. } = &alike;
+        let first = own.first().copied();
+        if *of == Unknown::Rotation || !are_level(own, *axis, positions) {
+            // The body turns as one.
+            let count = if *of == Unknown::Rotation { 1 } else { 2 };
+            holds.extend(spanning(own, positions).into_iter().take(count).map(|node| hold(node, (*of, *axis), &alike)));
+            continue;
+        }
+        holds.extend(first.map(|node| hold(node, (*of, *axis), &alike)));
+        let across = [(axis + 1) % 3, (axis + 2) % 3];
+        holds.extend(first.iter().flat_map(|&node| across.map(|other| hold(node, (Unknown::Rotation, other), &alike))));
+    }
+    holds
+}
+
+/// The commands that hold or drive nodes of a body, with the nodes, ascending. A node is held once in each direction, the first command
+/// counts.
+fn held_alike(mesh: &Mesh, model: &Model, nodes: &[u32]) -> Vec<Alike> {
     let still = model.no_displacements.iter().map(|c| (c.node_set, c.of, c.direction, None));
     let moving = model.prescribed_motions.iter().map(|m| {
         let motion = Motion { kind: m.kind, function: m.function, scale: m.scale };
         (m.node_set, m.of, m.direction, Some(motion))
     });
-    let mut holds: Vec<Hold> = Vec::new();
+    let mut all: Vec<Alike> = Vec::new();
     for (set, of, direction, motion) in still.chain(moving) {
         let axis = direction.axis();
         let of_set = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
-        let mut own: Vec<u32> = of_set.iter().filter(|node| nodes.binary_search(node).is_ok()).copied().collect();
+        let taken = |node: &u32| {
+            let mut before = all.iter().filter(|alike| alike.of == of && alike.axis == axis);
+            before.any(|alike| alike.nodes.binary_search(node).is_ok())
+        };
+        let mut own: Vec<u32> = of_set.to_vec();
         own.sort_unstable();
         own.dedup();
-        if of == Unknown::Rotation {
-            // The body turns as one.
-            own.truncate(1);
-            if holds.iter().any(|hold| hold.of == of && hold.axis == axis) {
-                continue;
+        own.retain(|node| nodes.binary_search(node).is_ok() && (of == Unknown::Rotation || !taken(node)));
+        match all.iter_mut().find(|alike| (alike.of, alike.axis, alike.motion) == (of, axis, motion)) {
+            Some(alike) => {
+                alike.nodes.extend(own);
+                alike.nodes.sort_unstable();
             }
-        }
-        for node in spanning(&own, positions) {
-            // A node is held once in each direction, the first command counts.
-            if holds.iter().any(|hold| hold.node == node && hold.axis == axis && hold.of == of) {
-                continue;
-            }
-            let (at, start) = (positions[node as usize], mesh.coordinates[node as usize][axis]);
-            let arm = subtract(at, centre);
-            holds.push(Hold { node, arm, axis, of, motion, start, speed: 0.0, turned: 0.0, reaction: 0.0, work: 0.0 });
+            None => all.push(Alike { of, axis, motion, nodes: own }),
         }
     }
-    holds
+    all
+}
+
+/// Whether nodes that go alike along an axis let their body turn about that axis only. Their differences d keep their components along
+/// the axis a: u = Rᵀa with u·d = a·d for all of them. Two differences in different directions leave a itself and its mirror image in their plane; one
+/// leaves a circle, which is a point where d is along a. Equations for the single nodes would say less: those of differences in a plane with a are
+/// of second order, and hold only once the body has turned.
+fn are_level(nodes: &[u32], axis: usize, positions: &[[f64; 3]]) -> bool {
+    match spanning(nodes, positions)[..] {
+        [] | [_] => false,
+        [a, b] => {
+            let d = subtract(positions[b as usize], positions[a as usize]);
+            d[axis].abs() >= (1.0 - 1e-6) * dot(d, d).sqrt()
+        }
+        _ => true,
+    }
 }
 
 /// At most four of some nodes, far from each other: as many as it takes to say where all are.

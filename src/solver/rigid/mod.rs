@@ -13,6 +13,7 @@ mod shape;
 mod turn;
 
 pub use body::{Compliance, RigidBody, Six, Turning, applied, product};
+pub use hold::Hold;
 pub use shape::{BodyShape, bodies_of_blocks, shapes};
 
 use super::Body;
@@ -25,9 +26,7 @@ use crate::mesh::Mesh;
 use crate::model::{Function, Gravity, Model, Unknown};
 use crate::restart::Archive;
 use crate::vector::{add, cross, scaled, subtract};
-
-/// A body turns by no more than this in a step, radians.
-const MOST_TURN: f64 = 0.1;
+use std::ops::Range;
 
 /// All rigid bodies, and this rank's nodes of them.
 pub struct RigidBodies {
@@ -44,6 +43,8 @@ pub struct RigidBodies {
     gravities: Vec<Gravity>,
     /// Whether the present state has its forces.
     prepared: bool,
+    /// Whether the nodes inside have been brought up to date, so that they have forces.
+    refreshed: bool,
     kick: f64,
 }
 
@@ -85,7 +86,29 @@ impl RigidBodies {
         near.sort_by_key(|follower| follower.node);
         deep.sort_by_key(|follower| follower.node);
         let gravities = model.gravities.clone();
-        Some(RigidBodies { bodies, near, deep, turning, of_node, gravities, prepared: false, kick: 0.0 })
+        Some(RigidBodies {
+            bodies,
+            near,
+            deep,
+            turning,
+            of_node,
+            gravities,
+            prepared: false,
+            refreshed: false,
+            kick: 0.0,
+        })
+    }
+
+    /// Nodes on which no force can act, in ranges, ascending.
+    pub fn inside(&self) -> Vec<Range<usize>> {
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        for node in self.deep.iter().map(|follower| follower.node as usize) {
+            match ranges.last_mut().filter(|range| range.end == node) {
+                Some(range) => range.end += 1,
+                None => ranges.push(node..node + 1),
+            }
+        }
+        ranges
     }
 
     /// Body of a local node.
@@ -125,8 +148,17 @@ impl RigidBodies {
 
     /// Longest step in which no body turns too far.
     pub fn longest_step(&self) -> f64 {
-        let of = |body: &RigidBody| MOST_TURN / body.rate();
-        self.bodies.iter().map(of).fold(f64::INFINITY, f64::min)
+        self.fastest().map_or(f64::INFINITY, RigidBody::longest_step)
+    }
+
+    /// The body that turns fastest.
+    pub fn fastest(&self) -> Option<&RigidBody> {
+        self.bodies.iter().min_by(|a, b| a.longest_step().total_cmp(&b.longest_step()))
+    }
+
+    /// A body that is not where it is told to be, with what tells it: its motions contradict each other.
+    pub fn astray(&self) -> Option<(&RigidBody, &Hold)> {
+        self.bodies.iter().find_map(|body| Some((body, body.astray()?)))
     }
 
     /// Gives the nodes the velocities of their bodies at the present state; after the elements, before everything else.
@@ -229,10 +261,13 @@ impl RigidBodies {
             let row = &mut nodes.rows[follower.node as usize].0;
             // What integration has added is taken back.
             for i in 0..3 {
-                let angle = hold::angle(turns[follower.body as usize], i);
+                let angle = hold::spin_of_chords(turns[follower.body as usize], i);
                 row[i] += angle - drift * row[4 + i];
                 row[4 + i] = angle / drift;
             }
+        }
+        if std::mem::take(&mut self.refreshed) {
+            self.deep.iter().for_each(|follower| nodes.forces[follower.node as usize] = Default::default());
         }
         self.prepared = false;
     }
@@ -256,7 +291,8 @@ impl RigidBodies {
     }
 
     /// Brings the nodes inside the bodies up to the present, prepared state.
-    pub fn refresh(&self, nodes: &mut Nodes) {
+    pub fn refresh(&mut self, nodes: &mut Nodes) {
+        self.refreshed = true;
         for follower in &self.deep {
             let body = &self.bodies[follower.body as usize];
             let arm = body.arm(follower.arm);
@@ -330,7 +366,7 @@ impl RigidBodies {
 }
 
 /// Numbers of a hold in files: node, axis, whether about it, and what it carries.
-const HOLD: usize = 6;
+const HOLD: usize = 7;
 
 /// A deck may hold other nodes when a run is continued; the work of those that are no more stays with the weight.
 fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
@@ -340,7 +376,7 @@ fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
     if archive.comm().rank() == 0 && !archive.loading() {
         for hold in &body.holds {
             rows.extend(key(hold));
-            rows.extend([hold.speed, hold.turned, hold.work]);
+            rows.extend([hold.speed, hold.turned, hold.work, hold.strayed]);
         }
     }
     archive.list(name, HOLD, &mut rows);
@@ -349,7 +385,7 @@ fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
     }
     for row in rows.chunks_exact(HOLD) {
         match body.holds.iter_mut().find(|hold| key(hold)[..] == row[..3]) {
-            Some(hold) => [hold.speed, hold.turned, hold.work] = [row[3], row[4], row[5]],
+            Some(hold) => [hold.speed, hold.turned, hold.work, hold.strayed] = [row[3], row[4], row[5], row[6]],
             None => body.weight_work += row[5],
         }
     }

@@ -5,6 +5,7 @@
 //! integrated: masses at corners would turn as one element of a cube does, three times too slowly.
 
 use crate::mesh::exterior::{SIDES, exterior};
+use crate::mesh::hexahedron::SIGNS;
 use crate::mesh::{Mesh, Shape};
 use crate::model::Model;
 use crate::solver::body::Body;
@@ -48,9 +49,9 @@ pub fn shapes(mesh: &Mesh, model: &Model, body: &Body) -> Vec<BodyShape> {
     if model.rigid_bodies.is_empty() {
         return Vec::new();
     }
-    let owners = bodies_of_blocks(mesh, model);
+    let owners = &body.block_body;
     let (mut members, mut others) = (vec![Vec::new(); model.rigid_bodies.len()], vec![false; mesh.coordinates.len()]);
-    for (block, owner) in mesh.blocks.iter().zip(&owners) {
+    for (block, owner) in mesh.blocks.iter().zip(owners) {
         match owner {
             Some(owner) => members[*owner].extend_from_slice(&block.nodes),
             None => block.nodes.iter().for_each(|&node| others[node as usize] = true),
@@ -59,7 +60,7 @@ pub fn shapes(mesh: &Mesh, model: &Model, body: &Body) -> Vec<BodyShape> {
     // Forces are prescribed for nodes of sets.
     let loaded = model.prescribed_forces.iter().filter_map(|force| mesh.node_set(force.node_set));
     loaded.flat_map(|set| &set.nodes).for_each(|&node| others[node as usize] = true);
-    let rigid = mesh.blocks.iter().zip(&owners).filter(|(_, owner)| owner.is_some());
+    let rigid = mesh.blocks.iter().zip(owners).filter(|(_, owner)| owner.is_some());
     let elements: Vec<(Shape, &[u32])> =
         rigid.flat_map(|(block, _)| block.elements().map(|nodes| (block.shape, nodes))).collect();
     let mut outside = vec![false; others.len()];
@@ -71,24 +72,25 @@ pub fn shapes(mesh: &Mesh, model: &Model, body: &Body) -> Vec<BodyShape> {
     // The two ends of a bar are no faces.
     let bars = elements.iter().filter(|(shape, _)| *shape == Shape::Bar);
     bars.flat_map(|(_, nodes)| *nodes).for_each(|&node| outside[node as usize] = true);
-    let shape = |(number, mut nodes): (usize, Vec<u32>)| {
+    let mut own = vec![Vec::new(); model.rigid_bodies.len()];
+    for (element, block) in body.element_block.iter().enumerate() {
+        if let Some(owner) = owners[*block as usize] {
+            own[owner].push(element);
+        }
+    }
+    let shape = |((number, mut nodes), elements): ((usize, Vec<u32>), Vec<usize>)| {
         nodes.sort_unstable();
         nodes.dedup();
         let near = nodes.iter().map(|&node| others[node as usize] || outside[node as usize]).collect();
         let blocks = model.rigid_bodies[number].clone();
-        weighed(BodyShape { blocks, nodes, near, ..BodyShape::default() }, number, &owners, (mesh, model), body)
+        weighed(BodyShape { blocks, nodes, near, ..BodyShape::default() }, &elements, (mesh, model), body)
     };
-    members.into_iter().enumerate().map(shape).collect()
+    members.into_iter().enumerate().zip(own).map(shape).collect()
 }
 
-/// Finds mass, centre and inertia. The sums run over the whole mesh in its order: they are the same on every rank.
-fn weighed(
-    mut shape: BodyShape,
-    number: usize,
-    owners: &[Option<usize>],
-    (mesh, model): (&Mesh, &Model),
-    body: &Body,
-) -> BodyShape {
+/// Finds mass, centre and inertia of a body with these elements. The sums run over the whole mesh in its order: they are the same
+/// on every rank.
+fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), body: &Body) -> BodyShape {
     let mut moment = [0.0; 3];
     for &node in &shape.nodes {
         let mass = body.node_mass[node as usize];
@@ -108,11 +110,8 @@ fn weighed(
     let mut surpluses = vec![Moments::default(); mesh.blocks.len()];
     let mut elements = body.elements.clone();
     let (mut corners, mut shares) = (Vec::new(), Vec::new());
-    for element in 0..body.element_nodes.len() {
+    for &element in own {
         let block = body.element_block[element] as usize;
-        if owners[block] != Some(number) {
-            continue;
-        }
         let nodes = &body.element_nodes[element];
         corners.clear();
         corners.extend(nodes.iter().map(|&node| body.positions[node as usize]));
@@ -131,7 +130,7 @@ fn weighed(
         let arms: Vec<[f64; 3]> = corners.iter().map(at).collect();
         surplus.element(mesh.blocks[block].shape, &arms, mass, elements[block].touch(attributes));
     }
-    let owned = (0..owners.len()).filter(|&block| owners[block] == Some(number));
+    let owned = (0..surpluses.len()).filter(|&block| shape.blocks.contains(&mesh.blocks[block].id));
     shape.surplus_of = owned.map(|block| (block, surpluses[block].inertia())).collect();
     let surplus = shape.surplus_of.iter().fold([[0.0; 3]; 3], |all, (_, own)| sum(&all, own));
     let inertia = sum(&of_rows.inertia(), &surplus);
@@ -175,18 +174,6 @@ struct Moments {
 /// Points and weights of Gauss's rule with three points on [−1, 1]: exact for the fourth powers of a trilinear volume.
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
-
-/// Natural coordinates of the corners of a hexahedron; a quadrilateral has the first four, in ξ and η.
-const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
 
 impl Moments {
     fn point(&mut self, r: [f64; 3], mass: f64) {
@@ -253,7 +240,7 @@ fn rule(dimensions: usize) -> impl Iterator<Item = ([f64; 3], f64)> {
 
 /// N_I of the corners at a point.
 fn shape_function(corner: usize, at: [f64; 3], dimensions: usize) -> f64 {
-    (0..dimensions).map(|i| 0.5 * (1.0 + CORNERS[corner][i] * at[i])).product()
+    (0..dimensions).map(|i| 0.5 * (1.0 + SIGNS[corner][i] * at[i])).product()
 }
 
 fn place(arms: &[[f64; 3]], at: [f64; 3], dimensions: usize) -> [f64; 3] {
@@ -265,8 +252,8 @@ fn tangents(arms: &[[f64; 3]], (at, _): ([f64; 3], f64), dimensions: usize) -> [
     [0, 1, 2].map(|along| {
         (0..arms.len()).fold([0.0; 3], |sum, corner| {
             let others = (0..dimensions).filter(|&i| i != along);
-            let rest: f64 = others.map(|i| 0.5 * (1.0 + CORNERS[corner][i] * at[i])).product();
-            add(sum, scaled(arms[corner], 0.5 * CORNERS[corner][along] * rest))
+            let rest: f64 = others.map(|i| 0.5 * (1.0 + SIGNS[corner][i] * at[i])).product();
+            add(sum, scaled(arms[corner], 0.5 * SIGNS[corner][along] * rest))
         })
     })
 }
@@ -277,7 +264,7 @@ mod tests {
 
     #[test]
     fn a_box_a_plate_and_a_bar_have_the_inertia_of_the_textbook() {
-        let box_of = |[a, b, c]: [f64; 3]| CORNERS.map(|x| [0.5 * a * x[0], 0.5 * b * x[1], 0.5 * c * x[2]]);
+        let box_of = |[a, b, c]: [f64; 3]| SIGNS.map(|x| [0.5 * a * x[0], 0.5 * b * x[1], 0.5 * c * x[2]]);
         let mut solid = Moments::default();
         solid.element(Shape::Hexahedron, &box_of([1.0, 2.0, 3.0]), 12.0, Touch::Outside);
         let plate = &box_of([1.0, 2.0, 0.0])[..4];

@@ -9,21 +9,29 @@
 
 mod mortar;
 
-pub use mortar::{Face, Follower, followers};
+pub use mortar::{Face, Follower, Joint, followers};
 
 use super::Body;
 use super::domain::ABSENT;
 use super::nodes::Nodes;
 use crate::comm::Communicator;
 use crate::mesh::Mesh;
-use crate::model::Model;
+use crate::model::{Model, Tie, Unknown};
 use crate::vector::{add, dot, scaled, subtract};
+use std::collections::BTreeMap;
 
 /// The tied nodes of a body, and what was done to them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tied {
     /// Those that follow, ascending.
     pub followers: Vec<Follower>,
+    /// Mass that each of them had before it was handed over.
+    pub handed: Vec<f64>,
+    /// How much faster than its elements a joint can vibrate: the largest eigenvalue of the masses of its nodes, as its elements have
+    /// them, over those that are computed with, less 1; 0 where all weights are positive.
+    pub excess: f64,
+    /// Those that the deck holds or drives although they follow, and the first of them, a node of the mesh.
+    pub held: (usize, u32),
     /// For each command: nodes that follow, nodes of its first side set that do not, and the farthest that one was moved, a length.
     pub reports: Vec<TiedReport>,
 }
@@ -44,34 +52,100 @@ pub struct TiedReport {
 impl Tied {
     /// Of a model, with the nodes where `positions` has them; moves those that follow to where they are to be.
     pub fn new(mesh: &Mesh, model: &Model, positions: &mut [[f64; 3]]) -> Tied {
-        let mut all = Tied::default();
+        let joints: Vec<Joint> = model.ties.iter().map(|tie| joint(mesh, tie)).collect();
+        let mut all = Tied { followers: followers(&joints, |node| positions[node as usize]), ..Tied::default() };
+        let moved = all.followers.iter().map(|one| {
+            let there = weighted(one, |node| positions[node as usize]);
+            let path = subtract(there, positions[one.node as usize]);
+            dot(path, path).sqrt()
+        });
+        let moved: Vec<f64> = moved.collect();
         for tie in &model.ties {
-            let [first, second] = tie.side_sets.map(|set| faces(mesh, set));
-            let mut found = followers(&first, &second, |node| positions[node as usize], tie.tolerance);
-            // A node follows once: the first command counts.
-            found.retain(|one| all.followers.binary_search_by_key(&one.node, |other| other.node).is_err());
-            let mut report = TiedReport { side_sets: tie.side_sets, tied: found.len(), left: 0, moved: 0.0 };
             let nodes = mesh.side_set_nodes(tie.side_sets[0]);
-            report.left = nodes.len().saturating_sub(found.len());
-            for one in &found {
-                let there = weighted(one, |node| positions[node as usize]);
-                let path = subtract(there, positions[one.node as usize]);
-                report.moved = report.moved.max(dot(path, path).sqrt());
-                positions[one.node as usize] = there;
-            }
-            all.followers.extend(found);
-            all.followers.sort_by_key(|one| one.node);
+            let tied = nodes.iter().filter_map(|node| all.place_of(*node));
+            let (mut count, mut farthest) = (0, 0.0);
+            tied.for_each(|place| (count, farthest) = (count + 1, f64::max(farthest, moved[place])));
+            let report =
+                TiedReport { side_sets: tie.side_sets, tied: count, left: nodes.len() - count, moved: farthest };
             all.reports.push(report);
         }
+        all.place(positions);
+        all.held = held(mesh, model, &all.followers);
         all
     }
 
-    /// Gives the masses of followers to those that they follow.
-    pub fn hand_over(&self, masses: &mut [f64]) {
+    /// Puts followers where those that they follow put them.
+    pub fn place(&self, positions: &mut [[f64; 3]]) {
         for one in &self.followers {
-            let mass = std::mem::take(&mut masses[one.node as usize]);
+            positions[one.node as usize] = weighted(one, |node| positions[node as usize]);
+        }
+    }
+
+    /// Gives the masses of followers to those that they follow.
+    pub fn hand_over(&mut self, masses: &mut [f64]) {
+        let before = masses.to_vec();
+        self.handed = self.followers.iter().map(|one| std::mem::take(&mut masses[one.node as usize])).collect();
+        for (one, mass) in self.followers.iter().zip(&self.handed) {
             one.leaders.iter().for_each(|(node, weight)| masses[*node as usize] += weight * mass);
         }
+        self.excess = self.largest_ratio(&before, masses) - 1.0;
+    }
+
+    /// The largest λ with (m + Tᵀ m_f T) x = λ M x over the leaders, by power iteration: m their own masses, m_f those of followers, T the
+    /// weights, M the masses that are computed with, `after`. The step of elements is safe for the masses on the left; M equals them for
+    /// equal velocities, and is not below them for any where no weight is negative (Gershgorin).
+    fn largest_ratio(&self, before: &[f64], after: &[f64]) -> f64 {
+        let negative = self.followers.iter().flat_map(|one| &one.leaders).any(|(_, weight)| *weight < 0.0);
+        let mut leaders: Vec<u32> =
+            self.followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node)).collect();
+        leaders.sort_unstable();
+        leaders.dedup();
+        if !negative || leaders.iter().any(|&node| after[node as usize] <= 0.0) {
+            return 1.0;
+        }
+        // Signs that follow no pattern of the mesh.
+        let mut x: Vec<f64> = vec![0.0; before.len()];
+        leaders
+            .iter()
+            .for_each(|&node| x[node as usize] = if node.wrapping_mul(2_654_435_769) >> 31 == 0 { 1.0 } else { -1.0 });
+        let mut ratio = 1.0;
+        for _ in 0..MOST_ITERATIONS {
+            let mut y: Vec<f64> = vec![0.0; before.len()];
+            leaders.iter().for_each(|&node| y[node as usize] = before[node as usize] * x[node as usize]);
+            for (one, mass) in self.followers.iter().zip(&self.handed) {
+                let sum: f64 = one.leaders.iter().map(|(node, weight)| weight * x[*node as usize]).sum();
+                one.leaders.iter().for_each(|(node, weight)| y[*node as usize] += weight * mass * sum);
+            }
+            let energy: f64 = leaders.iter().map(|&node| x[node as usize] * y[node as usize]).sum();
+            let whole: f64 = leaders.iter().map(|&node| after[node as usize] * x[node as usize].powi(2)).sum();
+            let found = energy / whole;
+            let settled = (found - ratio).abs() <= SETTLED * found;
+            ratio = found;
+            let largest =
+                leaders.iter().map(|&node| (y[node as usize] / after[node as usize]).abs()).fold(0.0, f64::max);
+            leaders.iter().for_each(|&node| x[node as usize] = y[node as usize] / (after[node as usize] * largest));
+            if settled {
+                break;
+            }
+        }
+        if ratio > 1.0 + SETTLED { ratio * MARGIN } else { 1.0 }
+    }
+
+    /// Part of the stable step of the elements at which joints are stable.
+    pub fn step_part(&self) -> f64 {
+        1.0 / (1.0 + self.excess).sqrt()
+    }
+
+    /// Nodes that are joined with each other, by their numbers, each with those that it follows or that follow it, ascending.
+    pub fn joined(&self) -> Vec<(u32, Vec<u32>)> {
+        let pairs = self.followers.iter().flat_map(|one| one.leaders.iter().map(|(leader, _)| [one.node, *leader]));
+        let mut all: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for [follower, leader] in pairs {
+            all.entry(follower).or_default().push(leader);
+            all.entry(leader).or_default().push(follower);
+        }
+        all.values_mut().for_each(|others| others.sort_unstable());
+        all.into_iter().collect()
     }
 
     /// Why the ties cannot be; `None` where they can. `masses` are those of the nodes once masses have been handed over.
@@ -95,22 +169,61 @@ impl Tied {
         ))
     }
 
+    /// Place of a node among those that follow.
+    fn place_of(&self, node: u32) -> Option<usize> {
+        self.followers.binary_search_by_key(&node, |one| one.node).ok()
+    }
+
     /// Whether a node follows others.
     pub fn follows(&self, node: u32) -> bool {
-        self.followers.binary_search_by_key(&node, |one| one.node).is_ok()
+        self.place_of(node).is_some()
     }
 
     /// 1/m of a follower, as a force on it sees it alone: Σ W²/m. `None` of other nodes.
     pub fn inverse_mass(&self, node: u32, masses: &[f64]) -> Option<f64> {
-        let found = self.followers.binary_search_by_key(&node, |one| one.node).ok()?;
-        let leaders = self.followers[found].leaders.iter();
+        let leaders = self.followers[self.place_of(node)?].leaders.iter();
         Some(leaders.map(|(leader, weight)| weight * weight / masses[*leader as usize]).sum())
     }
+}
+
+/// Iterations for the largest ratio of masses at most.
+const MOST_ITERATIONS: usize = 300;
+
+/// Iterations end when it changes by less than this part.
+const SETTLED: f64 = 1e-4;
+
+/// What an iteration from below may have missed.
+const MARGIN: f64 = 1.02;
+
+/// How many of those that follow the deck holds or drives, while not all that they follow are; and the first.
+fn held(mesh: &Mesh, model: &Model, followers: &[Follower]) -> (usize, u32) {
+    let still = model.no_displacements.iter().map(|c| (c.of, c.direction, c.node_set));
+    let moving = model.prescribed_motions.iter().map(|c| (c.of, c.direction, c.node_set));
+    let of_position = still.chain(moving).filter(|(of, ..)| *of == Unknown::Position);
+    let mut sets: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (_, direction, set) in of_position {
+        let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
+        sets.entry(direction.axis()).or_default().extend(nodes);
+    }
+    sets.values_mut().for_each(|nodes| nodes.sort_unstable());
+    let has = |nodes: &[u32], node: u32| nodes.binary_search(&node).is_ok();
+    let loose = |one: &&Follower| {
+        sets.values().any(|nodes| has(nodes, one.node) && one.leaders.iter().any(|(leader, _)| !has(nodes, *leader)))
+    };
+    let mut all = followers.iter().filter(loose).map(|one| one.node);
+    let first = all.next();
+    (first.map_or(0, |_| 1 + all.count()), first.unwrap_or(0))
 }
 
 /// Σ W of a vector of the leaders.
 fn weighted(one: &Follower, of: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
     one.leaders.iter().fold([0.0; 3], |sum, (node, weight)| add(sum, scaled(of(*node), *weight)))
+}
+
+/// The surfaces that a TIED CONTACT joins.
+fn joint(mesh: &Mesh, tie: &Tie) -> Joint {
+    let [following, leading] = tie.side_sets.map(|set| faces(mesh, set));
+    Joint { following, leading, tolerance: tie.tolerance }
 }
 
 /// Faces of a side set, each once.
@@ -130,6 +243,10 @@ fn faces(mesh: &Mesh, set: i64) -> Vec<Face> {
 pub struct Ties {
     /// Followers, by places in the list of leaders.
     followers: Vec<(u32, Vec<(usize, f64)>)>,
+    /// Mass that each of them has handed over.
+    handed: Vec<f64>,
+    /// Part of the stable step of the elements at which joints are stable.
+    pub step_part: f64,
     /// Local node of each leader, or [`ABSENT`].
     leaders: Vec<u32>,
 }
@@ -151,6 +268,8 @@ impl Ties {
         };
         Some(Ties {
             followers: all.iter().map(follower).collect(),
+            handed: body.tied.handed.clone(),
+            step_part: body.tied.step_part(),
             leaders: numbers.iter().map(|&node| local[node as usize]).collect(),
         })
     }
@@ -197,7 +316,7 @@ impl Ties {
     /// Moves forces of contact on: local nodes that this rank answers for, and the force on each. Forces of followers before are taken back. All
     /// ranks call it.
     pub fn push(&self, nodes: &mut Nodes, contact: impl Iterator<Item = (u32, [f64; 3])>, comm: &mut dyn Communicator) {
-        let mut of_node = std::collections::BTreeMap::new();
+        let mut of_node = BTreeMap::new();
         contact.for_each(|(node, force)| _ = of_node.insert(node, force));
         let force = |node: u32| of_node.get(&node).copied().unwrap_or_default();
         let forces = Ties::known(nodes, self.followers.iter().map(|(node, _)| *node), force, comm);
@@ -214,8 +333,19 @@ impl Ties {
         }
     }
 
-    /// Lets followers go with those that they follow at the start. All ranks call it.
+    /// Lets followers and those that they follow set off together, with the momentum that they have. All ranks call it.
     pub fn set_off(&self, nodes: &mut Nodes, comm: &mut dyn Communicator) {
+        let own = Ties::known(nodes, self.followers.iter().map(|(node, _)| *node), |node| nodes.velocity(node), comm);
+        let before = Ties::known(nodes, self.leaders.iter().copied(), |node| nodes.velocity(node), comm);
+        for ((velocity, handed), (_, leaders)) in own.iter().zip(&self.handed).zip(&self.followers) {
+            // What they would not have by following alone.
+            let more = subtract(*velocity, sum(leaders, &before));
+            for (leader, weight) in leaders.iter().filter(|(leader, _)| self.leaders[*leader] != ABSENT) {
+                let row = &mut nodes.rows[self.leaders[*leader] as usize].0;
+                let share = weight * handed / row[3];
+                (0..3).for_each(|i| row[4 + i] += share * more[i]);
+            }
+        }
         let velocities = Ties::known(nodes, self.leaders.iter().copied(), |node| nodes.velocity(node), comm);
         for (node, leaders) in self.followers.iter().filter(|(node, _)| *node != ABSENT) {
             nodes.rows[*node as usize].0[4..7].copy_from_slice(&sum(leaders, &velocities));

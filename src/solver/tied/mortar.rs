@@ -9,6 +9,7 @@
 //! Integrals run over the pieces that pairs of faces have in common. Whatever the rule of integration, linear fields are met exactly, because µ is made with the same
 //! points; uniform stress is handed on as exactly as the rule integrates N_I, which is to round-off for parallelograms.
 
+use crate::solver::contact::geometry::projection::area_normal;
 use crate::vector::{add, cross, dot, normalized, scaled, subtract};
 use std::collections::BTreeMap;
 
@@ -58,7 +59,7 @@ struct Plane {
 
 impl Plane {
     fn of(corners: &[[f64; 3]; 4]) -> Option<Plane> {
-        let area = scaled(cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1])), 0.5);
+        let area = area_normal(corners);
         let normal = normalized(area)?;
         let along = subtract(corners[1], corners[0]);
         let first = normalized(subtract(along, scaled(normal, dot(along, normal))))?;
@@ -203,14 +204,42 @@ impl OfFace {
     }
 }
 
-/// Lets the nodes of some faces follow those of others, which they face within a distance: `tolerance` times the root of a face's area. The faces
-/// that follow, and the others, by their corners counter-clockwise from outside.
-pub fn followers(
-    following: &[Face],
-    leading: &[Face],
-    position: impl Fn(u32) -> [f64; 3],
-    tolerance: f64,
-) -> Vec<Follower> {
+/// Two surfaces that are joined.
+#[derive(Debug, Clone, Default)]
+pub struct Joint {
+    /// Faces whose nodes follow, by their corners counter-clockwise from outside.
+    pub following: Vec<Face>,
+    /// Faces whose nodes they follow, in the same way.
+    pub leading: Vec<Face>,
+    /// How far apart they may be, as a part of the root of a face's area.
+    pub tolerance: f64,
+}
+
+/// What is integrated around each node that follows: ∫ N_s, and ∫ µ_s N_I by the node I.
+type Sums = BTreeMap<u32, (f64, BTreeMap<u32, f64>)>;
+
+/// Lets nodes of the following faces of joints follow those of the leading ones that they face. A node of several joints follows the
+/// leaders of all.
+pub fn followers(joints: &[Joint], position: impl Fn(u32) -> [f64; 3]) -> Vec<Follower> {
+    let mut sums = Sums::new();
+    joints.iter().for_each(|joint| integrate(joint, &position, &mut sums));
+    let follower = |(node, (whole, leaders)): (u32, (f64, BTreeMap<u32, f64>))| {
+        let least = 1e-12 * whole;
+        let mut leaders: Vec<(u32, f64)> = leaders
+            .into_iter()
+            .filter(|(_, part)| part.abs() > least)
+            .map(|(leader, part)| (leader, part / whole))
+            .collect();
+        let sum: f64 = leaders.iter().map(|(_, weight)| weight).sum();
+        leaders.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        Follower { node, leaders }
+    };
+    sums.into_iter().map(follower).filter(|follower| !follower.leaders.is_empty()).collect()
+}
+
+/// Integrates over what the faces of a joint have in common.
+fn integrate(joint: &Joint, position: impl Fn(u32) -> [f64; 3], sums: &mut Sums) {
+    let Joint { following, leading, tolerance } = joint;
     let corners = |face: &Face| face.map(&position);
     let extent = |corners: &[[f64; 3]; 4], axis: usize| {
         let along = corners.map(|x| x[axis]);
@@ -221,7 +250,6 @@ pub fn followers(
         leading.iter().enumerate().map(|(i, face)| (extent(&corners(face), 0)[0], i)).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let longest = leading.iter().map(|face| extent(&corners(face), 0)).fold(0.0, |most, [a, b]| f64::max(most, b - a));
-    let mut sums: BTreeMap<u32, (f64, BTreeMap<u32, f64>)> = BTreeMap::new();
     for face in following {
         let own = corners(face);
         let Some(plane) = Plane::of(&own) else { continue };
@@ -253,18 +281,6 @@ pub fn followers(
             }
         }
     }
-    let follower = |(node, (whole, leaders)): (u32, (f64, BTreeMap<u32, f64>))| {
-        let least = 1e-12 * whole;
-        let mut leaders: Vec<(u32, f64)> = leaders
-            .into_iter()
-            .filter(|(_, part)| part.abs() > least)
-            .map(|(leader, part)| (leader, part / whole))
-            .collect();
-        let sum: f64 = leaders.iter().map(|(_, weight)| weight).sum();
-        leaders.iter_mut().for_each(|(_, weight)| *weight /= sum);
-        Follower { node, leaders }
-    };
-    sums.into_iter().map(follower).filter(|follower| !follower.leaders.is_empty()).collect()
 }
 
 #[cfg(test)]
@@ -289,7 +305,8 @@ mod tests {
         for (n, m) in [(4, 3), (3, 4), (2, 5)] {
             let ((mut places, own), (others, leading)) = (grid(n, 0, true), grid(m, (n + 1) * (n + 1), false));
             places.extend(others);
-            let found = followers(&own, &leading, |node| places[node as usize], 0.05);
+            let joint = Joint { following: own, leading, tolerance: 0.05 };
+            let found = followers(&[joint], |node| places[node as usize]);
             assert_eq!(found.len(), ((n + 1) * (n + 1)) as usize);
             let mut handed = vec![0.0; places.len()];
             for follower in &found {
@@ -315,7 +332,9 @@ mod tests {
     fn what_is_too_far_away_is_not_followed() {
         let ((mut places, own), (others, leading)) = (grid(2, 0, true), grid(2, 9, false));
         places.extend(others.iter().map(|x| [x[0], x[1], 0.1]));
-        assert!(followers(&own, &leading, |node| places[node as usize], 0.05).is_empty());
-        assert_eq!(followers(&own, &leading, |node| places[node as usize], 0.5).len(), 9);
+        let mut joint = Joint { following: own, leading, tolerance: 0.05 };
+        assert!(followers(std::slice::from_ref(&joint), |node| places[node as usize]).is_empty());
+        joint.tolerance = 0.5;
+        assert_eq!(followers(&[joint], |node| places[node as usize]).len(), 9);
     }
 }

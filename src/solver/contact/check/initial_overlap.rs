@@ -363,6 +363,12 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
             motion.inverse_mass[point][0] = 0.0;
         }
     }
+    // Those that follow others go where these go.
+    for one in &body.tied.followers {
+        if let Ok(point) = layout.nodes.binary_search(&one.node) {
+            motion.inverse_mass[point] = [0.0; 3];
+        }
+    }
     // Rigid bodies stay as they are.
     let blocks = mesh.blocks.iter().zip(&body.block_body).filter(|(_, of)| of.is_some());
     for node in blocks.flat_map(|(block, _)| &block.nodes) {

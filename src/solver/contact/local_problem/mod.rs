@@ -183,9 +183,14 @@ impl LocalProblem {
         self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
     }
 
+    /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.
+    pub fn release_faces(&mut self) {
+        self.faces = Arc::default();
+    }
+
     /// Faces of the layout that all belong to this local problem, shared with it.
-    pub fn share_faces(&mut self, faces: Arc<Faces>) {
-        self.faces = faces;
+    pub fn share_faces(&mut self, faces: &Arc<Faces>) {
+        self.faces = faces.clone();
         self.measure_edges();
     }
 
@@ -211,9 +216,7 @@ impl LocalProblem {
 
     fn measure_edges(&mut self) {
         let faces = &self.faces;
-        if !faces.is_empty() {
-            self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
-        }
+        self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
     }
 
     /// What is carried from step to step.
@@ -305,7 +308,22 @@ impl LocalProblem {
         bank: &mut Bank,
         others: &mut dyn OtherRanks,
     ) -> Outcome {
-        let outcome = self.enforce(setting, step, bank, others);
+        let coupled = self.are_coupled();
+        let LocalProblem { constraints, enforcer, motion, answers, .. } = self;
+        // Of planes alone each rank knows its own.
+        let ledger = if coupled { Ledger::Bank(bank) } else { Ledger::EachNode };
+        enforcer.prepare(constraints, motion, step.drift, &ledger);
+        for (c, state) in constraints.iter().zip(enforcer.states()).filter(|_| !answers.is_empty()) {
+            state.own = answers[c.members[0] as usize];
+        }
+        let own = constraints.len();
+        others.copy(constraints, enforcer.states());
+        let order = enforcer.merge(constraints, own);
+        let outcome = enforcer.solve(constraints, motion, step, setting.limits, (ledger, others));
+        match order {
+            None => (0..own).for_each(|i| self.remember(i)),
+            Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
+        }
         self.tell_nodes();
         outcome
     }
@@ -406,32 +424,6 @@ impl LocalProblem {
                 EdgeVerdict::Apart(apart) => locator.let_pair_wait(place, apart),
             }
         }
-    }
-
-    fn enforce(
-        &mut self,
-        setting: &StepInput,
-        step: &StepTimes,
-        bank: &mut Bank,
-        others: &mut dyn OtherRanks,
-    ) -> Outcome {
-        let coupled = self.are_coupled();
-        let LocalProblem { constraints, enforcer, motion, answers, .. } = self;
-        // Of planes alone each rank knows its own.
-        let ledger = if coupled { Ledger::Bank(bank) } else { Ledger::EachNode };
-        enforcer.prepare(constraints, motion, step.drift, &ledger);
-        for (c, state) in constraints.iter().zip(enforcer.states()).filter(|_| !answers.is_empty()) {
-            state.own = answers[c.members[0] as usize];
-        }
-        let own = constraints.len();
-        others.copy(constraints, enforcer.states());
-        let order = enforcer.merge(constraints, own);
-        let outcome = enforcer.solve(constraints, motion, step, setting.limits, (ledger, others));
-        match order {
-            None => (0..own).for_each(|i| self.remember(i)),
-            Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
-        }
-        outcome
     }
 
     /// Keeps the force of a constraint: the iterations of the next step begin with it.

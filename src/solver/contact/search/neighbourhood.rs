@@ -94,7 +94,7 @@ pub fn find(
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
             let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
             let faces = &layout.faces;
-            let joined = |face: u32| layout.are_tied(&[point]) && layout.are_tied(&faces.corners[face as usize]);
+            let joined = |face: u32| layout.are_joined(point, &faces.corners[face as usize]);
             let unrelated = near.filter(|&face| {
                 !faces.same_element(face, point) && !faces.grown_together(point, face) && !joined(face)
             });
@@ -163,8 +163,11 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
         let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);
         let others = others.filter(|&other| layout.meets(first, other) && (other > first || !stands_out(other)));
         let one = &layout.edges[first as usize];
-        let tied = layout.are_tied(&one.ends);
-        let others = others.filter(|&other| !(tied && layout.are_tied(&layout.edges[other as usize].ends)));
+        let joined = |other: u32| {
+            let others = &layout.edges[other as usize].ends;
+            one.ends.iter().any(|&end| layout.are_joined(end, others))
+        };
+        let others = others.filter(|&other| !joined(other));
         let unrelated = others.filter(|&other| edges::unrelated(one, &layout.edges[other as usize], &layout.faces));
         pairs.extend(unrelated.map(|second| [first, second]));
     }

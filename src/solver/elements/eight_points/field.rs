@@ -19,18 +19,6 @@ use crate::solver::elements::hexahedron::hourglass::Resistance;
 /// 1/√3.
 const PLACE: f64 = 0.577_350_269_189_625_8;
 
-/// Signs of the points along ξ, η and ζ, in the order in which corners are numbered.
-pub const SIGNS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
-
 /// Amplitudes of the field, with 2ζ/ℓ and the like already in them.
 pub struct Field<V> {
     /// `[i][n]`, 2 q/ℓ_i PLACE: of the modes of direction i that bend along i and vary along its second (0) and third (1) neighbour.

@@ -1,9 +1,10 @@
 //! One step of one chunk of hexahedra with eight points.
 
-use super::field::{Field, Moments, SIGNS, contraction};
+use super::field::{Field, Moments, contraction};
 use super::{point_rows, rows};
 use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Step};
+use crate::mesh::hexahedron::SIGNS;
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, dot, gradient, modes};

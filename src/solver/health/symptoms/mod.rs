@@ -12,6 +12,7 @@ mod overlap_moved;
 mod passes;
 mod runaway;
 mod sunk;
+mod tied_held;
 
 use super::finding::Evidence;
 use super::watch::Exam;
@@ -40,7 +41,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 12] = [
+pub static SYMPTOMS: [Symptom; 13] = [
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
     contact_gain::SYMPTOM,
@@ -53,6 +54,7 @@ pub static SYMPTOMS: [Symptom; 12] = [
     sunk::SYMPTOM,
     debris::SYMPTOM,
     brief::SYMPTOM,
+    tied_held::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

@@ -1,0 +1,52 @@
+//! Random scenes of parts that are no bodies of elements alone: rigid blocks, and blocks that are tied.
+
+use super::scenes::{Scene, builder, scene};
+
+/// The confined scene of a seed with one of its blocks, if it has several, as a rigid body.
+pub fn rigid_scene(seed: u64) -> Scene {
+    let mut scene = scene(seed);
+    let of_block = |line: &str| line.strip_prefix("MATERIAL, ")?.split(',').next()?.parse().ok();
+    let blocks: Vec<usize> = scene.deck.lines().filter_map(of_block).collect();
+    if blocks.len() > 1 {
+        let rigid = blocks[seed as usize % blocks.len()];
+        // What is rigid does not fail.
+        let dies = format!("DEATH, {rigid},");
+        let kept = scene.deck.lines().filter(|line| !line.starts_with(&dies) && *line != "EXIT");
+        let kept: String = kept.map(|line| format!("{line}\n")).collect();
+        scene.deck = format!("{kept}RIGID BODY, {rigid}\nEXIT\n");
+    }
+    scene
+}
+
+/// Two blocks that are tied where they lie upon each other, with meshes that do not match, and a third that hits them; the joint covers
+/// faces in part, and coarse faces follow finer ones as often as the other way round.
+pub fn tied_scene(seed: u64) -> Scene {
+    let mut b = builder(seed);
+    let dice = &mut b.dice;
+    let [below, above, thrown] = [dice.count(2, 6), dice.count(2, 6), dice.count(1, 3)];
+    let heights = [dice.between(0.2, 0.6), dice.between(0.1, 0.5)];
+    let (place, width) = ([dice.between(-0.4, 0.5), dice.between(-0.4, 0.5)], dice.between(0.5, 1.2));
+    let layers = [dice.count(1, 3), dice.count(1, 3)];
+    let stiffness = [1.0, dice.magnitude(1e-2, 1e2), dice.magnitude(0.1, 10.0)];
+    let density = [1.0, dice.magnitude(0.1, 10.0), dice.magnitude(0.1, 10.0)];
+    let speed = dice.magnitude(1.0, 100.0);
+    let side = dice.between(0.2, 0.6);
+    let at = [place[0] + dice.between(0.0, 0.5) * width, place[1] + dice.between(0.0, 0.5) * width];
+    b.boxed(1, [0.0; 3], [1.0, 1.0, heights[0]], [below, below, layers[0]]);
+    b.boxed(2, [place[0], place[1], heights[0]], [width, width, heights[1]], [above, above, layers[1]]);
+    b.boxed(3, [at[0], at[1], heights[0] + heights[1] + 1e-3], [side; 3], [thrown; 3]);
+    b.mesh_line("SIDE SET FACE, 100, 1, TOP");
+    b.mesh_line("SIDE SET FACE, 200, 2, BOTTOM");
+    b.mesh_line("NODE SET FACE, 1, 1, BOTTOM");
+    for block in 0..3 {
+        b.material(block + 1, stiffness[block], density[block]);
+    }
+    let friction = b.contact(3);
+    let sets = b.dice.one_of(&[[100, 200], [200, 100]]);
+    b.line(&format!("TIED CONTACT, {}, {}", sets[0], sets[1]));
+    if b.dice.chance(0.5) {
+        b.line("NO DISPLACEMENT, Z, 1");
+    }
+    b.line(&format!("INITIAL VELOCITY MATERIAL, 3, {:?}, 0., {:?}", 0.3 * speed, -speed));
+    b.finish("tied blocks that are hit", friction, 1500.0)
+}
