@@ -10,7 +10,7 @@ use support::joined_scenes::{rigid_scene, tied_scene};
 use support::meshes::recipe;
 use support::run::model;
 use support::scenes::{Scene, scene};
-use support::shell_scenes::shell_scene;
+use support::shell_scenes::{shell_scene, triangle_scene};
 use support::surfaces::Surfaces;
 use urto::comm::{Communicator, ExactSum, run_threads};
 use urto::mesh::Mesh;
@@ -203,6 +203,12 @@ fn contact_with_tied_blocks_gives_no_energy() {
 #[test]
 fn contact_of_shells_gives_no_energy() {
     try_all(0..120, shell_scene, 0);
+}
+
+#[test]
+fn contact_of_triangles_gives_no_energy() {
+    // Found: 1, whose ends crumple within four elements.
+    try_all(0..60, triangle_scene, 1);
 }
 
 #[test]

@@ -40,9 +40,14 @@ fn node_at(mesh: &Mesh, at: [f64; 3]) -> usize {
 
 /// A quarter of the plate of V-16: n × n shells of 5 in.
 fn plate(n: usize, clamped: bool, law: &str) -> (String, Mesh) {
+    plate_of(n, clamped, law, "")
+}
+
+/// The same with more lines of its recipe.
+fn plate_of(n: usize, clamped: bool, law: &str, more: &str) -> (String, Mesh) {
     let mesh = with_sides(recipe(&format!(
         "TITLE\n plate\nSHEET, 1, 0., 0., 0., 5., 5., 0., {n}, {n}\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, Y, 0.\n\
-         NODE SET PLANE, 3, X, 5.\nNODE SET PLANE, 4, Y, 5.\n"
+         NODE SET PLANE, 3, X, 5.\nNODE SET PLANE, 4, Y, 5.\n{more}"
     )));
     let mut deck = format!(
         "TITLE\n plate\nTERMINATION TIME, 1.2E-3\nPLOT TIME, 1.E-5\nOUTPUT TIME, 1.E-5\nPLOT NODAL, DISPLACEMENT\n\
@@ -77,6 +82,22 @@ fn s4_clamped_plate() {
     let (most, time) = peak(&run(&deck, &mesh), "DISPLZ", node_at(&mesh, [0.0; 3]));
     close("S4", "first peak of the deflection [in]", most, 0.0718, 0.03);
     close("S4", "its time [s]", time, 0.321e-3, 0.04);
+}
+
+/// V-16 and S4 of triangles, each two for a shell of those: stiffer while the mesh is coarse.
+#[test]
+fn plates_of_triangles_swing() {
+    for (name, clamped, most, time) in [("V-16", false, 0.2163, 0.514e-3), ("S4", true, 0.0718, 0.321e-3)] {
+        for (n, tolerance) in [(8, 0.05), (16, 0.03)] {
+            let (deck, mesh) = plate_of(n, clamped, ELASTIC, "TRIANGLES, 1\n");
+            let swing = run(&deck, &mesh);
+            let found = peak(&swing, "DISPLZ", node_at(&mesh, [0.0; 3]));
+            println!("{name}, {n}: {:.4} of the peak, {:.4} of its time", found.0 / most, found.1 / time);
+            close(name, "first peak of the deflection [in]", found.0, most, tolerance);
+            close(name, "its time [s]", found.1, time, tolerance);
+            between(name, "worst energy balance", swing.worst_balance(), 0.0, 2e-3);
+        }
+    }
 }
 
 /// V-17: a sphere under a pressure from inside that begins at once breathes between 0 and 35 µm with a period of 73.64 µs.
@@ -121,9 +142,9 @@ fn s1_strips_are_bent() {
 }
 
 /// A clamped plate that flows, bursts and loses points and shells.
-fn bursting_plate() -> (String, Mesh) {
+fn bursting_plate(more: &str) -> (String, Mesh) {
     let law = "PIECEWISE PLASTIC, 2.588E-4\nYOUNGS MODULUS = 1.E7\nPOISSONS RATIO = 0.3\nHARDENING FUNCTION = 2";
-    let (deck, mesh) = plate(6, true, law);
+    let (deck, mesh) = plate_of(6, true, law, more);
     let deck = deck.replace("PRESSURE, 2, 1, 300.", "PRESSURE, 2, 1, 3000.").replace("1.2E-3", "4.E-4");
     let more = "FUNCTION, 2\n0., 30.E3\n0.1, 40.E3\nEND\nPLOT STATE, EQPS\nDEATH, 1, EQPS, MAX, 0.02, FREE, 0.6\n";
     (deck + more, mesh)
@@ -132,13 +153,18 @@ fn bursting_plate() -> (String, Mesh) {
 /// One rank, three ranks.
 #[test]
 fn shells_have_the_same_bits_on_any_ranks() {
-    let (deck, mesh) = bursting_plate();
-    let runs = [1, 3].map(|ranks| run_on(ranks, &deck, &mesh).whole());
+    for (more, count) in [("", 36.0), ("TRIANGLES, 1\n", 72.0)] {
+        same_bits(&bursting_plate(more), count);
+    }
+}
+
+fn same_bits((deck, mesh): &(String, Mesh), count: f64) {
+    let runs = [1, 3].map(|ranks| run_on(ranks, deck, mesh).whole());
     let [one, three] = &runs;
     let most = one.states.iter().flat_map(|state| state.element("EQPS_T")).fold(0.0f64, |most, eqps| eqps.max(most));
     between("shells", "largest plastic strain at the top", most, 0.005, 0.1);
     let left: f64 = one.end().element("STATUS").iter().sum();
-    between("shells", "share that is left", left / 36.0, 0.2, 0.99);
+    between("shells", "share that is left", left / count, 0.2, 0.99);
     between("shells", "worst energy balance", one.worst_balance(), 0.0, 2e-2);
     for (a, b) in one.states.iter().zip(&three.states) {
         for name in ["DISPLX", "DISPLY", "DISPLZ"] {
@@ -154,9 +180,9 @@ fn shells_have_the_same_bits_on_any_ranks() {
 /// bits.
 #[test]
 fn continued_runs_have_the_same_bits() {
-    let (deck, mesh) = bursting_plate();
+    let [plate, triangles] = ["", "TRIANGLES, 1\n"].map(bursting_plate).map(|(deck, mesh)| Case::new(&deck, mesh));
     let frame = Case::new(&text("decks/frame.i"), recipe(&text("meshes/frame.mesh")));
-    for case in [Case::new(&deck, mesh), frame] {
+    for case in [plate, triangles, frame] {
         let whole = case.part(1, None, 120);
         let first = case.part(2, None, 60);
         let rest = case.part(3, Some(&first.end), 60);

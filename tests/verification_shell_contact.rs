@@ -59,14 +59,19 @@ fn sound(case: &str, run: &Run, mesh: &Mesh, thickness: f64) -> f64 {
 /// Two sheets one above the other, `gap` between their middle surfaces; nodes do not meet nodes, and the upper one is turned
 /// upside down where `flipped`.
 fn two_sheets(gap: f64, flipped: bool) -> Mesh {
-    let mut mesh = recipe(&format!(
-        "TITLE\n TWO SHEETS\nSHEET, 1,  0., 0., 0.,  0.1, 0.1, 0.,  5, 5\n\
-         SHEET, 2,  0.013, 0.011, {gap},  0.07, 0.07, 0.,  4, 4\n"
-    ));
+    let mut mesh = two_sheets_of(gap, "");
     if flipped {
         mesh.blocks[1].nodes.chunks_exact_mut(4).for_each(|nodes| nodes.swap(1, 3));
     }
     mesh
+}
+
+/// The same with more lines of the recipe.
+fn two_sheets_of(gap: f64, more: &str) -> Mesh {
+    recipe(&format!(
+        "TITLE\n TWO SHEETS\nSHEET, 1,  0., 0., 0.,  0.1, 0.1, 0.,  5, 5\n\
+         SHEET, 2,  0.013, 0.011, {gap},  0.07, 0.07, 0.,  4, 4\n{more}"
+    ))
 }
 
 /// A sheet that falls on another one, free to move, from above or from below, whichever way the sheets look: they stop
@@ -84,6 +89,24 @@ fn sheets_stop_each_other_at_their_thickness() {
         let least = sound("sheets", &run, &mesh, T);
         between("sheets", "least distance over that at which they touch", least / factor, 0.999, 1.001);
         close("sheets", "momentum", run.last().totals.momentum[2], run.lines[0].totals.momentum[2], 1e-10);
+    }
+}
+
+/// The same where one of the sheets, or both, are of triangles.
+#[test]
+fn sheets_of_triangles_stop_each_other_at_their_thickness() {
+    for (gap, triangles) in
+        [(1.5, "TRIANGLES, 1\n"), (-1.5, "TRIANGLES, 2\n"), (1.5, "TRIANGLES, 1\nTRIANGLES, 2, CROSS\n")]
+    {
+        let mesh = two_sheets_of(gap * T, triangles);
+        let speed = -10.0 * f64::signum(gap);
+        let more = format!(
+            "SHELL THICKNESS, 1, {T}\nSHELL THICKNESS, 2, {T}\nINITIAL VELOCITY MATERIAL, 2, 0., 0., {speed}\n"
+        );
+        let run = on_ranks(&deck(5e-4, &more, 2), &mesh);
+        let least = sound("triangles", &run, &mesh, T);
+        between("triangles", "least distance over that at which they touch", least, 0.999, 1.001);
+        close("triangles", "momentum", run.last().totals.momentum[2], run.lines[0].totals.momentum[2], 1e-10);
     }
 }
 

@@ -8,7 +8,7 @@ mod support;
 use support::between;
 use support::meshes::recipe;
 use support::run::{Run, run};
-use urto::mesh::{Mesh, NodeSet};
+use urto::mesh::{Mesh, NodeSet, Shape};
 
 /// Young's modulus and density of steel; the speed of waves is 5,000 m/s.
 const STEEL: &str = "ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3";
@@ -52,10 +52,25 @@ fn scene(plate: &Plate, crossings: f64) -> (Mesh, String) {
     (mesh, deck)
 }
 
+/// Every quadrilateral divided in two.
+fn triangles(mesh: &Mesh) -> Mesh {
+    let mut mesh = mesh.clone();
+    for block in &mut mesh.blocks {
+        let halves = |n: &[u32]| [n[0], n[1], n[2], n[0], n[2], n[3]];
+        block.nodes = block.nodes.chunks_exact(4).flat_map(halves).collect();
+        block.shape = Shape::Triangle;
+    }
+    mesh.element_ids = (1..=mesh.element_count() as i64).collect();
+    mesh
+}
+
 /// The run of a plate whose corners are thrown in all directions.
 fn shaken(plate: &Plate, more: &str) -> Run {
-    let (mut mesh, mut deck) = scene(plate, 2000.0);
-    deck += more;
+    let (mesh, deck) = scene(plate, 2000.0);
+    thrown(mesh, deck + more)
+}
+
+fn thrown(mut mesh: Mesh, mut deck: String) -> Run {
     let mut seed = 20_261;
     for node in 0..mesh.coordinates.len() as u32 {
         let id = i64::from(node) + 1;
@@ -86,6 +101,29 @@ fn holds(name: &str, run: &Run) {
 #[test]
 fn a_flat_plate() {
     holds("flat", &shaken(&FLAT, ""));
+}
+
+/// A plate in which every second shell is two triangles.
+fn mixed() -> (Mesh, String) {
+    let (_, deck) = scene(&FLAT, 2000.0);
+    let strip = |block, x: f64| format!("SHEET, {block}, {x}., 0., 0., 1., 3., 0., 1, 3\n");
+    let recipe_text =
+        format!("TITLE\n plate\n{}{}{}TRIANGLES, 2\nMERGE\n", strip(1, 0.0), strip(2, 1.0), strip(1, 2.0));
+    let second = deck.replace("SHELL THICKNESS, 1", "SHELL THICKNESS, 2").replace("MATERIAL, 1", "MATERIAL, 2");
+    let own = second.split_once("SHELL THICKNESS").map_or(String::new(), |(_, own)| format!("SHELL THICKNESS{own}"));
+    (recipe(&recipe_text), deck + &own)
+}
+
+/// Of triangles, flat and thin, alone and beside quadrilaterals.
+#[test]
+fn plates_of_triangles() {
+    let divided = |thickness: f64| {
+        let (mesh, deck) = scene(&Plate { thickness, ..FLAT }, 2000.0);
+        (triangles(&mesh), deck)
+    };
+    for (name, (mesh, deck)) in [("triangles", divided(0.01)), ("thin triangles", divided(1e-6)), ("mixed", mixed())] {
+        holds(name, &thrown(mesh, deck));
+    }
 }
 
 /// Twisted by 45 degrees a shell, along x.

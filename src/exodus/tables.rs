@@ -198,7 +198,7 @@ impl BlockTable {
             matches!(
                 kind,
                 Kind::Solid(Form::Hexahedron | Form::Wedge | Form::Pyramid)
-                    | Kind::Other(Shape::Bar | Shape::Plane | Shape::Quadrilateral)
+                    | Kind::Other(Shape::Bar | Shape::Plane | Shape::Quadrilateral | Shape::Triangle)
                     | Kind::Triangle
             )
         })
@@ -267,7 +267,7 @@ impl BlockTable {
         }
         let spelled = if self.element_type.is_empty() { "(no type)" } else { self.element_type.as_str() };
         let advice = if ["SHE", "QUA", "TRI"].iter().any(|stem| self.begins_with(stem)) {
-            "shells have four nodes here; write triangles as quadrilaterals or model the part with solid elements"
+            "shells have three or four nodes; write the mesh with linear elements"
         } else if ["HEX", "TET", "WED", "PYR"].iter().any(|stem| self.begins_with(stem)) {
             "elements of higher order are not built; write the mesh with linear elements"
         } else {
@@ -275,7 +275,7 @@ impl BlockTable {
         };
         Problem::new(
             format!(
-                "block {}: elements of type {spelled} with {} are not supported; HEX8, WEDGE6, PYRAMID5, SHELL4 and BAR2 are",
+                "block {}: elements of type {spelled} with {} are not supported; HEX8, WEDGE6, PYRAMID5, SHELL4, TRISHELL3 and BAR2 are",
                 self.id,
                 counted(self.nodes_per_element, "node")
             ),

@@ -21,12 +21,13 @@ impl Kind {
     }
 
     /// Those of space.
-    const ALL: [Kind; 6] = [
+    const ALL: [Kind; 7] = [
         Kind::Solid(Form::Hexahedron),
         Kind::Solid(Form::Wedge),
         Kind::Solid(Form::Pyramid),
         Kind::Solid(Form::Tetrahedron),
         Kind::Other(Shape::Quadrilateral),
+        Kind::Other(Shape::Triangle),
         Kind::Other(Shape::Bar),
     ];
 

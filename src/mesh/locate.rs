@@ -46,7 +46,7 @@ fn distance(shape: Shape, corners: &[[f64; 3]], point: [f64; 3]) -> f64 {
         plane::outside(corners, point)
     } else if shape.dimension() == 3 {
         outside_of_faces(shape, corners, centre, point)
-    } else if shape == Shape::Quadrilateral {
+    } else if shape.is_surface() {
         beside(corners, centre, point)
     } else {
         beyond(corners, centre, point)

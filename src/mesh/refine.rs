@@ -158,10 +158,28 @@ impl Divider {
     fn children(&mut self, shape: Shape, nodes: &[u32]) -> Option<Vec<Child>> {
         match (shape, <&[u32; 8]>::try_from(nodes)) {
             (Shape::Hexahedron, Ok(corners)) if is_collapsed(corners) => self.at_corners(corners),
-            // Nor is a triangle a quadrilateral with four halves of edges.
+            (Shape::Triangle, _) => Some(self.triangle(nodes)),
+            // Nor is a triangle of the plane a quadrilateral with four halves of edges.
             _ if shape == Shape::Plane && (0..4).any(|i| nodes[i] == nodes[(i + 1) % 4]) => None,
             _ => Some(self.halved(shape, nodes)),
         }
+    }
+
+    /// A triangle of a surface: one at each corner, turned as their parent is, and one between them.
+    fn triangle(&mut self, nodes: &[u32]) -> Vec<Child> {
+        let [a, b, c] = [0, 1, 2].map(|i: usize| nodes[i]);
+        let [ab, bc, ca] = [self.middle(&[a, b]), self.middle(&[b, c]), self.middle(&[c, a])];
+        let child = |nodes: [u32; 3], edges: &[usize]| {
+            let mut outside = [0, 1, INSIDE, INSIDE, INSIDE, INSIDE];
+            edges.iter().for_each(|&edge| outside[edge] = edge as u8);
+            Child { nodes: nodes.to_vec(), outside }
+        };
+        vec![
+            child([a, ab, ca], &[2, 4]),
+            child([ab, b, bc], &[2, 3]),
+            child([ca, bc, c], &[3, 4]),
+            child([bc, ca, ab], &[]),
+        ]
     }
 
     /// An element with all its corners, halved along each of its directions; a child stands at each corner, turned as its
@@ -372,6 +390,23 @@ mod tests {
         assert_eq!(fine.coordinates.len(), 27);
         assert!(geometry(&fine).is_empty());
         assert_eq!(fine.side_sets[0].sides, [(8, 0), (9, 0), (10, 0), (11, 0), (9, 3), (10, 3), (13, 1)]);
+    }
+
+    #[test]
+    fn a_triangle_becomes_four() {
+        let coordinates = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+        let block = Block { id: 2, shape: Shape::Triangle, nodes: vec![0, 1, 2], ..Block::default() };
+        let mut coarse = mesh(coordinates, vec![block]);
+        coarse.side_sets = vec![SideSet { id: 1, sides: vec![(0, 0), (0, 3)], ..SideSet::default() }];
+        let fine = refined(&coarse).unwrap();
+        assert!((fine.element_count(), fine.coordinates.len()) == (4, 6) && geometry(&fine).is_empty());
+        assert_eq!(fine.side_sets[0].sides, [(0, 0), (1, 0), (2, 0), (3, 0), (1, 3), (2, 3)]);
+        // All turn as their parent does.
+        let area = |nodes: &[u32]| {
+            let [a, b, c] = [0, 1, 2].map(|i: usize| fine.coordinates[nodes[i] as usize]);
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        assert!(fine.elements().all(|(_, nodes)| (area(nodes) - 1.0).abs() < 1e-15));
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub enum Shape {
     Hexahedron,
     /// Four nodes of a surface, counter-clockwise seen from its top.
     Quadrilateral,
+    /// Three nodes of a surface, in the same way.
+    Triangle,
     /// Four nodes of a two-dimensional mesh, counter-clockwise; the last two are one node in a triangle.
     Plane,
     /// Two nodes.
@@ -25,19 +27,22 @@ pub enum Shape {
 const HEXAHEDRON: [&[usize]; 6] =
     [&HEX_SIDES[0], &HEX_SIDES[1], &HEX_SIDES[2], &HEX_SIDES[3], &HEX_SIDES[4], &HEX_SIDES[5]];
 const QUADRILATERAL: [&[usize]; 6] = [&[0, 1, 2, 3], &[0, 3, 2, 1], &[0, 1], &[1, 2], &[2, 3], &[3, 0]];
+/// Sides of a triangle of a surface: top, bottom and the three edges.
+const TRIANGLE: [&[usize]; 5] = [&[0, 1, 2], &[0, 2, 1], &[0, 1], &[1, 2], &[2, 0]];
 /// Edges of a plane element in EXODUS order.
 const PLANE: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
 const BAR: [&[usize]; 2] = [&[0], &[1]];
 
 impl Shape {
     /// All shapes.
-    pub const ALL: [Shape; 4] = [Shape::Hexahedron, Shape::Quadrilateral, Shape::Plane, Shape::Bar];
+    pub const ALL: [Shape; 5] = [Shape::Hexahedron, Shape::Quadrilateral, Shape::Triangle, Shape::Plane, Shape::Bar];
 
     /// Number of nodes.
     pub fn corners(self) -> usize {
         match self {
             Shape::Hexahedron => 8,
             Shape::Quadrilateral | Shape::Plane => 4,
+            Shape::Triangle => 3,
             Shape::Bar => 2,
         }
     }
@@ -46,7 +51,7 @@ impl Shape {
     pub fn dimension(self) -> usize {
         match self {
             Shape::Hexahedron => 3,
-            Shape::Quadrilateral | Shape::Plane => 2,
+            Shape::Quadrilateral | Shape::Triangle | Shape::Plane => 2,
             Shape::Bar => 1,
         }
     }
@@ -56,6 +61,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => "HEX8",
             Shape::Quadrilateral => "SHELL4",
+            Shape::Triangle => "TRISHELL3",
             Shape::Plane => "QUAD4",
             Shape::Bar => "BAR2",
         }
@@ -66,6 +72,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => &["HEX"],
             Shape::Quadrilateral => &["SHE", "QUA"],
+            Shape::Triangle => &["TRI", "SHE"],
             Shape::Plane => &["QUA"],
             Shape::Bar => &["BAR", "TRU", "BEA"],
         }
@@ -76,6 +83,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => ["hexahedron", "hexahedra"],
             Shape::Quadrilateral | Shape::Plane => ["quadrilateral", "quadrilaterals"],
+            Shape::Triangle => ["triangle", "triangles"],
             Shape::Bar => ["bar", "bars"],
         }
     }
@@ -85,6 +93,7 @@ impl Shape {
         match self {
             Shape::Hexahedron => &HEXAHEDRON,
             Shape::Quadrilateral => &QUADRILATERAL,
+            Shape::Triangle => &TRIANGLE,
             Shape::Plane => &PLANE,
             Shape::Bar => &BAR,
         }
@@ -93,6 +102,11 @@ impl Shape {
     /// Whether elements of this shape fill the space of their mesh, so that a face between two of them is inside.
     pub fn is_solid(self) -> bool {
         matches!(self, Shape::Hexahedron | Shape::Plane)
+    }
+
+    /// Whether elements of this shape are surfaces in space, which have two faces.
+    pub fn is_surface(self) -> bool {
+        matches!(self, Shape::Quadrilateral | Shape::Triangle)
     }
 
     /// The sides that are faces, first of all: those that can be seen, pressed or touched. In the plane they are edges.
@@ -109,15 +123,17 @@ impl Shape {
         match self {
             Shape::Hexahedron => &hexahedron::EDGES,
             Shape::Quadrilateral | Shape::Plane => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            Shape::Triangle => &[[0, 1], [1, 2], [2, 0]],
             Shape::Bar => &[[0, 1]],
         }
     }
 
-    /// The four nodes of a face of an element given by its nodes, `None` for a side that is none. An edge a-b of a plane
-    /// element is the face a-b-b-a: a strip that stands on the plane.
+    /// The four nodes of a face of an element given by its nodes, `None` for a side that is none. A triangle a-b-c is the face
+    /// a-b-c-c; an edge a-b of a plane element is the face a-b-b-a: a strip that stands on the plane.
     pub fn face(self, nodes: &[u32], side: u8) -> Option<[u32; 4]> {
         let corners: [usize; 4] = match *self.faces().get(usize::from(side))? {
             &[a, b] => [a, b, b, a],
+            &[a, b, c] => [a, b, c, c],
             corners => corners.try_into().ok()?,
         };
         Some(corners.map(|corner| nodes[corner]))
@@ -148,6 +164,15 @@ impl Shape {
                     )
                 })
             }
+            Shape::Triangle => {
+                let normal = cross(subtract(at(1), at(0)), subtract(at(2), at(0)));
+                let longest = (0..3).map(|i| subtract(at((i + 1) % 3), at(i))).map(|edge| dot(edge, edge));
+                let smallest = 4.0 * f64::EPSILON * longest.fold(0.0, f64::max);
+                let area = dot(normal, normal).sqrt();
+                (area.is_nan() || area <= smallest).then(|| {
+                    Problem::new("it is flat to a line", "look at the positions of its nodes; two of them may be one")
+                })
+            }
             Shape::Bar => {
                 let along = subtract(at(1), at(0));
                 let length = dot(along, along);
@@ -175,7 +200,7 @@ mod tests {
             let faces = HEX_SIDES.iter().filter(|side| side.contains(a) && side.contains(b)).count();
             assert_eq!(faces, 2);
         }
-        assert_eq!(Shape::ALL.map(|shape| shape.faces().len()), [6, 2, 4, 0]);
+        assert_eq!(Shape::ALL.map(|shape| shape.faces().len()), [6, 2, 2, 4, 0]);
     }
 
     #[test]
@@ -185,6 +210,8 @@ mod tests {
         assert_eq!(Shape::Quadrilateral.fault(&mesh, &[0, 1, 2, 3]), None);
         assert!(Shape::Quadrilateral.fault(&mesh, &[0, 1, 3, 2]).is_some());
         assert!(Shape::Quadrilateral.fault(&mesh, &[1, 2, 3, 4]).is_some());
+        assert_eq!(Shape::Triangle.fault(&mesh, &[0, 1, 2]), None);
+        assert!(Shape::Triangle.fault(&mesh, &[0, 1, 5]).is_some());
         assert_eq!(Shape::Bar.fault(&mesh, &[0, 1]), None);
         assert!(Shape::Bar.fault(&mesh, &[0, 5]).is_some());
     }

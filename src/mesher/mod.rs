@@ -24,6 +24,7 @@ mod spacing;
 mod sphere;
 mod sweep;
 mod transform;
+mod triangles;
 mod tube;
 mod turn;
 
@@ -111,6 +112,7 @@ fn build(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) -> Optio
     merge(recipe, &mut assembly, tolerance, diagnostics);
     split(recipe, &mut assembly, diagnostics);
     let mut assembled = assembly.finish(&recipe.title);
+    divide(recipe, &mut assembled, diagnostics);
     perturb(recipe, &mut assembled, diagnostics);
     sets::fill(&mut assembled, &recipe.node_sets, &recipe.side_sets, tolerance, diagnostics);
     assembled.mesh.qa = vec![["urto mesh", env!("CARGO_PKG_VERSION"), "", ""].map(str::to_string)];
@@ -173,6 +175,18 @@ fn split(recipe: &Recipe, assembly: &mut Assembly, diagnostics: &mut Diagnostics
             diagnostics.push(
                 Diagnostic::error(format!("SPLIT BLOCK: no element of block {} has its centre here", split.block))
                     .at(split.place.span, "nothing is moved to the new block"),
+            );
+        }
+    }
+}
+
+fn divide(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnostics) {
+    for triangles in &recipe.triangles {
+        if !triangles::divide(&mut assembled.mesh, triangles.block, triangles.pattern) {
+            diagnostics.push(
+                Diagnostic::error(format!("TRIANGLES: block {} has no quadrilaterals of a surface", triangles.block))
+                    .at(triangles.place.span, "nothing is divided")
+                    .help("SHEET, SHEET TUBE and SHEET SPHERE make them"),
             );
         }
     }

@@ -15,6 +15,23 @@ pub fn shell_scene(seed: u64) -> Scene {
     }
 }
 
+/// The same scene with every sheet divided into triangles.
+pub fn triangle_scene(seed: u64) -> Scene {
+    let Scene { recipe, .. } = shell_scene(seed);
+    let (mut text, mut sheets) = (recipe, Vec::new());
+    for line in text.lines().filter(|line| line.starts_with("SHEET")) {
+        let block = line.split(',').nth(1).unwrap_or_default().trim().to_string();
+        sheets.push(block);
+    }
+    sheets.sort_unstable();
+    sheets.dedup();
+    let patterns = ["ALTERNATING", "DIAGONAL", "CROSS"];
+    for block in sheets {
+        text += &format!("TRIANGLES, {block}, {}\n", patterns[(seed / 6 % 3) as usize]);
+    }
+    Scene { recipe: text, ..shell_scene(seed) }
+}
+
 /// Steps of a scene.
 const STEPS: f64 = 500.0;
 

@@ -122,7 +122,7 @@ fn inferred_type(dimensions: usize, nodes: usize, attributes: bool) -> &'static 
         (8, false) => "HEX",
         (8, true) => "SHELL8",
         (4, false) => "TETRA",
-        (4, true) => "SHELL",
+        (4, true) | (3, _) => "SHELL",
         (6, _) => "WEDGE",
         (5, _) => "PYRAMID",
         (2, _) => "BEAM",

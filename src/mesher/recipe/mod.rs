@@ -13,6 +13,7 @@ use super::{
     body::Shape,
     sets::{Place, Request},
     transform::Move,
+    triangles::Pattern,
 };
 use crate::deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, spelling};
 
@@ -25,6 +26,7 @@ pub struct Recipe {
     pub(super) parts: Vec<Part>,
     pub(super) merges: Vec<Merge>,
     pub(super) splits: Vec<Split>,
+    pub(super) triangles: Vec<Triangles>,
     pub(super) perturbs: Vec<Perturb>,
     pub(super) node_sets: Vec<Request>,
     pub(super) side_sets: Vec<Request>,
@@ -54,6 +56,14 @@ pub(super) struct Split {
     pub new: i64,
     pub low: [f64; 3],
     pub high: [f64; 3],
+    pub place: Place,
+}
+
+/// A block of surfaces to be divided into triangles.
+#[derive(Clone)]
+pub(super) struct Triangles {
+    pub block: i64,
+    pub pattern: Pattern,
     pub place: Place,
 }
 

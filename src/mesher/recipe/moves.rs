@@ -1,9 +1,9 @@
 //! Commands that move, copy and join shapes.
 
-use super::{Draft, Merge, Perturb, Place, Setter, Split};
+use super::{Draft, Merge, Perturb, Place, Setter, Split, Triangles};
 use crate::{
     deck::{Card, Diagnostic},
-    mesher::transform::Move,
+    mesher::{transform::Move, triangles::Pattern},
 };
 
 /// Shapes in a recipe at most, so that copies of copies do not fill the memory.
@@ -16,6 +16,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("COPY", copy),
     ("MERGE", merge),
     ("SPLIT BLOCK", split),
+    ("TRIANGLES", triangles),
     ("PERTURB", perturb),
 ];
 
@@ -78,6 +79,14 @@ fn split(card: &Card, draft: &mut Draft) {
     // What has been split off can be split again.
     if draft.recipe.splits.iter().any(|split| split.new == block) || draft.knows(card, "block", block) {
         draft.recipe.splits.push(Split { block, new, low, high, place: Place::of(card) });
+    }
+}
+
+fn triangles(card: &Card, draft: &mut Draft) {
+    let block = card.integer("block");
+    if draft.knows(card, "block", block) {
+        let pattern = Pattern::from_word(card.text("pattern"));
+        draft.recipe.triangles.push(Triangles { block, pattern, place: Place::of(card) });
     }
 }
 

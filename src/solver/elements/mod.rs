@@ -28,6 +28,7 @@ use crate::solver::nodes::Nodes;
 pub use block::{ElementBlock, Group, NewElement};
 pub use formulation::{Energies, Entry, Formulation, PointEntry, Probe, Sample, StoredRow, Touch, Unfit};
 pub use pass::{Masses, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
+pub use shell::triangle;
 
 macro_rules! elements {
     ($($module:ident :: $element:ident),+ $(,)?) => {
@@ -164,6 +165,7 @@ elements! {
     beam::Beam,
     truss::Truss,
     shell::Shell,
+    triangle::Triangle,
 }
 
 impl Element {

@@ -197,6 +197,11 @@ impl Moments {
                 [0.5 - 0.5 / 3f64.sqrt(), 0.5 + 0.5 / 3f64.sqrt()]
                     .map(|s| (add(scaled(arms[0], 1.0 - s), scaled(arms[1], s)), 0.5)),
             ),
+            Shape::Triangle => {
+                // The map of a quadrilateral two corners of which are one, of which the rule is exact.
+                let four = [arms[0], arms[1], arms[2], arms[2]];
+                return self.element(Shape::Quadrilateral, &four, mass, touch);
+            }
             _ => points.extend(rule(2).map(|at| {
                 let [a, b, _] = tangents(arms, at, 2);
                 let area = cross(a, b);

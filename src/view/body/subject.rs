@@ -322,13 +322,13 @@ impl<'a> Subject<'a> {
             let bars: Vec<(usize, [u32; 2], f64)> = self.of_shape(Shape::Bar, elements, radius).collect();
             add_tubes(&mut added, &bars);
         }
-        if self.options.thickness && shapes.contains(&Shape::Quadrilateral) {
+        if self.options.thickness && shapes.iter().any(|shape| shape.is_surface()) {
             let now = match (state, self.thickness_name()) {
                 (Some(state), Some(name)) => self.read(Place::Elements, name, state)?,
                 _ => Vec::new(),
             };
             let of_block = |block: usize| self.told.size(self.mesh.blocks[block].id).unwrap_or(0.0);
-            let shells: Vec<(usize, [u32; 4], f64)> = self.of_shape(Shape::Quadrilateral, elements, of_block).collect();
+            let shells: Vec<(usize, [u32; 4], f64)> = self.surfaces(elements, of_block).collect();
             let is_shell: std::collections::HashSet<usize> = shells.iter().map(|shell| shell.0).collect();
             added.skin.retain(|face| !is_shell.contains(&face.element));
             let thick = |(element, nodes, told): (usize, [u32; 4], f64)| {
@@ -357,6 +357,22 @@ impl<'a> Subject<'a> {
         elements.iter().filter_map(one)
     }
 
+    /// Surface elements among some, with the nodes of their tops and what their block says.
+    fn surfaces(
+        &self,
+        elements: &[usize],
+        of_block: impl Fn(usize) -> f64,
+    ) -> impl Iterator<Item = (usize, [u32; 4], f64)> {
+        let all: Vec<(usize, &[u32])> = self.mesh.elements().collect();
+        let one = move |&element: &usize| {
+            let (block, nodes) = all[element];
+            let shape = self.mesh.blocks[block].shape;
+            let top = shape.is_surface().then(|| shape.face(nodes, 0)).flatten()?;
+            Some((element, top, of_block(block)))
+        };
+        elements.iter().filter_map(one)
+    }
+
     /// The variable that tells how thick shells are.
     fn thickness_name(&self) -> Option<&str> {
         let mut names = self.results.element_names().iter();
@@ -365,7 +381,7 @@ impl<'a> Subject<'a> {
 
     /// Whether shells that are to be thick have a thickness.
     fn sizes_are_known(&self) -> Result<(), ViewError> {
-        let mut shells = self.mesh.blocks.iter().filter(|block| block.shape == Shape::Quadrilateral);
+        let mut shells = self.mesh.blocks.iter().filter(|block| block.shape.is_surface());
         let known = |block: &Block| self.told.size(block.id).is_some() || self.thickness_name().is_some();
         match shells.find(|block| !known(block)).filter(|_| self.options.thickness) {
             None => Ok(()),

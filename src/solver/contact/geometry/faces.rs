@@ -3,7 +3,7 @@
 use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
-use crate::mesh::{Connectivity, Shape};
+use crate::mesh::Connectivity;
 use crate::vector::{dot, subtract};
 
 /// Most factors of √2 by which a depth becomes less: to 0.6 % of that at the start.
@@ -69,7 +69,7 @@ impl Faces {
             let front = at(nodes);
             let normal = area_normal(&front);
             let area = dot(normal, normal).sqrt();
-            let (two_sided, reach) = (elements.shape(element) == Shape::Quadrilateral, reach(number / 6));
+            let (two_sided, reach) = (elements.shape(element).is_surface(), reach(number / 6));
             faces.corners.push(nodes.map(&point));
             faces.block.push(blocks[element]);
             faces.size.push(area.sqrt());

@@ -2,8 +2,8 @@
 //!
 //! A face's number is 6 × its element + its side and never changes; see [`crate::mesh::exterior`].
 
+use crate::mesh::Connectivity;
 use crate::mesh::exterior::{self, EXTERIOR, NONE as GONE};
-use crate::mesh::{Connectivity, Shape};
 use std::collections::BTreeMap;
 
 /// All faces of a body of solids and who is across.
@@ -73,7 +73,7 @@ impl Surface {
 
 /// Numbers of the surface elements, ascending.
 fn surface_elements(elements: &Connectivity) -> impl Iterator<Item = u32> + '_ {
-    (0..elements.len() as u32).filter(|&element| elements.shape(element as usize) == Shape::Quadrilateral)
+    (0..elements.len() as u32).filter(|&element| elements.shape(element as usize).is_surface())
 }
 
 /// See [`Surface::covers`].
@@ -86,7 +86,7 @@ fn covers(elements: &Connectivity, wanted: impl Fn(u32) -> bool) -> BTreeMap<u32
         return BTreeMap::new();
     }
     for (element, (shape, nodes)) in (0u32..).zip(elements.shaped()) {
-        let sides = if shape == Shape::Quadrilateral { 1 } else { 6 };
+        let sides = if shape.is_surface() { 1 } else { 6 };
         for (side, nodes) in
             exterior::faces(shape, nodes).take(sides).filter(|(_, nodes)| nodes.iter().all(|&n| wanted(n)))
         {
@@ -95,7 +95,7 @@ fn covers(elements: &Connectivity, wanted: impl Fn(u32) -> bool) -> BTreeMap<u32
             }
         }
     }
-    let is_solid = |face: &u32| elements.shape(*face as usize / 6) != Shape::Quadrilateral;
+    let is_solid = |face: &u32| !elements.shape(*face as usize / 6).is_surface();
     let of_element = |element: u32| {
         let there = at.get(&exterior::key(face_nodes(elements, 6 * element))?)?;
         let others: Vec<u32> = there.iter().copied().filter(|face| is_solid(face) || face / 6 < element).collect();
@@ -107,6 +107,7 @@ fn covers(elements: &Connectivity, wanted: impl Fn(u32) -> bool) -> BTreeMap<u32
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Shape;
 
     /// n³ unit cubes; element (i, j, k) is number i + n (j + n k).
     fn cubes(n: u32) -> Connectivity {

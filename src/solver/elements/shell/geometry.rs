@@ -8,13 +8,27 @@
 //! same to the last bit of rounding, and rigid motion does no work. In this form the twisted beam is passed, which plain
 //! one-point shells (Belytschko, Lin and Tsay 1984) fail; it is equivalent in purpose to Belytschko, Wong and Chiang (1992).
 
-use crate::lanes::{Lanes, Matrix3, array};
+use super::facet::{self, Facet, Kind, Rates, Resultants, Stiffnesses};
+use crate::lanes::{Lanes, array};
+
+/// The kind of shell with four corners.
+#[derive(Debug, Clone, Copy)]
+pub struct Quadrilateral;
+
+/// What is resisted beside strains: hourglass fields of membrane, bending and shear, two each, and the drills of the corners.
+pub const RESISTANCES: usize = 10;
+
+impl Kind<4, RESISTANCES> for Quadrilateral {
+    type Facet<V: Lanes> = Geometry<V>;
+    const PLAIN: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    const INERTIA: f64 = 1.0 / 8.0;
+}
 
 /// Corners at the ends of the edges 12, 23, 43, 14.
 const ENDS: [[usize; 2]; 4] = [[0, 1], [1, 2], [3, 2], [0, 3]];
 
 /// A vector per corner.
-pub type Corners<V> = [[V; 3]; 4];
+type Corners<V> = facet::Corners<V, 4>;
 
 /// The three patterns of a corner field: ξ, η and hourglass; a quarter of the sum with the signs of the pattern.
 type Pattern<V> = [[V; 3]; 3];
@@ -43,44 +57,6 @@ pub struct Geometry<V> {
     edges: [[V; 3]; 4],
 }
 
-/// Rates of everything that resists, per time.
-pub struct Rates<V> {
-    /// Membrane strain 11, 22, 12 in the axes of the element.
-    pub strain: [V; 3],
-    /// Curvature 11, 22, 12.
-    pub curvature: [V; 3],
-    /// Transverse shear (twice the tensor component) 1, 2.
-    pub shear: [V; 2],
-    /// Membrane hourglass 1, 2.
-    pub membrane: [V; 2],
-    /// Bending hourglass 1, 2.
-    pub bending: [V; 2],
-    /// Differences of shear between opposite edges, ξ and η.
-    pub twist: [V; 2],
-    /// Rotation about the fibre against that of the surface, per corner.
-    pub drill: [V; 4],
-    /// Rate at which the element warps: the hourglass part of the velocity along e₃.
-    pub warping: V,
-}
-
-/// What resists: all that is conjugate to [`Rates`], with the area in it.
-pub struct Resultants<V> {
-    /// Membrane force 11, 22, 12 times the area.
-    pub force: [V; 3],
-    /// Moment 11, 22, 12 times the area.
-    pub moment: [V; 3],
-    /// Shear force 1, 2 times the area.
-    pub shear: [V; 2],
-    /// Membrane hourglass.
-    pub membrane: [V; 2],
-    /// Bending hourglass.
-    pub bending: [V; 2],
-    /// Differences of shear between edges.
-    pub twist: [V; 2],
-    /// Couples along the fibres.
-    pub drill: [V; 4],
-}
-
 #[inline(always)]
 pub fn dot<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> V {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -92,23 +68,23 @@ pub fn cross<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
 }
 
 #[inline(always)]
-fn minus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+pub fn minus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
     array![i in 3 => a[i] - b[i]]
 }
 
 #[inline(always)]
-fn plus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
+pub fn plus<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> [V; 3] {
     array![i in 3 => a[i] + b[i]]
 }
 
 #[inline(always)]
-fn times<V: Lanes>(a: &[V; 3], factor: V) -> [V; 3] {
+pub fn times<V: Lanes>(a: &[V; 3], factor: V) -> [V; 3] {
     array![i in 3 => a[i] * factor]
 }
 
 /// Unit vector; zero for zero.
 #[inline(always)]
-fn unit<V: Lanes>(a: &[V; 3]) -> [V; 3] {
+pub fn unit<V: Lanes>(a: &[V; 3]) -> [V; 3] {
     let length = dot(a, a).max(V::splat(V::TINY)).sqrt();
     times(a, V::splat(1.0) / length)
 }
@@ -124,7 +100,7 @@ fn patterns<V: Lanes>(f: &Corners<V>) -> Pattern<V> {
 impl<V: Lanes> Geometry<V> {
     /// From the positions of the corners.
     #[inline(always)]
-    pub fn new(x: &Corners<V>) -> Geometry<V> {
+    fn of_corners(x: &Corners<V>) -> Geometry<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let [g1, g2, gh] = patterns(x);
         let e1 = unit(&g1);
@@ -170,7 +146,7 @@ impl<V: Lanes> Geometry<V> {
 
     /// Rates of strain of velocities and rotation rates of the corners.
     #[inline(always)]
-    pub fn rates(&self, v: &Corners<V>, omega: &Corners<V>) -> Rates<V> {
+    fn all_rates(&self, v: &Corners<V>, omega: &Corners<V>) -> Rates<V, RESISTANCES> {
         let (half, two) = (V::splat(0.5), V::splat(2.0));
         let q = self.fibre_rates(omega);
         let [v1, v2, vh] = self.derivatives(v);
@@ -196,16 +172,20 @@ impl<V: Lanes> Geometry<V> {
             let (s1, s2) = (dot(e3, &v2), dot(e3, &v1));
             array![i in 3 => s1 * e1[i] - s2 * e2[i] + normal * e3[i]]
         };
-        Rates {
-            strain,
-            curvature,
-            shear,
-            membrane: [dot(e1, &vh) + dot(big_x, &v1), dot(e2, &vh) + dot(big_x, &v2)],
-            bending: [dot(e1, &qh) + dot(big_p, &v1), dot(e2, &qh) + dot(big_p, &v2)],
-            twist: [quarter * (s43 - s12), quarter * (s23 - s14)],
-            drill: array![corner in 4 => dot(&self.p[corner], &minus(&omega[corner], &spin))],
-            warping: dot(e3, &vh),
-        }
+        let [d1, d2, d3, d4] = array![corner in 4 => dot(&self.p[corner], &minus(&omega[corner], &spin))];
+        let resisted = [
+            dot(e1, &vh) + dot(big_x, &v1),
+            dot(e2, &vh) + dot(big_x, &v2),
+            dot(e1, &qh) + dot(big_p, &v1),
+            dot(e2, &qh) + dot(big_p, &v2),
+            quarter * (s43 - s12),
+            quarter * (s23 - s14),
+            d1,
+            d2,
+            d3,
+            d4,
+        ];
+        Rates { strain, curvature, shear, resisted, warping: dot(e3, &vh) }
     }
 
     /// Shear along the edges 12, 23, 43, 14: change of the angle between the edge and the fibres at its ends, times its length.
@@ -221,8 +201,10 @@ impl<V: Lanes> Geometry<V> {
 
     /// Forces and moments of the corners that have the power of the resultants, `[force, moment]`.
     #[inline(always)]
-    pub fn forces(&self, s: &Resultants<V>) -> [Corners<V>; 2] {
+    fn all_forces(&self, s: &Resultants<V, RESISTANCES>) -> [Corners<V>; 2] {
         let (half, two) = (V::splat(0.5), V::splat(2.0));
+        let [g1, g2, k1, k2, twist @ .., c1, c2, c3, c4] = s.resisted;
+        let (membrane, bending, drill) = ([g1, g2], [k1, k2], [c1, c2, c3, c4]);
         let [e1, e2, e3] = &self.e;
         let [p1, p2] = &self.slope;
         let b = &self.curvature;
@@ -233,40 +215,40 @@ impl<V: Lanes> Geometry<V> {
         let n12 = n12 - (b[0][1] * m11 + b[1][1] * m12 + b[1][0] * m22 + b[0][0] * m12);
         let couple: [V; 3] = array![i in 3 => {
             let p = &self.p;
-            (p[0][i] * s.drill[0] + p[1][i] * s.drill[1]) + (p[2][i] * s.drill[2] + p[3][i] * s.drill[3])
+            (p[0][i] * drill[0] + p[1][i] * drill[1]) + (p[2][i] * drill[2] + p[3][i] * drill[3])
         }];
         let (c1, c2, c3) = (dot(&couple, e1), dot(&couple, e2), half * dot(&couple, e3));
         let [big_x, big_p] = &self.hourglass;
         // What multiplies the derivatives of the velocity, and its hourglass part.
         let t1: [V; 3] = array![i in 3 => {
             let own = n11 * e1[i] + n12 * e2[i] + m11 * p1[i] + m12 * p2[i];
-            own + s.membrane[0] * big_x[i] + s.bending[0] * big_p[i] + c2 * e3[i] - c3 * e2[i]
+            own + membrane[0] * big_x[i] + bending[0] * big_p[i] + c2 * e3[i] - c3 * e2[i]
         }];
         let t2: [V; 3] = array![i in 3 => {
             let own = n12 * e1[i] + n22 * e2[i] + m12 * p1[i] + m22 * p2[i];
-            own + s.membrane[1] * big_x[i] + s.bending[1] * big_p[i] - c1 * e3[i] + c3 * e1[i]
+            own + membrane[1] * big_x[i] + bending[1] * big_p[i] - c1 * e3[i] + c3 * e1[i]
         }];
-        let th: [V; 3] = array![i in 3 => s.membrane[0] * e1[i] + s.membrane[1] * e2[i]];
+        let th: [V; 3] = array![i in 3 => membrane[0] * e1[i] + membrane[1] * e2[i]];
         let r1: [V; 3] = array![i in 3 => m11 * e1[i] + m12 * e2[i]];
         let r2: [V; 3] = array![i in 3 => m12 * e1[i] + m22 * e2[i]];
-        let rh: [V; 3] = array![i in 3 => s.bending[0] * e1[i] + s.bending[1] * e2[i]];
+        let rh: [V; 3] = array![i in 3 => bending[0] * e1[i] + bending[1] * e2[i]];
         let mut force = self.transposed(&t1, &t2, &th);
         let mut fibre = self.transposed(&r1, &r2, &rh);
-        self.add_edges(s, &mut force, &mut fibre);
+        self.add_edges(s.shear, twist, &mut force, &mut fibre);
         let moment = array![corner in 4 => {
             let m = cross(&self.p[corner], &fibre[corner]);
-            array![i in 3 => m[i] + s.drill[corner] * self.p[corner][i]]
+            array![i in 3 => m[i] + drill[corner] * self.p[corner][i]]
         }];
         [force, moment]
     }
 
     /// Adds the forces of edge shears to those of corners and fibres.
     #[inline(always)]
-    fn add_edges(&self, s: &Resultants<V>, force: &mut Corners<V>, fibre: &mut Corners<V>) {
+    fn add_edges(&self, shear: [V; 2], twist: [V; 2], force: &mut Corners<V>, fibre: &mut Corners<V>) {
         let quarter = V::splat(0.25);
-        let xi = self.inverse[0] * s.shear[0] + self.inverse[1] * s.shear[1];
-        let eta = self.inverse[2] * s.shear[1];
-        let weights = [xi - s.twist[0], eta + s.twist[1], xi + s.twist[0], eta - s.twist[1]];
+        let xi = self.inverse[0] * shear[0] + self.inverse[1] * shear[1];
+        let eta = self.inverse[2] * shear[1];
+        let weights = [xi - twist[0], eta + twist[1], xi + twist[0], eta - twist[1]];
         for edge in 0..4 {
             let [i, j] = ENDS[edge];
             let half = quarter * V::splat(0.5) * weights[edge];
@@ -299,39 +281,102 @@ impl<V: Lanes> Geometry<V> {
         corners
     }
 
-    /// The reference that [`Geometry::turn`] wants: ∂ξ_α/∂x_a of the element at the start.
-    pub fn reference(&self) -> [V; 3] {
-        self.inverse
-    }
-
-    /// Cosine and sine of the angle from e₁ to the material axis that was e₁ at the start, by the polar decomposition of the
-    /// motion in the plane; and the stretch in these material axes: 11, 22, 12.
-    #[inline(always)]
-    pub fn turn(&self, reference: &[V; 3]) -> ([V; 2], [V; 3]) {
-        let [j11, j12, j22] = self.jacobian;
-        let [r11, r12, r22] = *reference;
-        // F_ab = ∂x_a/∂ξ_α ∂ξ_α/∂X_b
-        let (f11, f12) = (j11 * r11, j11 * r12 + j12 * r22);
-        let (f21, f22) = (V::splat(0.0), j22 * r22);
-        let (a, b) = (f11 + f22, f21 - f12);
-        let length = (a * a + b * b).max(V::splat(V::TINY)).sqrt();
-        let (c, s) = (a / length, b / length);
-        ([c, s], [c * f11 + s * f21, c * f22 - s * f12, c * f12 + s * f22])
-    }
-
     /// Metric that hourglass fields are measured with: H₁₁, H₂₂, H₁₂ = A/3 ∂ξ_α/∂x_a ∂ξ_α/∂x_b; and A/3 times the squares of
     /// the gradients of ξ and η.
     #[inline(always)]
-    pub fn hourglass_metric(&self) -> ([V; 3], [V; 2]) {
+    fn hourglass_metric(&self) -> ([V; 3], [V; 2]) {
         let third = self.area * V::splat(1.0 / 3.0);
         let [a, b, d] = self.inverse;
         ([third * a * a, third * (b * b + d * d), third * a * b], [third * (a * a + b * b), third * d * d])
     }
+}
 
-    /// Material axes in space, as columns.
+impl<V: Lanes> Facet<V, 4, RESISTANCES> for Geometry<V> {
     #[inline(always)]
-    pub fn material_axes(&self, [c, s]: [V; 2]) -> Matrix3<V> {
-        let [e1, e2, e3] = &self.e;
-        array![i in 3 => [c * e1[i] + s * e2[i], c * e2[i] - s * e1[i], e3[i]]]
+    fn new(x: &Corners<V>, _thickness: V) -> Geometry<V> {
+        Geometry::of_corners(x)
+    }
+
+    #[inline(always)]
+    fn area(&self) -> V {
+        self.area
+    }
+
+    #[inline(always)]
+    fn axes(&self) -> &[[V; 3]; 3] {
+        &self.e
+    }
+
+    #[inline(always)]
+    fn jacobian(&self) -> &[V; 3] {
+        &self.jacobian
+    }
+
+    #[inline(always)]
+    fn reference(&self) -> [V; 3] {
+        self.inverse
+    }
+
+    #[inline(always)]
+    fn rates(&self, v: &Corners<V>, omega: &Corners<V>) -> Rates<V, RESISTANCES> {
+        self.all_rates(v, omega)
+    }
+
+    #[inline(always)]
+    fn forces(&self, s: &Resultants<V, RESISTANCES>) -> [Corners<V>; 2] {
+        self.all_forces(s)
+    }
+
+    #[inline(always)]
+    fn reduced(&self, shear: V) -> V {
+        shear
+    }
+
+    #[inline(always)]
+    fn rises(&self, rates: &[V; RESISTANCES], s: &Stiffnesses<V>) -> [V; RESISTANCES] {
+        let ([h11, h22, h12], gradients) = self.hourglass_metric();
+        let mixed = V::splat(s.poisson) * h12;
+        let [m1, m2, b1, b2, t1, t2, d1, d2, d3, d4] = *rates;
+        [
+            s.membrane * (h11 * m1 - mixed * m2),
+            s.membrane * (h22 * m2 - mixed * m1),
+            s.bending * (h11 * b1 - mixed * b2),
+            s.bending * (h22 * b2 - mixed * b1),
+            s.shear * gradients[0] * t1,
+            s.shear * gradients[1] * t2,
+            s.drill * d1,
+            s.drill * d2,
+            s.drill * d3,
+            s.drill * d4,
+        ]
+    }
+
+    #[inline(always)]
+    fn rooted(&self, rates: &[V; RESISTANCES], s: &Stiffnesses<V>) -> [V; RESISTANCES] {
+        let ([h11, h22, h12], gradients) = self.hourglass_metric();
+        // Cholesky's factor of the hourglass matrix [H₁₁, −ν H₁₂; −ν H₁₂, H₂₂].
+        let first = h11.sqrt();
+        let (nu, square) = (s.poisson, V::splat(s.poisson * s.poisson));
+        let mixed = V::splat(-nu) * h12 / first;
+        let second = (h22 - square * h12 * h12 / h11).max(V::splat(0.0)).sqrt();
+        let [m1, m2, b1, b2, t1, t2, d1, d2, d3, d4] = *rates;
+        let (membrane, bending, drill) = (s.membrane.sqrt(), s.bending.sqrt(), s.drill.sqrt());
+        [
+            membrane * (first * m1 + mixed * m2),
+            membrane * second * m2,
+            bending * (first * b1 + mixed * b2),
+            bending * second * b2,
+            (s.shear * gradients[0]).sqrt() * t1,
+            (s.shear * gradients[1]).sqrt() * t2,
+            drill * d1,
+            drill * d2,
+            drill * d3,
+            drill * d4,
+        ]
+    }
+
+    #[inline(always)]
+    fn bends(resistance: usize) -> bool {
+        resistance == 2 || resistance == 3
     }
 }

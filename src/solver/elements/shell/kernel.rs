@@ -1,6 +1,6 @@
 //! One step of a chunk of shells.
 
-use super::geometry::{Corners, Geometry, Rates, Resultants};
+use super::facet::{Corners, Facet, Kind, Rates, Resultants, Stiffnesses};
 use super::plane_stress;
 use super::rule::MOST_POINTS;
 use super::stable_step::{self, CHANGE, Stiffness};
@@ -11,14 +11,17 @@ use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
 use crate::solver::elements::state_rows::accumulate;
+use std::marker::PhantomData;
 
 /// The step is made for this much linear bulk viscosity at least. Undamped, at the very limit, the highest modes take energy from the
 /// changes that others make of their frequencies: docs/verification.md has how much, and that half the step ends it.
 const LEAST_DAMPING: f64 = 0.06;
 
-/// What holds for all shells of a block in a step.
+/// What holds for all shells of a block in a step. N is the number of corners and their rotations, W that of all rates.
 #[derive(Debug, Clone, Copy)]
-pub struct ShellStep<K> {
+pub struct ShellStep<K, S, const C: usize, const R: usize, const N: usize, const W: usize> {
+    /// The kind of shell.
+    pub kind: PhantomData<S>,
     /// The law.
     pub law: K,
     /// Its elastic constants.
@@ -35,49 +38,55 @@ pub struct ShellStep<K> {
     pub stiffness: Stiffness,
 }
 
-impl<K: Kernel> StepKernel<8> for ShellStep<K> {
-    const ROTATIONS: usize = 4;
+impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usize> StepKernel<N>
+    for ShellStep<K, S, C, R, N, W>
+{
+    const ROTATIONS: usize = C;
 
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
-        positions: &[[V; 8]; 3],
-        velocities: &[[V; 8]; 3],
+        positions: &[[V; N]; 3],
+        velocities: &[[V; N]; 3],
         state: &mut [V::Row],
         part: usize,
         mass: Masses<V>,
-    ) -> Outcome<V, 8> {
+    ) -> Outcome<V, N> {
         let half_step = V::splat(0.5 * self.times[1]);
-        let x: Corners<V> = array![c in 4 => array![i in 3 => positions[i][c]]];
-        let v: Corners<V> = array![c in 4 => array![i in 3 => velocities[i][c]]];
-        let omega: Corners<V> = array![c in 4 => array![i in 3 => velocities[i][c + 4]]];
+        let zero = V::splat(0.0);
+        let [mut x, mut v, mut omega, mut middle]: [Corners<V, C>; 4] = [[[zero; 3]; C]; 4];
+        for c in 0..C {
+            x[c] = array![i in 3 => positions[i][c]];
+            v[c] = array![i in 3 => velocities[i][c]];
+            omega[c] = array![i in 3 => velocities[i][c + C]];
+            middle[c] = array![i in 3 => x[c][i] - half_step * v[c][i]];
+        }
         // (i) rates at mid-step
-        let middle: Corners<V> = array![c in 4 => array![i in 3 => x[c][i] - half_step * v[c][i]]];
-        let before = Geometry::new(&middle);
+        let before = S::Facet::<V>::new(&middle, V::load(&state[rows::THICKNESS], part));
         let rates = before.rates(&v, &omega);
         let reference: [V; 3] = array![i in 3 => V::load(&state[rows::REFERENCE + i], part)];
         let (turn, _) = before.turn(&reference);
         // (ii) stress at the points, in the axes of the material
-        let motion = turned_rates(&rates, turn);
-        let found = self.points(&motion, before.area, state, part);
+        let motion = turned_rates::<V, S::Facet<V>, C, R>(&before, &rates, turn);
+        let found = self.points(&motion, &before, state, part);
         // (iii) hourglass and drill resistance, and bulk viscosity
-        let resistance = self.resist(&rates, &before, &found, state, part);
-        let viscous = self.viscous(&rates, before.area, &found, state, part);
+        let resisted = self.resist(&rates, &before, &found, state, part);
+        let viscous = self.viscous(&rates, before.area(), &found, state, part);
         // (iv) forces in the new configuration
-        let now = Geometry::new(&x);
+        let now = S::Facet::<V>::new(&x, found.thickness);
         let (turn, _) = now.turn(&reference);
-        let resultants = resultants(&found, &resistance, viscous, turn, now.area);
-        let [force, moment] = now.forces(&resultants);
+        let [forces, moments] = now.forces(&resultants(&found, resisted, viscous, turn, now.area()));
         // (v) stable step
         let stable_step = self.stable_step(&x, &rates, &found, state, part, mass.moving);
-        let stable_step = V::select_less(V::splat(0.0), now.area, stable_step, V::splat(0.0));
-        Outcome {
-            force: array![i in 3 => [
-                force[0][i], force[1][i], force[2][i], force[3][i],
-                moment[0][i], moment[1][i], moment[2][i], moment[3][i]
-            ]],
-            stable_step,
+        let stable_step = V::select_less(zero, now.area(), stable_step, zero);
+        let mut force = [[zero; N]; 3];
+        for i in 0..3 {
+            for c in 0..C {
+                force[i][c] = forces[c][i];
+                force[i][c + C] = moments[c][i];
+            }
         }
+        Outcome { force, stable_step }
     }
 }
 
@@ -97,14 +106,6 @@ struct Found<V> {
     stiffest: V,
 }
 
-/// Hourglass and drill resistance.
-struct Resistance<V> {
-    membrane: [V; 2],
-    bending: [V; 2],
-    twist: [V; 2],
-    drill: [V; 4],
-}
-
 /// Strain, curvature and shear rates in the axes of the material.
 struct Motion<V> {
     strain: [V; 3],
@@ -120,9 +121,13 @@ fn turned<V: Lanes>([xx, yy, xy]: [V; 3], [c, s]: [V; 2]) -> [V; 3] {
 }
 
 #[inline(always)]
-fn turned_rates<V: Lanes>(rates: &Rates<V>, turn: [V; 2]) -> Motion<V> {
+fn turned_rates<V: Lanes, F: Facet<V, C, R>, const C: usize, const R: usize>(
+    facet: &F,
+    rates: &Rates<V, R>,
+    turn: [V; 2],
+) -> Motion<V> {
     let [c, s] = turn;
-    let [g1, g2] = rates.shear;
+    let [g1, g2] = [facet.reduced(rates.shear[0]), facet.reduced(rates.shear[1])];
     Motion {
         strain: turned(rates.strain, turn),
         curvature: turned(rates.curvature, turn),
@@ -130,15 +135,17 @@ fn turned_rates<V: Lanes>(rates: &Rates<V>, turn: [V; 2]) -> Motion<V> {
     }
 }
 
-impl<K: Kernel> ShellStep<K> {
+impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usize>
+    ShellStep<K, S, C, R, N, W>
+{
     /// Advances all points and books their energy; stores thickness and resultants.
     #[inline(always)]
-    fn points<V: Lanes>(&self, motion: &Motion<V>, area: V, state: &mut [V::Row], part: usize) -> Found<V> {
+    fn points<V: Lanes>(&self, motion: &Motion<V>, facet: &S::Facet<V>, state: &mut [V::Row], part: usize) -> Found<V> {
         let (zero, one, half) = (V::splat(0.0), V::splat(1.0), V::splat(0.5));
         let [time, step] = self.times;
         let step_lanes = V::splat(step);
         let old_thickness = V::load(&state[rows::THICKNESS], part);
-        let (own, points) = state.split_at_mut(rows::POINTS);
+        let (own, points) = state.split_at_mut(S::ROWS.points);
         let stride = point_rows::LAW + K::STATE.len();
         let [mut n11, mut n22, mut n12, mut m11, mut m22, mut m12, mut q1, mut q2] = [zero; 8];
         let [mut work, mut thinning, mut mean, mut bent, mut stiffest] = [zero, zero, zero, zero, one];
@@ -159,7 +166,7 @@ impl<K: Kernel> ShellStep<K> {
                 zx: V::load(&point_own[point_rows::ZX], part),
             };
             let answer = plane_stress::update(&self.law, self.moduli, strain, old, [time, step], law_state, part);
-            // A point that is lost carries nothing.
+            // A point that is lost carries zero.
             let carries = one - V::load(&point_own[point_rows::LOST], part);
             let stress = Sym3 {
                 xx: answer.stress.xx * carries,
@@ -206,14 +213,14 @@ impl<K: Kernel> ShellStep<K> {
         let found = Found {
             force: [n11 * thickness, n22 * thickness, n12 * thickness],
             moment: [m11 * square, m22 * square, m12 * square],
-            shear: [q1 * corrected, q2 * corrected],
+            shear: [facet.reduced(q1 * corrected), facet.reduced(q2 * corrected)],
             thickness,
             returned: [mean, bent],
             stiffest,
         };
-        let volume = area * half * (old_thickness + thickness);
-        accumulate(half * work * volume, &mut own[rows::INTERNAL_ENERGY], part);
-        found.store(own, part);
+        let volume = facet.area() * half * (old_thickness + thickness);
+        accumulate(half * work * volume, &mut own[S::ROWS.internal_energy], part);
+        found.store(&mut own[S::ROWS.resultants..], part);
         found
     }
 
@@ -221,88 +228,62 @@ impl<K: Kernel> ShellStep<K> {
     #[inline(always)]
     fn resist<V: Lanes>(
         &self,
-        rates: &Rates<V>,
-        geometry: &Geometry<V>,
+        rates: &Rates<V, R>,
+        facet: &S::Facet<V>,
         found: &Found<V>,
         state: &mut [V::Row],
         part: usize,
-    ) -> Resistance<V> {
+    ) -> [V; R] {
         let step = V::splat(self.times[1]);
         let (mu, nu) = (0.5 * self.moduli.two_mu, self.moduli.poisson());
         let young = V::splat(2.0 * mu * (1.0 + nu));
         let t = found.thickness;
-        let ([h11, h22, h12], gradients) = geometry.hourglass_metric();
-        let mixed = V::splat(nu) * h12;
         let [kept, kept_bending] = found.returned;
-        let stiffness = young * t;
-        let bending = stiffness * t * t * V::splat(self.stiffness.bending / 12.0);
-        let shear = V::splat(self.stiffness.shear_correction * mu) * t;
-        let [m1, m2] = rates.membrane;
-        let [b1, b2] = rates.bending;
-        let drill = drill_factor(found, young, mu) * V::splat(0.25 * mu) * t * geometry.area;
-        let rises = [
-            stiffness * (h11 * m1 - mixed * m2),
-            stiffness * (h22 * m2 - mixed * m1),
-            bending * (h11 * b1 - mixed * b2),
-            bending * (h22 * b2 - mixed * b1),
-            shear * gradients[0] * rates.twist[0],
-            shear * gradients[1] * rates.twist[1],
-            drill * rates.drill[0],
-            drill * rates.drill[1],
-            drill * rates.drill[2],
-            drill * rates.drill[3],
-        ];
-        let conjugate = [
-            rates.membrane[0],
-            rates.membrane[1],
-            rates.bending[0],
-            rates.bending[1],
-            rates.twist[0],
-            rates.twist[1],
-            rates.drill[0],
-            rates.drill[1],
-            rates.drill[2],
-            rates.drill[3],
-        ];
+        let membrane = young * t;
+        let rises = facet.rises(
+            &rates.resisted,
+            &Stiffnesses {
+                poisson: nu,
+                membrane,
+                bending: membrane * t * t * V::splat(self.stiffness.bending / 12.0),
+                shear: V::splat(self.stiffness.shear_correction * mu) * t,
+                drill: drill_factor(found, young, mu) * V::splat(mu / C as f64) * t * facet.area(),
+            },
+        );
         // The damping of the highest mode that bulk viscosity has, of these fields: a resistance that follows rates gives a little
         // energy back where strains are large, of the second order, which would add up in what swings for long.
         let damping = V::splat(self.viscosity.linear) * V::load(&state[rows::STEP], part);
         let mut work = V::splat(0.0);
-        let mut now = [V::splat(0.0); 10];
-        for i in 0..10 {
+        let mut now = [V::splat(0.0); R];
+        for i in 0..R {
             let row = &mut state[rows::RESISTANCE + i];
             let old = V::load(row, part);
             // Plastic flow takes as much off the resistance as off the stress.
-            let factor = if i == 2 || i == 3 { kept_bending } else { kept };
+            let factor = if S::Facet::<V>::bends(i) { kept_bending } else { kept };
             let elastic = (old + rises[i] * step) * factor;
             elastic.store(row, part);
             let viscous = rises[i] * damping;
-            let row = &mut state[rows::DAMPING + i];
+            let row = &mut state[S::ROWS.damping + i];
             let last = V::load(row, part);
             viscous.store(row, part);
             now[i] = elastic + viscous;
-            work = work + (old + last + now[i]) * conjugate[i];
+            work = work + (old + last + now[i]) * rates.resisted[i];
         }
-        accumulate(work * step * V::splat(0.5), &mut state[rows::HOURGLASS_ENERGY], part);
-        Resistance {
-            membrane: [now[0], now[1]],
-            bending: [now[2], now[3]],
-            twist: [now[4], now[5]],
-            drill: [now[6], now[7], now[8], now[9]],
-        }
+        accumulate(work * step * V::splat(0.5), &mut state[S::ROWS.hourglass_energy], part);
+        now
     }
 
     /// Bulk viscosity of the membrane as a mean stress, with its energy booked.
     #[inline(always)]
-    fn viscous<V: Lanes>(&self, rates: &Rates<V>, area: V, found: &Found<V>, state: &mut [V::Row], part: usize) -> V {
+    fn viscous<V: Lanes>(&self, rates: &Rates<V, R>, area: V, found: &Found<V>, state: &mut [V::Row], part: usize) -> V {
         let rate = rates.strain[0] + rates.strain[1];
         let bound = V::load(&state[rows::STEP], part);
         let damping = damping(self.viscosity, bound, rate);
         let viscous = damping * V::splat(self.plane_modulus()) * bound * rate;
-        let last = V::load(&state[rows::VISCOUS_STRESS], part);
-        viscous.store(&mut state[rows::VISCOUS_STRESS], part);
+        let last = V::load(&state[S::ROWS.viscous_stress], part);
+        viscous.store(&mut state[S::ROWS.viscous_stress], part);
         let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;
-        accumulate(work, &mut state[rows::VISCOUS_ENERGY], part);
+        accumulate(work, &mut state[S::ROWS.viscous_energy], part);
         viscous
     }
 
@@ -316,8 +297,8 @@ impl<K: Kernel> ShellStep<K> {
     #[inline(always)]
     fn stable_step<V: Lanes>(
         &self,
-        x: &Corners<V>,
-        rates: &Rates<V>,
+        x: &Corners<V, C>,
+        rates: &Rates<V, R>,
         found: &Found<V>,
         state: &mut [V::Row],
         part: usize,
@@ -343,9 +324,9 @@ impl<K: Kernel> ShellStep<K> {
 
     /// Finds the steps of those lanes again that have changed much.
     #[inline(always)]
-    fn find_again<V: Lanes>(&self, x: &Corners<V>, found: &Found<V>, state: &mut [V::Row], part: usize, mass: V) {
-        let mut places = [[V::Row::default(); 3]; 4];
-        for corner in 0..4 {
+    fn find_again<V: Lanes>(&self, x: &Corners<V, C>, found: &Found<V>, state: &mut [V::Row], part: usize, mass: V) {
+        let mut places = [[V::Row::default(); 3]; C];
+        for corner in 0..C {
             for i in 0..3 {
                 x[corner][i].store(&mut places[corner][i], part);
             }
@@ -356,42 +337,42 @@ impl<K: Kernel> ShellStep<K> {
         found.thickness.store(&mut body[1], part);
         drill_factor(found, V::splat(2.0 * mu * (1.0 + nu)), mu).store(&mut body[2], part);
         let lanes = part * V::COUNT..(part + 1) * V::COUNT;
-        find_lanes(lanes, &places, &body, &self.stiffness, state);
+        find_lanes::<V::Row, S, C, R, W>(lanes, &places, &body, &self.stiffness, state);
     }
 }
 
 /// See [`ShellStep::find_again`]: one lane after the other, so that nothing here is compiled for vectors.
 #[inline(never)]
-fn find_lanes<R: Numbers>(
+fn find_lanes<B: Numbers, S: Kind<C, R>, const C: usize, const R: usize, const W: usize>(
     lanes: std::ops::Range<usize>,
-    places: &[[R; 3]; 4],
-    body: &[R; 3],
+    places: &[[B; 3]; C],
+    body: &[B; 3],
     stiffness: &Stiffness,
-    state: &mut [R],
+    state: &mut [B],
 ) {
-    for lane in lanes.filter(|&lane| lane < R::LANES) {
+    for lane in lanes.filter(|&lane| lane < B::LANES) {
         let changed = state[rows::CHANGED].number(lane);
         if changed.is_nan() || changed <= CHANGE {
             continue;
         }
-        let corners: Corners<f64> = [0, 1, 2, 3].map(|c: usize| [0, 1, 2].map(|i: usize| places[c][i].number(lane)));
+        let corners: Corners<f64, C> = places.map(|place| place.map(|row| row.number(lane)));
         let [mass, thickness, drill] = [0, 1, 2].map(|i: usize| body[i].number(lane));
         let inertia = state[rows::INERTIA].number(lane);
         let body = stable_step::Body { mass, inertia, thickness, drill };
-        state[rows::STEP].set(lane, stable_step::stable_step(&corners, stiffness, &body));
+        state[rows::STEP].set(lane, stable_step::stable_step::<S, C, R, W>(&corners, stiffness, &body));
         state[rows::CHANGED].set(lane, 0.0);
     }
 }
 
 impl<V: Lanes> Found<V> {
     #[inline(always)]
-    fn store(&self, own: &mut [V::Row], part: usize) {
+    fn store(&self, resultants: &mut [V::Row], part: usize) {
         for i in 0..3 {
-            self.force[i].store(&mut own[rows::RESULTANTS + i], part);
-            self.moment[i].store(&mut own[rows::RESULTANTS + 3 + i], part);
+            self.force[i].store(&mut resultants[i], part);
+            self.moment[i].store(&mut resultants[3 + i], part);
         }
-        self.shear[0].store(&mut own[rows::RESULTANTS + 6], part);
-        self.shear[1].store(&mut own[rows::RESULTANTS + 7], part);
+        self.shear[0].store(&mut resultants[6], part);
+        self.shear[1].store(&mut resultants[7], part);
     }
 }
 
@@ -412,13 +393,13 @@ fn drill_factor<V: Lanes>(found: &Found<V>, young: V, mu: f64) -> V {
 
 /// Resultants in the axes of the element, times the area.
 #[inline(always)]
-fn resultants<V: Lanes>(
+fn resultants<V: Lanes, const R: usize>(
     found: &Found<V>,
-    resistance: &Resistance<V>,
+    resisted: [V; R],
     viscous: V,
     [c, s]: [V; 2],
     area: V,
-) -> Resultants<V> {
+) -> Resultants<V, R> {
     let back = [c, V::splat(0.0) - s];
     let viscous = viscous * found.thickness;
     let [n11, n22, n12] = turned(found.force, back);
@@ -428,18 +409,15 @@ fn resultants<V: Lanes>(
         force: [(n11 + viscous) * area, (n22 + viscous) * area, n12 * area],
         moment: [m11 * area, m22 * area, m12 * area],
         shear: [(c * q1 - s * q2) * area, (s * q1 + c * q2) * area],
-        membrane: resistance.membrane,
-        bending: resistance.bending,
-        twist: resistance.twist,
-        drill: resistance.drill,
+        resisted,
     }
 }
 
 /// Power of resultants in the axes of the material, per area.
-pub fn power(rates: &Rates<f64>, turn: [f64; 2], resultants: &[f64; 8]) -> f64 {
-    let motion = turned_rates(rates, turn);
+pub fn power<const R: usize>(rates: &Rates<f64, R>, turn: [f64; 2], resultants: &[f64; 8]) -> f64 {
+    let ([c, s], [g1, g2]) = (turn, rates.shear);
     let [n11, n22, n12, m11, m22, m12, q1, q2] = *resultants;
     let plane = |[xx, yy, xy]: [f64; 3], [a, b, c]: [f64; 3]| xx * a + yy * b + 2.0 * xy * c;
-    let bent = plane(motion.curvature, [m11, m22, m12]);
-    plane(motion.strain, [n11, n22, n12]) + bent + motion.shear[0] * q1 + motion.shear[1] * q2
+    let bent = plane(turned(rates.curvature, turn), [m11, m22, m12]);
+    plane(turned(rates.strain, turn), [n11, n22, n12]) + bent + (c * g1 + s * g2) * q1 + (c * g2 - s * g1) * q2
 }

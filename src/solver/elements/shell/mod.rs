@@ -1,15 +1,18 @@
-//! The four-node shell: one point in its plane, one to nine through its thickness, any law of solids in plane stress.
+//! Shells: one point in their plane, one to nine through their thickness, any law of solids in plane stress.
 //!
-//! What it is made of stands in `geometry.rs`; `plane_stress.rs` lets a law see a strain through the thickness by which there is no
+//! `facet.rs` says what a kind of shell says of itself; what that of four nodes is made of stands in `geometry.rs`, that of three in
+//! `triangle.rs`; `plane_stress.rs` lets a law see a strain through the thickness by which there is no
 //! stress. The step: rates at mid-step, strain ε + z κ at each point, in axes that turn with the material in the plane (exact
 //! two-dimensional polar decomposition), stress, thickness t ← t (1 + mean Δε_zz), resultants, hourglass and drill resistance, and
 //! forces at the end of the step.
 
+mod facet;
 mod geometry;
 mod kernel;
 mod plane_stress;
 mod rule;
 mod stable_step;
+pub mod triangle;
 
 use super::{
     Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample, StoredRow,
@@ -21,10 +24,12 @@ use crate::mesh::{Block, Shape};
 use crate::model::Model;
 use crate::solver::body::centroid;
 use crate::solver::nodes::Nodes;
-use geometry::{Corners, Geometry};
+use facet::{Corners, Facet, Kind, Rows};
+use geometry::{Quadrilateral, RESISTANCES};
 use kernel::ShellStep;
 use rule::{MOST_POINTS, Rule};
 use stable_step::Stiffness;
+use std::marker::PhantomData;
 
 /// Rows of a shell's state; those of its points follow.
 mod rows {
@@ -40,22 +45,8 @@ mod rows {
     pub const STEP: usize = 6;
     /// How much the element has changed since then, as a strain.
     pub const CHANGED: usize = 7;
-    /// Hourglass resistance of membrane, bending and shear, two each, and the couples about the fibres.
+    /// First of the resistances, behind which all other rows depend on their number: see [`super::facet::Rows`].
     pub const RESISTANCE: usize = 8;
-    /// Membrane forces, moments and shear forces per length.
-    pub const RESULTANTS: usize = 18;
-    /// Internal energy since the start.
-    pub const INTERNAL_ENERGY: usize = 26;
-    /// Energy of hourglass and drill resistance since the start.
-    pub const HOURGLASS_ENERGY: usize = 27;
-    /// Energy taken up by bulk viscosity since the start.
-    pub const VISCOUS_ENERGY: usize = 28;
-    /// Bulk viscosity of the last step as a mean stress in the plane.
-    pub const VISCOUS_STRESS: usize = 29;
-    /// Damping of hourglass fields and drills in the last step, in their order.
-    pub const DAMPING: usize = 30;
-    /// First row of the points.
-    pub const POINTS: usize = 40;
 }
 
 /// Rows of a point; those of its law follow.
@@ -74,7 +65,10 @@ mod point_rows {
     pub const LAW: usize = 7;
 }
 
-const ROWS: [StoredRow; rows::POINTS] = [
+/// Of a shell of four nodes.
+const QUADRILATERAL: Rows = Rows::of(RESISTANCES);
+
+const ROWS: [StoredRow; QUADRILATERAL.points] = [
     StoredRow { name: "SHREF1", dimension: "1/length" },
     StoredRow { name: "SHREF2", dimension: "1/length" },
     StoredRow { name: "SHREF3", dimension: "1/length" },
@@ -133,14 +127,21 @@ pub(super) static ENTRY: Entry = Entry {
     shape: Shape::Quadrilateral,
     rotations: true,
     rows: &ROWS,
-    points: Some(PointEntry { rows: &POINT_ROWS, lost: point_rows::LOST, layered: true }),
-    energies: Energies {
-        internal: rows::INTERNAL_ENERGY,
-        hourglass: Some(rows::HOURGLASS_ENERGY),
-        viscous: Some(rows::VISCOUS_ENERGY),
-    },
-    viscous_stress: Some(rows::VISCOUS_STRESS),
+    points: Some(POINTS),
+    energies: energies(QUADRILATERAL),
+    viscous_stress: Some(QUADRILATERAL.viscous_stress),
 };
+
+/// What is to be known of the points through the thickness.
+const POINTS: PointEntry = PointEntry { rows: &POINT_ROWS, lost: point_rows::LOST, layered: true };
+
+const fn energies(rows: Rows) -> Energies {
+    Energies {
+        internal: rows.internal_energy,
+        hourglass: Some(rows.hourglass_energy),
+        viscous: Some(rows.viscous_energy),
+    }
+}
 
 /// Shear correction of a homogeneous section (Reissner 1945).
 const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
@@ -148,9 +149,14 @@ const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
 /// Points through the thickness without INTEGRATION POINTS.
 const USUAL_POINTS: usize = 5;
 
-/// What holds for all shells of a block.
+/// The shell of four nodes.
+pub type Shell = Layered<Quadrilateral, 4, RESISTANCES, 8, 18>;
+
+/// What holds for all shells of a block, of a kind with C corners and R resistances; N is the number of corners and their
+/// rotations, W that of all rates.
 #[derive(Debug, Clone)]
-pub struct Shell {
+pub struct Layered<S, const C: usize, const R: usize, const N: usize, const W: usize> {
+    kind: PhantomData<S>,
     /// Thickness that the deck gives; without it each element has its own.
     thickness: Option<f64>,
     /// Factor on the thickness.
@@ -159,7 +165,7 @@ pub struct Shell {
     points: Vec<[f64; 2]>,
 }
 
-impl Shell {
+impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usize> Layered<S, C, R, N, W> {
     fn thickness_of(&self, attributes: &[f64]) -> f64 {
         self.scale * self.thickness.or(attributes.first().copied()).unwrap_or(0.0)
     }
@@ -218,7 +224,9 @@ fn points(block: &Block, model: &Model) -> Result<Vec<[f64; 2]>, Unfit> {
     Ok(rule.points(count))
 }
 
-impl Formulation for Shell {
+impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usize> Formulation
+    for Layered<S, C, R, N, W>
+{
     fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit> {
         if let Some(unfit) = unfit_law(block, model) {
             return Err(unfit);
@@ -232,24 +240,24 @@ impl Formulation for Shell {
             });
         }
         let scale = model.section("THICKNESS SCALE", block.id).map_or(1.0, |section| section.number("factor"));
-        Ok(Shell { thickness, scale, points: points(block, model)? })
+        Ok(Layered { kind: PhantomData, thickness, scale, points: points(block, model)? })
     }
 
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let Ok(corners) = element.corners.try_into() else { return 0.0 };
-        let area = Geometry::new(corners).area;
         let thickness = self.thickness_of(element.attributes);
-        let (of_mass, of_inertia) = shares.split_at_mut(4);
-        of_mass.fill(0.25);
-        of_inertia.fill(0.25 * inertia(thickness, area));
+        let area = S::Facet::<f64>::new(corners, thickness).area();
+        let (of_mass, of_inertia) = shares.split_at_mut(C);
+        of_mass.fill(1.0 / C as f64);
+        of_inertia.fill(inertia::<S, C, R>(thickness, area) / C as f64);
         density * thickness * area
     }
 
     fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start {
-        let corners: Corners<f64> = element.corners[..].try_into().unwrap_or_default();
-        let geometry = Geometry::new(&corners);
-        let thickness = element.mass / (density * geometry.area);
-        unstressed(&geometry, thickness, own);
+        let corners: Corners<f64, C> = element.corners[..].try_into().unwrap_or([[0.0; 3]; C]);
+        let geometry = S::Facet::<f64>::new(&corners, 0.0);
+        let thickness = element.mass / (density * geometry.area());
+        unstressed::<S, C, R>(&geometry, thickness, own);
         let (turn, _) = geometry.turn(&geometry.reference());
         let volume = element.mass / density;
         Start { centre: centroid(&corners), volume, frame: geometry.material_axes(turn) }
@@ -260,17 +268,19 @@ impl Formulation for Shell {
     }
 
     fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
-        let corners = [[0.0; 3], [edge, 0.0, 0.0], [edge, edge, 0.0], [0.0, edge, 0.0]];
-        unstressed(&Geometry::new(&corners), edge, own);
-        density * edge * edge * edge
+        let corners = S::PLAIN.map(|[x, y]| [x * edge, y * edge, 0.0]);
+        let geometry = S::Facet::<f64>::new(&corners, edge);
+        unstressed::<S, C, R>(&geometry, edge, own);
+        density * geometry.area() * edge
     }
 
     fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
-        Geometry::new(&group.positions(i, nodes)).area * group.value(i, rows::THICKNESS)
+        let thickness = group.value(i, rows::THICKNESS);
+        S::Facet::<f64>::new(&group.positions(i, nodes), thickness).area() * thickness
     }
 
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        let geometry = Geometry::new(&group.positions(i, nodes));
+        let geometry = S::Facet::<f64>::new(&group.positions(i, nodes), 0.0);
         let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
         geometry.material_axes(turn)
     }
@@ -292,8 +302,8 @@ impl Formulation for Shell {
     }
 
     fn point_stress(&self, group: &Group, i: usize, point: usize) -> Sym3<f64> {
-        let stride = (group.stride - rows::POINTS) / self.points.len();
-        let first = rows::POINTS + point * stride;
+        let stride = (group.stride - S::ROWS.points) / self.points.len();
+        let first = S::ROWS.points + point * stride;
         let [xx, yy, xy, yz, zx] = group.values(i, first + point_rows::XX);
         Sym3 { xx, yy, zz: 0.0, xy, yz, zx }
     }
@@ -303,7 +313,7 @@ impl Formulation for Shell {
     }
 
     fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
-        group.values(i, rows::RESULTANTS)
+        group.values(i, S::ROWS.resultants)
     }
 
     fn touch(&self, attributes: &[f64]) -> Touch {
@@ -311,7 +321,7 @@ impl Formulation for Shell {
     }
 
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
-        let geometry = Geometry::new(&group.positions(i, nodes));
+        let geometry = S::Facet::<f64>::new(&group.positions(i, nodes), 0.0);
         let (_, [xx, yy, xy]) = geometry.turn(&group.values(i, rows::REFERENCE));
         let zz = group.value(i, rows::THICKNESS) / group.value(i, rows::START);
         Sym3 { xx, yy, zz, xy, yz: 0.0, zx: 0.0 }
@@ -319,49 +329,56 @@ impl Formulation for Shell {
 
     /// Of membrane forces, moments, shear forces and bulk viscosity; hourglass and drill resistance are left out.
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
-        let v: Corners<f64> = group.velocities(i, nodes);
-        let now: Corners<f64> = group.positions(i, nodes);
-        let omega: Corners<f64> = [4, 5, 6, 7].map(|corner| nodes.velocity(group.node(i, corner)));
-        let before = [0, 1, 2, 3].map(|c: usize| [0, 1, 2].map(|k: usize| now[c][k] - time_step * v[c][k]));
-        let geometry = Geometry::new(&before);
+        let v: Corners<f64, C> = group.velocities(i, nodes);
+        let now: Corners<f64, C> = group.positions(i, nodes);
+        let omega: Corners<f64, C> = std::array::from_fn(|corner| nodes.velocity(group.node(i, C + corner)));
+        let before = std::array::from_fn(|c| [0, 1, 2].map(|k: usize| now[c][k] - time_step * v[c][k]));
+        let geometry = S::Facet::<f64>::new(&before, group.value(i, rows::THICKNESS));
         let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
         let work = kernel::power(&geometry.rates(&v, &omega), turn, &self.resultants(group, i));
         let [xx, yy, _] = geometry.rates(&v, &omega).strain;
-        let viscous = group.value(i, rows::VISCOUS_STRESS) * group.value(i, rows::THICKNESS) * (xx + yy);
-        let work = 0.5 * time_step * geometry.area * (work + viscous);
+        let viscous = group.value(i, S::ROWS.viscous_stress) * group.value(i, rows::THICKNESS) * (xx + yy);
+        let work = 0.5 * time_step * geometry.area() * (work + viscous);
         if work.is_finite() { work } else { 0.0 }
     }
 }
 
 /// Rotary inertia of a corner over its mass: that of the section, or more, so that rotations seldom set the time step.
-fn inertia(thickness: f64, area: f64) -> f64 {
-    (thickness * thickness / 12.0).max(area / 8.0)
+fn inertia<S: Kind<C, R>, const C: usize, const R: usize>(thickness: f64, area: f64) -> f64 {
+    (thickness * thickness / 12.0).max(area * S::INERTIA)
 }
 
 /// Rows of an element that has not been strained; its stable step is still to be found.
-fn unstressed(geometry: &Geometry<f64>, thickness: f64, own: &mut [f64]) {
+fn unstressed<S: Kind<C, R>, const C: usize, const R: usize>(
+    geometry: &S::Facet<f64>,
+    thickness: f64,
+    own: &mut [f64],
+) {
     own[rows::REFERENCE..rows::REFERENCE + 3].copy_from_slice(&geometry.reference());
     own[rows::THICKNESS] = thickness;
     own[rows::START] = thickness;
-    own[rows::INERTIA] = inertia(thickness, geometry.area);
+    own[rows::INERTIA] = inertia::<S, C, R>(thickness, geometry.area());
     own[rows::CHANGED] = 1.0;
 }
 
 /// A pass that still has to learn its law.
-struct OfLaw<'a> {
+struct OfLaw<'a, S, const C: usize, const R: usize, const N: usize, const W: usize> {
     pass: Pass<'a>,
-    shell: &'a Shell,
+    shell: &'a Layered<S, C, R, N, W>,
     stiffness: Stiffness,
     settings: PassSettings,
 }
 
-impl KernelVisitor for OfLaw<'_> {
+impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usize> KernelVisitor
+    for OfLaw<'_, S, C, R, N, W>
+{
     type Output = PassOutcome;
 
     fn visit<K: Kernel>(self, law: K) -> PassOutcome {
         let mut rule = [[0.0; 2]; MOST_POINTS];
         rule.iter_mut().zip(&self.shell.points).for_each(|(place, point)| *place = *point);
-        self.pass.over(&ShellStep {
+        self.pass.over(&ShellStep::<K, S, C, R, N, W> {
+            kind: PhantomData,
             law,
             moduli: self.stiffness.moduli,
             times: [self.settings.time, self.settings.time_step],

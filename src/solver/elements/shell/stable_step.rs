@@ -1,11 +1,11 @@
 //! The largest stable step of a shell, rigorous: a bound on the highest frequency of the element from its own matrix.
 //!
 //! With R the rates of all strains, hourglass fields and drills, each times the root of its stiffness, for unit velocities of the
-//! corners over the root of their masses, ω² is the largest eigenvalue of G = R Rᵀ, 18 × 18. Squared twice, the largest row sum of
+//! corners over the root of their masses, ω² is the largest eigenvalue of G = R Rᵀ, 18 × 18 of four corners. Squared twice, the largest row sum of
 //! G⁴ bounds its fourth power from above: 3 to 16 % too much in warped elements. It is found again when an element has changed by
 //! a fiftieth, so that it costs next to nothing; in between the step is shortened by as much as the element has changed.
 
-use super::geometry::{Corners, Geometry, Rates};
+use super::facet::{Corners, Facet, Kind, Stiffnesses};
 use crate::material::Moduli;
 
 /// Change of an element, as a strain, from which on its step is found again.
@@ -13,9 +13,6 @@ pub const CHANGE: f64 = 0.02;
 
 /// Drill resistance that the step is made for at least: the kernel's own is mostly far below, and grows with the moments.
 const DRILL: f64 = 0.1;
-
-/// Number of rates.
-const ROWS: usize = 18;
 
 /// What the stiffness of an element is made of.
 #[derive(Debug, Clone, Copy)]
@@ -41,16 +38,21 @@ pub struct Body {
     pub drill: f64,
 }
 
-/// 2/ω of an element whose corners are at these places; 0 of one without area, thickness or mass.
-pub fn stable_step(corners: &Corners<f64>, stiffness: &Stiffness, body: &Body) -> f64 {
-    let geometry = Geometry::new(corners);
-    let sound = geometry.area > 0.0 && body.thickness > 0.0 && body.mass > 0.0;
+/// 2/ω of an element whose corners are at these places; 0 of one without area, thickness or mass. W is the number of its
+/// rates, R and 8 more.
+pub fn stable_step<S: Kind<C, R>, const C: usize, const R: usize, const W: usize>(
+    corners: &Corners<f64, C>,
+    stiffness: &Stiffness,
+    body: &Body,
+) -> f64 {
+    let geometry = S::Facet::<f64>::new(corners, body.thickness);
+    let sound = geometry.area() > 0.0 && body.thickness > 0.0 && body.mass > 0.0;
     if !sound {
         return 0.0;
     }
     let body = &Body { drill: body.drill.max(DRILL), ..*body };
-    let matrix = gram(&columns(&geometry, stiffness, body));
-    let scale = (0..ROWS).map(|i| matrix[i][i]).sum::<f64>();
+    let matrix = gram::<S, C, R, W>(&geometry, stiffness, body);
+    let scale = (0..W).map(|i| matrix[i][i]).sum::<f64>();
     if !(scale > 0.0 && scale.is_finite()) {
         return 0.0;
     }
@@ -60,79 +62,81 @@ pub fn stable_step(corners: &Corners<f64>, stiffness: &Stiffness, body: &Body) -
     2.0 / (scale * norm.sqrt().sqrt()).sqrt()
 }
 
-/// Columns of R.
-fn columns(geometry: &Geometry<f64>, stiffness: &Stiffness, body: &Body) -> [[f64; ROWS]; 24] {
-    let corner_mass = 0.25 * body.mass;
+/// R Rᵀ.
+fn gram<S: Kind<C, R>, const C: usize, const R: usize, const W: usize>(
+    geometry: &S::Facet<f64>,
+    stiffness: &Stiffness,
+    body: &Body,
+) -> [[f64; W]; W] {
+    let corner_mass = body.mass / C as f64;
     let over = [1.0 / corner_mass.sqrt(), 1.0 / (corner_mass * body.inertia).sqrt()];
-    let mut columns = [[0.0; ROWS]; 24];
-    for (place, column) in columns.iter_mut().enumerate() {
-        let (kind, corner, axis) = (place / 12, place % 12 / 3, place % 3);
-        let mut fields = [[[0.0; 3]; 4]; 2];
+    let mut matrix = [[0.0; W]; W];
+    for place in 0..6 * C {
+        let (kind, corner, axis) = (place / (3 * C), place % (3 * C) / 3, place % 3);
+        let mut fields = [[[0.0; 3]; C]; 2];
         fields[kind][corner][axis] = over[kind];
-        *column = weighted(&geometry.rates(&fields[0], &fields[1]), geometry, stiffness, body);
+        let column: [f64; W] = weighted::<S, C, R, W>(geometry, &fields, stiffness, body);
+        for (i, (row, a)) in matrix.iter_mut().zip(column).enumerate() {
+            row[i..].iter_mut().zip(&column[i..]).for_each(|(entry, b)| *entry += a * b);
+        }
     }
-    columns
+    mirrored(matrix)
 }
 
-/// Rates times the roots of their stiffnesses.
-fn weighted(rates: &Rates<f64>, geometry: &Geometry<f64>, stiffness: &Stiffness, body: &Body) -> [f64; ROWS] {
+/// Rates of fields of velocities and rotations times the roots of their stiffnesses: the sum of their squares is twice the energy.
+pub fn weighted<S: Kind<C, R>, const C: usize, const R: usize, const W: usize>(
+    geometry: &S::Facet<f64>,
+    fields: &[Corners<f64, C>; 2],
+    stiffness: &Stiffness,
+    body: &Body,
+) -> [f64; W] {
+    let rates = geometry.rates(&fields[0], &fields[1]);
     let (mu, nu) = (0.5 * stiffness.moduli.two_mu, stiffness.moduli.poisson());
     let young = 2.0 * mu * (1.0 + nu);
-    let volume = geometry.area * body.thickness;
+    let volume = geometry.area() * body.thickness;
     let bending = stiffness.bending * body.thickness * body.thickness / 12.0;
-    let ([h11, h22, h12], gradients) = geometry.hourglass_metric();
-    // Cholesky's factor of the hourglass matrix [H₁₁, −ν H₁₂; −ν H₁₂, H₂₂].
-    let first = h11.sqrt();
-    let (mixed, second) = (-nu * h12 / first, (h22 - nu * nu * h12 * h12 / h11).max(0.0).sqrt());
     let plane = |[xx, yy, xy]: [f64; 3], volume: f64| {
         let (sum, difference) = ((xx + yy) / 2f64.sqrt(), (xx - yy) / 2f64.sqrt());
         let roots = [volume * young / (1.0 - nu), volume * 2.0 * mu, volume * mu].map(f64::sqrt);
         [roots[0] * sum, roots[1] * difference, 2.0 * roots[2] * xy]
     };
-    let modes = |[a, b]: [f64; 2], factor: f64| {
-        let root = (young * body.thickness * factor).sqrt();
-        [root * (first * a + mixed * b), root * second * b]
-    };
     let [m1, m2, m3] = plane(rates.strain, volume);
     let [b1, b2, b3] = plane(rates.curvature, volume * bending);
-    let [h1, h2] = modes(rates.membrane, 1.0);
-    let [h3, h4] = modes(rates.bending, bending);
     let shear = stiffness.shear_correction * mu;
-    let [s1, s2] = rates.shear.map(|rate| (shear * volume).sqrt() * rate);
-    let t1 = (shear * body.thickness * gradients[0]).sqrt() * rates.twist[0];
-    let t2 = (shear * body.thickness * gradients[1]).sqrt() * rates.twist[1];
-    let drill = (body.drill * mu * 0.25 * volume).sqrt();
-    let [d1, d2, d3, d4] = rates.drill.map(|rate| drill * rate);
-    [m1, m2, m3, b1, b2, b3, s1, s2, h1, h2, h3, h4, t1, t2, d1, d2, d3, d4]
+    let [s1, s2] = rates.shear.map(|rate| (shear * volume).sqrt() * geometry.reduced(rate));
+    let others = geometry.rooted(
+        &rates.resisted,
+        &Stiffnesses {
+            poisson: nu,
+            membrane: young * body.thickness,
+            bending: young * body.thickness * bending,
+            shear: shear * body.thickness,
+            drill: body.drill * mu / C as f64 * volume,
+        },
+    );
+    let mut all = [0.0; W];
+    let strains = [m1, m2, m3, b1, b2, b3, s1, s2];
+    all.iter_mut().zip(strains.into_iter().chain(others)).for_each(|(place, rate)| *place = rate);
+    all
 }
 
-fn gram(columns: &[[f64; ROWS]; 24]) -> [[f64; ROWS]; ROWS] {
-    let mut matrix = [[0.0; ROWS]; ROWS];
-    for column in columns {
-        for (row, a) in matrix.iter_mut().zip(column) {
-            row.iter_mut().zip(column).for_each(|(entry, b)| *entry += a * b);
+/// Of a symmetric matrix, whose square is symmetric to the last bit.
+fn square<const W: usize>(a: &[[f64; W]; W]) -> [[f64; W]; W] {
+    let mut square = [[0.0; W]; W];
+    for (i, (row, left)) in square.iter_mut().zip(a).enumerate() {
+        for (factor, right) in left.iter().zip(a) {
+            row[i..].iter_mut().zip(&right[i..]).for_each(|(entry, b)| *entry += factor * b);
+        }
+    }
+    mirrored(square)
+}
+
+/// What stands above the diagonal, below it too.
+fn mirrored<const W: usize>(mut matrix: [[f64; W]; W]) -> [[f64; W]; W] {
+    for i in 1..W {
+        for j in 0..i {
+            matrix[i][j] = matrix[j][i];
         }
     }
     matrix
-}
-
-fn square(a: &[[f64; ROWS]; ROWS]) -> [[f64; ROWS]; ROWS] {
-    let mut square = [[0.0; ROWS]; ROWS];
-    for (row, left) in square.iter_mut().zip(a) {
-        for (factor, right) in left.iter().zip(a) {
-            row.iter_mut().zip(right).for_each(|(entry, b)| *entry += factor * b);
-        }
-    }
-    square
-}
-
-/// What the tests make the exact frequencies from.
-#[cfg(test)]
-pub fn weighted_for_tests(
-    geometry: &Geometry<f64>,
-    fields: &[Corners<f64>; 2],
-    stiffness: &Stiffness,
-    body: &Body,
-) -> Vec<f64> {
-    weighted(&geometry.rates(&fields[0], &fields[1]), geometry, stiffness, body).to_vec()
 }

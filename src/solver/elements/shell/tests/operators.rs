@@ -1,8 +1,10 @@
 //! What must hold for the rates and forces of any element, however warped.
 
 use crate::material::Moduli;
-use crate::solver::elements::shell::geometry::{Corners, Geometry, Rates, Resultants};
-use crate::solver::elements::shell::stable_step::{Body, Stiffness, stable_step};
+use crate::solver::elements::shell::facet::{Corners, Facet, Kind, Rates, Resultants};
+use crate::solver::elements::shell::geometry::{Quadrilateral, RESISTANCES};
+use crate::solver::elements::shell::stable_step::{Body, Stiffness, stable_step, weighted};
+use crate::solver::elements::shell::triangle::Three;
 use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// A generator of numbers from −1 to 1.
@@ -22,112 +24,134 @@ impl Numbers {
         [0; 3].map(|_| self.next())
     }
 
-    /// A quadrilateral of edge 1 that is warped and skewed.
-    pub fn warped(&mut self) -> Corners<f64> {
-        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| add([x, y, 0.0], scaled(self.vector(), 0.25)))
+    /// An element of edge 1 that is warped and skewed.
+    pub fn warped<S: Kind<C, R>, const C: usize, const R: usize>(&mut self) -> Corners<f64, C> {
+        S::PLAIN.map(|[x, y]| add([x, y, 0.0], scaled(self.vector(), 0.25)))
     }
 }
 
-fn all(rates: &Rates<f64>) -> Vec<f64> {
-    let planes = [&rates.strain[..], &rates.curvature, &rates.shear, &rates.membrane, &rates.bending, &rates.twist];
-    planes.concat().into_iter().chain(rates.drill).collect()
+/// Thickness where it is of no account, or of little.
+const THICK: f64 = 0.1;
+
+fn all<const R: usize>(rates: &Rates<f64, R>) -> Vec<f64> {
+    let strains = [&rates.strain[..], &rates.curvature, &rates.shear];
+    strains.concat().into_iter().chain(rates.resisted).collect()
 }
 
-#[test]
-fn rigid_motion_does_not_strain() {
+fn rigid_motion<S: Kind<C, R>, const C: usize, const R: usize>() {
     let mut numbers = Numbers::new();
     for _ in 0..50 {
-        let x = numbers.warped();
+        let x = numbers.warped::<S, C, R>();
         let (move_by, turn) = (numbers.vector(), numbers.vector());
         let v = x.map(|x| add(move_by, cross(turn, x)));
-        let rates = Geometry::new(&x).rates(&v, &[turn; 4]);
+        let rates = S::Facet::<f64>::new(&x, THICK).rates(&v, &[turn; C]);
         assert!(all(&rates).iter().all(|rate| rate.abs() < 1e-14), "{:?}", all(&rates));
     }
 }
 
-/// Forces have the power of the resultants for any motion, so also no resultant and no moment.
 #[test]
-fn forces_are_the_transpose_of_the_rates() {
+fn rigid_motion_does_not_strain() {
+    rigid_motion::<Quadrilateral, 4, RESISTANCES>();
+    rigid_motion::<Three, 3, 4>();
+}
+
+/// Forces have the power of the resultants for any motion, so also no resultant and no moment.
+fn transposed<S: Kind<C, R>, const C: usize, const R: usize>() {
     let mut numbers = Numbers::new();
     for _ in 0..50 {
-        let x = numbers.warped();
-        let geometry = Geometry::new(&x);
-        let [v, omega] = [0; 2].map(|_| [0; 4].map(|_| numbers.vector()));
-        let mut pair = || [numbers.next(), numbers.next()];
+        let x = numbers.warped::<S, C, R>();
+        let geometry = S::Facet::<f64>::new(&x, THICK);
+        let [v, omega] = [0; 2].map(|_| [0; C].map(|_| numbers.vector()));
         let s = Resultants {
-            shear: pair(),
-            membrane: pair(),
-            bending: pair(),
-            twist: pair(),
-            force: [numbers.next(), numbers.next(), numbers.next()],
+            shear: [numbers.next(), numbers.next()],
+            force: numbers.vector(),
             moment: numbers.vector(),
-            drill: [0; 4].map(|_| numbers.next()),
+            resisted: [0; R].map(|_| numbers.next()),
         };
         let r = geometry.rates(&v, &omega);
         let plane = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + 2.0 * a[2] * b[2];
-        let two = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-        let drill: f64 = (0..4).map(|i| r.drill[i] * s.drill[i]).sum();
-        let inside = plane(r.strain, s.force) + plane(r.curvature, s.moment) + two(r.shear, s.shear) + drill;
-        let inside = inside + two(r.membrane, s.membrane) + two(r.bending, s.bending) + two(r.twist, s.twist);
+        let many = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let inside = plane(r.strain, s.force) + plane(r.curvature, s.moment) + many(&r.shear, &s.shear);
+        let inside = inside + many(&r.resisted, &s.resisted);
         let [force, moment] = geometry.forces(&s);
-        let outside: f64 = (0..4).map(|i| dot(force[i], v[i]) + dot(moment[i], omega[i])).sum();
+        let outside: f64 = (0..C).map(|i| dot(force[i], v[i]) + dot(moment[i], omega[i])).sum();
         assert!((inside - outside).abs() < 1e-13, "{inside} {outside}");
         let sum = force.iter().fold([0.0; 3], |sum, f| add(sum, *f));
-        let about = (0..4).fold([0.0; 3], |sum, i| add(sum, add(cross(x[i], force[i]), moment[i])));
+        let about = (0..C).fold([0.0; 3], |sum, i| add(sum, add(cross(x[i], force[i]), moment[i])));
         assert!(sum.iter().chain(&about).all(|c| c.abs() < 1e-13), "{sum:?} {about:?}");
     }
 }
 
-/// A field that is affine in the plane of a warped element strains it as it should, and moves no hourglass field.
 #[test]
-fn affine_fields_in_the_plane_are_exact() {
+fn forces_are_the_transpose_of_the_rates() {
+    transposed::<Quadrilateral, 4, RESISTANCES>();
+    transposed::<Three, 3, 4>();
+}
+
+/// A field that is affine in the plane of a warped element strains it as it should, and moves no hourglass field.
+fn affine<S: Kind<C, R>, const C: usize, const R: usize>() {
     let mut numbers = Numbers::new();
     for _ in 0..20 {
-        let x = numbers.warped();
-        let geometry = Geometry::new(&x);
+        let x = numbers.warped::<S, C, R>();
+        let geometry = S::Facet::<f64>::new(&x, THICK);
+        let e = geometry.axes();
         let gradient = [0; 2].map(|_| [numbers.next(), numbers.next()]);
         let v = x.map(|x| {
-            let at = [0, 1].map(|a: usize| dot(geometry.e[a], subtract(x, [0.5; 3])));
-            (0..2).fold([0.0; 3], |v, a| add(v, scaled(geometry.e[a], gradient[a][0] * at[0] + gradient[a][1] * at[1])))
+            let at = [0, 1].map(|a: usize| dot(e[a], subtract(x, [0.5; 3])));
+            (0..2).fold([0.0; 3], |v, a| add(v, scaled(e[a], gradient[a][0] * at[0] + gradient[a][1] * at[1])))
         });
-        let rates = geometry.rates(&v, &[[0.0; 3]; 4]);
+        let rates = geometry.rates(&v, &[[0.0; 3]; C]);
         let [xx, yy, xy] = rates.strain;
         let exact = [gradient[0][0], gradient[1][1], 0.5 * (gradient[0][1] + gradient[1][0])];
         assert!([xx, yy, xy].iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-14));
-        assert!(rates.membrane.iter().all(|rate| rate.abs() < 1e-14), "{:?}", rates.membrane);
+        // Without rotations the drills see the field turn.
+        let others = &rates.resisted[..R - C];
+        assert!(others.iter().take(2).all(|rate| rate.abs() < 1e-14), "{others:?}");
     }
+}
+
+#[test]
+fn affine_fields_in_the_plane_are_exact() {
+    affine::<Quadrilateral, 4, RESISTANCES>();
+    affine::<Three, 3, 4>();
 }
 
 const STEEL: Stiffness =
     Stiffness { moduli: Moduli { lambda: 1.2e11, two_mu: 1.6e11 }, bending: 1.0, shear_correction: 5.0 / 6.0 };
 
-/// Highest frequency by the power method on the corners' own matrix.
-fn highest(x: &Corners<f64>, body: &Body) -> f64 {
-    let corner = 0.25 * body.mass;
-    let geometry = Geometry::new(x);
+/// Highest frequency, from the corners' own matrix.
+fn highest<S: Kind<C, R>, const C: usize, const R: usize, const W: usize>(x: &Corners<f64, C>, body: &Body) -> f64 {
+    let corner = body.mass / C as f64;
+    let geometry = S::Facet::<f64>::new(x, body.thickness);
     let over = [1.0 / corner.sqrt(), 1.0 / (corner * body.inertia).sqrt()];
-    let columns: Vec<Vec<f64>> = (0..24)
+    let columns: Vec<[f64; W]> = (0..6 * C)
         .map(|place| {
-            let mut fields = [[[0.0; 3]; 4]; 2];
-            fields[place / 12][place % 12 / 3][place % 3] = over[place / 12];
-            super::super::stable_step::weighted_for_tests(&geometry, &fields, &STEEL, body)
+            let mut fields = [[[0.0; 3]; C]; 2];
+            fields[place / (3 * C)][place % (3 * C) / 3][place % 3] = over[place / (3 * C)];
+            weighted::<S, C, R, W>(&geometry, &fields, &STEEL, body)
         })
         .collect();
-    let matrix = nalgebra::DMatrix::from_fn(18, 24, |i, j| columns[j][i]);
+    let matrix = nalgebra::DMatrix::from_fn(W, 6 * C, |i, j| columns[j][i]);
     (&matrix * matrix.transpose()).symmetric_eigenvalues().max().sqrt()
 }
 
 /// The step is below that of the element's highest frequency, and not by more than a twelfth.
-#[test]
-fn the_stable_step_is_a_bound_and_a_close_one() {
+fn bounded<S: Kind<C, R>, const C: usize, const R: usize, const W: usize>() {
     let mut numbers = Numbers::new();
     for case in 0..200 {
-        let x = numbers.warped();
+        let x = numbers.warped::<S, C, R>();
         let thickness = 10f64.powf(-3.0 + 2.5 * f64::from(case % 7) / 6.0);
-        let area = Geometry::new(&x).area;
-        let inertia = (thickness * thickness / 12.0).max(area / 8.0);
+        let area = S::Facet::<f64>::new(&x, thickness).area();
+        let inertia = (thickness * thickness / 12.0).max(area * S::INERTIA);
         let body = Body { mass: 7800.0 * area * thickness, inertia, thickness, drill: 0.1 };
-        let (step, exact) = (stable_step(&x, &STEEL, &body), 2.0 / highest(&x, &body));
+        let step = stable_step::<S, C, R, W>(&x, &STEEL, &body);
+        let exact = 2.0 / highest::<S, C, R, W>(&x, &body);
         assert!(step <= exact * (1.0 + 1e-12) && step > exact / 1.12, "{case}: {}", step / exact);
     }
+}
+
+#[test]
+fn the_stable_step_is_a_bound_and_a_close_one() {
+    bounded::<Quadrilateral, 4, RESISTANCES, 18>();
+    bounded::<Three, 3, 4, 12>();
 }

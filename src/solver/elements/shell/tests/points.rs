@@ -3,7 +3,7 @@
 use super::rig::{Rig, STEEL, close};
 use crate::lanes::InstructionSet;
 use crate::material::{ElasticPlastic, Law};
-use crate::solver::elements::shell::{point_rows, rows, rule::Rule};
+use crate::solver::elements::shell::{QUADRILATERAL, point_rows, rows, rule::Rule};
 
 const YIELD: f64 = 400e6;
 const PLASTIC: Law =
@@ -23,7 +23,7 @@ fn v19_fully_plastic_moment() {
             // First yield in plane strain.
             let first = YIELD / 200e9 / 0.005;
             rig.bend(50.0 * first, 400);
-            let moment = rig.state(rows::RESULTANTS + 3) / (2.0 / 3f64.sqrt() * YIELD * 1e-4 / 4.0);
+            let moment = rig.state(QUADRILATERAL.resultants + 3) / (2.0 / 3f64.sqrt() * YIELD * 1e-4 / 4.0);
             let thinner = (rig.state(rows::THICKNESS) / 0.01).powi(2);
             close(&format!("{rule:?} {count}"), moment / thinner, expected, 2e-3 * expected + 6e-4);
         }
@@ -42,12 +42,17 @@ fn elastic_stress_thickness_and_moment() {
         close("σ_zz", rig.point(1, point_rows::LEFT), 0.0, 1.0);
         close("thickness", rig.state(rows::THICKNESS) / 0.01 - 1.0, -0.3 / 0.7 * 1e-4, 1e-8);
         let work = 0.5 * modulus * 1e-8 * 0.01;
-        close("energy", rig.state(rows::INTERNAL_ENERGY), work, 2e-3 * work);
+        close("energy", rig.state(QUADRILATERAL.internal_energy), work, 2e-3 * work);
         let mut rig = Rig::new(STEEL, Rule::Gauss.points(3), 0.01, instructions);
         rig.bend(0.01, 10);
         let stiffness = modulus * 1e-6 / 12.0;
-        close("moment", rig.state(rows::RESULTANTS + 3), stiffness * 0.01, 1e-3 * stiffness * 0.01);
-        close("moment across", rig.state(rows::RESULTANTS + 4), 0.3 * stiffness * 0.01, 1e-3 * stiffness * 0.01);
+        close("moment", rig.state(QUADRILATERAL.resultants + 3), stiffness * 0.01, 1e-3 * stiffness * 0.01);
+        close(
+            "moment across",
+            rig.state(QUADRILATERAL.resultants + 4),
+            0.3 * stiffness * 0.01,
+            1e-3 * stiffness * 0.01,
+        );
     }
 }
 
@@ -56,13 +61,13 @@ fn elastic_stress_thickness_and_moment() {
 fn lost_points_carry_nothing() {
     let mut rig = Rig::new(STEEL, Rule::Gauss.points(5), 0.01, InstructionSet::detect());
     rig.stretch(1e-4, 10);
-    let before = rig.state(rows::RESULTANTS);
+    let before = rig.state(QUADRILATERAL.resultants);
     for point in 1..5 {
         rig.lose(point);
     }
     rig.stretch(0.0, 1);
     let share = 0.5 * Rule::Gauss.points(5)[0][1];
-    close("force", rig.state(rows::RESULTANTS), share * before, 1e-3 * before);
+    close("force", rig.state(QUADRILATERAL.resultants), share * before, 1e-3 * before);
     assert_eq!(rig.point(2, point_rows::XX), 0.0);
     assert!(rig.outcome.failed.is_none() && rig.outcome.stable_step > 0.0);
 }
@@ -73,12 +78,12 @@ fn rigid_motion_leaves_the_stress_alone() {
     let mut rig = Rig::new(STEEL, Rule::Gauss.points(5), 0.01, InstructionSet::detect());
     rig.stretch(1e-4, 10);
     let stress = rig.point(0, point_rows::XX);
-    let energy = rig.state(rows::INTERNAL_ENERGY);
+    let energy = rig.state(QUADRILATERAL.internal_energy);
     for axis in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8]] {
         for _ in 0..20 {
             rig.turn(axis, 0.01);
         }
         close("stress", rig.point(0, point_rows::XX), stress, 2e-4 * stress);
-        close("energy", rig.state(rows::INTERNAL_ENERGY), energy, 1e-3 * energy);
+        close("energy", rig.state(QUADRILATERAL.internal_energy), energy, 1e-3 * energy);
     }
 }

@@ -4,9 +4,10 @@ use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Law};
 use crate::model::{BulkViscosity, StepModuli};
 use crate::solver::domain::state_names;
-use crate::solver::elements::shell::{Shell, rows};
+use crate::solver::elements::shell::{QUADRILATERAL, Shell};
 use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
 use crate::vector::{add, cross, dot, scaled};
+use std::marker::PhantomData;
 
 pub const STEEL: Law = Law::Elastic(Elastic { young: 200e9, poisson: 0.3 });
 const DENSITY: f64 = 7800.0;
@@ -26,7 +27,7 @@ pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
 impl Rig {
     pub fn new(law: Law, points: Vec<[f64; 2]>, thickness: f64, instructions: InstructionSet) -> Rig {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let element = Element::Shell(Shell { thickness: Some(thickness), scale: 1.0, points });
+        let element = Element::Shell(Shell { kind: PhantomData, thickness: Some(thickness), scale: 1.0, points });
         let new = NewElement {
             place: 0,
             nodes: (0..8).collect(),
@@ -113,6 +114,6 @@ impl Rig {
     pub fn lose(&mut self, point: usize) {
         let row = self.block.first_of_point(point) + super::super::point_rows::LOST;
         self.block.interior.set_value(0, row, 1.0);
-        assert!(row >= rows::POINTS);
+        assert!(row >= QUADRILATERAL.points);
     }
 }

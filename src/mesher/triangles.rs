@@ -1,0 +1,107 @@
+//! TRIANGLES: quadrilaterals of surfaces divided into triangles.
+
+use crate::mesh::{Mesh, Shape};
+use std::collections::BTreeMap;
+
+/// How a quadrilateral is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pattern {
+    /// In two, along one diagonal and along the other in its neighbours.
+    Alternating,
+    /// In two, from its first corner.
+    Diagonal,
+    /// In four, about its middle.
+    Cross,
+}
+
+impl Pattern {
+    /// By its word in a recipe.
+    pub fn from_word(word: &str) -> Pattern {
+        match word {
+            "DIAGONAL" => Pattern::Diagonal,
+            "CROSS" => Pattern::Cross,
+            _ => Pattern::Alternating,
+        }
+    }
+}
+
+/// Divides the surfaces of a block; whether there are any. Elements are numbered anew.
+pub fn divide(mesh: &mut Mesh, id: i64, pattern: Pattern) -> bool {
+    let Some(place) = mesh.blocks.iter().position(|block| block.id == id && block.shape == Shape::Quadrilateral) else {
+        return false;
+    };
+    let block = &mut mesh.blocks[place];
+    let quads: Vec<[u32; 4]> = block.nodes.chunks_exact(4).map(|quad| [quad[0], quad[1], quad[2], quad[3]]).collect();
+    let turned = if pattern == Pattern::Alternating { odd(&quads) } else { vec![false; quads.len()] };
+    block.shape = Shape::Triangle;
+    block.nodes.clear();
+    for (&[a, b, c, d], turned) in quads.iter().zip(turned) {
+        if pattern == Pattern::Cross {
+            let middle = mesh.coordinates.len() as u32;
+            let corners = [a, b, c, d].map(|node| mesh.coordinates[node as usize]);
+            mesh.coordinates.push([0, 1, 2].map(|i| 0.25 * corners.iter().map(|x| x[i]).sum::<f64>()));
+            block.nodes.extend([a, b, middle, b, c, middle, c, d, middle, d, a, middle]);
+        } else if turned {
+            block.nodes.extend([b, c, d, b, d, a]);
+        } else {
+            block.nodes.extend([a, b, c, a, c, d]);
+        }
+    }
+    mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
+    mesh.element_ids = (1..=mesh.element_count() as i64).collect();
+    true
+}
+
+/// Whether each quadrilateral is an odd number of edges away from the first of its surface.
+fn odd(quads: &[[u32; 4]]) -> Vec<bool> {
+    let edges = |quad: &[u32; 4]| [0, 1, 2, 3].map(|i| [quad[i], quad[(i + 1) % 4]]).map(|[a, b]| [a.min(b), a.max(b)]);
+    let mut at: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (place, quad) in quads.iter().enumerate() {
+        edges(quad).into_iter().for_each(|edge| at.entry(edge).or_default().push(place));
+    }
+    let mut odd: Vec<Option<bool>> = vec![None; quads.len()];
+    for first in 0..quads.len() {
+        let mut waiting = std::collections::VecDeque::from([(first, false)]);
+        while let Some((place, parity)) = waiting.pop_front() {
+            if odd[place].is_none() {
+                odd[place] = Some(parity);
+                let beside = edges(&quads[place]).into_iter().filter_map(|edge| at.get(&edge)).flatten();
+                waiting.extend(beside.filter(|&&other| odd[other].is_none()).map(|&other| (other, !parity)));
+            }
+        }
+    }
+    odd.into_iter().map(|parity| parity.unwrap_or(false)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mesh::{Shape, check};
+    use crate::mesher;
+    use crate::vector::{cross, dot, subtract};
+
+    #[test]
+    fn a_sheet_keeps_its_area_and_its_top() {
+        for (pattern, count, nodes) in [("", 12, 12), ("DIAGONAL", 12, 12), ("CROSS", 24, 18)] {
+            let recipe = format!("SHEET, 1, 0, 0, 0, 3, 2, 0, 3, 2\nTRIANGLES, 1, {pattern}\n");
+            let mesh = mesher::make(&recipe, "t", 1).expect("a mesh");
+            assert_eq!((mesh.element_count(), mesh.coordinates.len()), (count, nodes), "{pattern}");
+            assert!(mesh.blocks[0].shape == Shape::Triangle && check::geometry(&mesh).is_empty());
+            let area = |nodes: &[u32]| {
+                let [a, b, c] = [0, 1, 2].map(|i: usize| mesh.coordinates[nodes[i] as usize]);
+                0.5 * dot(cross(subtract(b, a), subtract(c, a)), [0.0, 0.0, 1.0])
+            };
+            let sum: f64 = mesh.elements().map(|(_, nodes)| area(nodes)).sum();
+            assert!((sum - 6.0).abs() < 1e-14, "{pattern}: {sum}");
+        }
+        // By turns: the six triangles that meet at an inner node become four and eight.
+        let mesh = mesher::make("SHEET, 1, 0, 0, 0, 4, 4, 0, 4, 4\nTRIANGLES, 1\n", "t", 1).expect("a mesh");
+        let around = |at: [f64; 3]| {
+            let node = mesh.coordinates.iter().position(|x| *x == at).expect("a node") as u32;
+            mesh.elements().filter(|(_, nodes)| nodes.contains(&node)).count()
+        };
+        let mut counts = [around([1.0, 1.0, 0.0]), around([2.0, 1.0, 0.0])];
+        counts.sort_unstable();
+        assert_eq!(counts, [4, 8]);
+        assert!(mesher::make("BOX, 1, 0, 0, 0, 3, 2, 1, 3, 2, 1\nTRIANGLES, 1\n", "t", 1).is_err());
+    }
+}
