@@ -275,7 +275,14 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
 
     /// Bulk viscosity of the membrane as a mean stress, with its energy booked.
     #[inline(always)]
-    fn viscous<V: Lanes>(&self, rates: &Rates<V, R>, area: V, found: &Found<V>, state: &mut [V::Row], part: usize) -> V {
+    fn viscous<V: Lanes>(
+        &self,
+        rates: &Rates<V, R>,
+        area: V,
+        found: &Found<V>,
+        state: &mut [V::Row],
+        part: usize,
+    ) -> V {
         let rate = rates.strain[0] + rates.strain[1];
         let bound = V::load(&state[rows::STEP], part);
         let damping = damping(self.viscosity, bound, rate);
