@@ -7,7 +7,7 @@ mod support;
 
 use program::Desk;
 use support::continued::{Case, assert_same};
-use support::flow::{alone, flow, octant};
+use support::flow::alone;
 use support::meshes::{add_node_set, brick, nodes_where, recipe};
 use support::run::{Run, model, run, run_on};
 use support::{between, close, steel};
@@ -275,32 +275,6 @@ fn extreme_23_spall() {
     between("extreme 23 single", "deviation of displacement", deviation("DISPLX", &runs), 0.0, 1e-3);
     let lowest = runs[1].states.iter().flat_map(|state| state.element("PRESSURE")).copied().fold(0.0, f64::min);
     close("extreme 23 single", "largest tension", -lowest, 1e9, 1e-5);
-}
-
-/// A cube of gas whose particles begin towards one corner, while its free faces let it out.
-#[test]
-fn a_gas_on_the_move() {
-    let (mesh, held) = octant(10, 1.0);
-    let deck = |more: &str| {
-        format!(
-            "{more}TERMINATION TIME, 0.3\n{held}MATERIAL, 1, HYDRODYNAMIC, 1.\nPRESSURE CUTOFF = 0.\nEND\nEQUATION OF STATE, 1, IDEAL GAS\nGAMMA = 1.4\n\
-             INITIAL ENERGY = 1.\nEND\n"
-        )
-    };
-    let inwards = |x: [f64; 3]| x.map(|c| -0.5 * c);
-    let found = ["", "PRECISION, SINGLE\n"].map(|more| flow(&mesh, &deck(more), Some(&inwards)));
-    let [double, single] = &found;
-    println!(
-        "gas: balance {:.1e} in double, {:.1e} in single, {} and {} steps",
-        double.balance, single.balance, double.steps, single.steps
-    );
-    assert!(single.balance < 1e-5 && single.turned == 0);
-    let worst = double
-        .cells
-        .iter()
-        .zip(&single.cells)
-        .fold(0.0f64, |most, (a, b)| most.max((a.density / b.density - 1.0).abs()));
-    between("gas single", "deviation of density", worst, 0.0, 1e-3);
 }
 
 /// Units in which products of lengths leave the range of single precision are refused, with what to do.
