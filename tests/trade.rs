@@ -1,6 +1,7 @@
 //! The trade of decks: its text, with times masked, and its recommendation, which is run.
 
 mod program;
+mod support;
 
 use program::{Desk, project};
 use serde_json::Value;
@@ -100,6 +101,62 @@ fn a_bar_is_traded_and_the_recommendation_holds() {
 /// The table and the words as they stand on the terminal, without the names of what was made.
 fn rows_only(text: &str) -> String {
     text.lines().filter(|line| !line.starts_with("best.i")).map(|line| format!("{line}\n")).collect()
+}
+
+/// What can be turned in a deck of ours.
+fn knobs_of(deck: &str, mesh: &str, change: &[(&str, &str)]) -> Vec<(String, String)> {
+    let read = |path: String| std::fs::read_to_string(project(&path)).expect("a file of ours");
+    let mut deck = read(format!("decks/{deck}.i"));
+    for (old, new) in change {
+        assert!(deck.contains(old), "{old}");
+        deck = deck.replace(old, new);
+    }
+    let mesh = support::meshes::recipe(&read(format!("meshes/{mesh}.mesh")));
+    let model = support::run::model(&deck, &mesh);
+    urto::trade::knobs::variants(&model, &mesh, &[2]).into_iter().map(|v| (v.name, v.words)).collect()
+}
+
+#[test]
+fn a_scene_has_the_knobs_that_it_needs_and_no_others() {
+    let told =
+        |knobs: &[(String, String)], name: &str| knobs.iter().find(|knob| knob.0 == name).map(|knob| knob.1.clone());
+    let of_plug = knobs_of("perforation", "perforation", &[]);
+    let later = "DEATH, 1, EQPS, MAX, 1.250e+00, FREE; DEATH, 1, VOLUME, MIN, 1.600e-01, FREE";
+    assert_eq!(told(&of_plug, "later-erosion").as_deref(), Some(later), "{of_plug:?}");
+    assert!(told(&of_plug, "sooner-erosion").is_some_and(|words| words.contains("EQPS, MAX, 8.000e-01")));
+    let eight = "ELEMENT, 1, EIGHT POINTS; ELEMENT, 2, EIGHT POINTS; ELEMENT, 3, EIGHT POINTS";
+    assert_eq!(told(&of_plug, "eight-points").as_deref(), Some(eight));
+    assert_eq!(told(&of_plug, "global-estimate").as_deref(), Some("TIME STEP ESTIMATE, GLOBAL"));
+    assert!(told(&of_plug, "search-tree").is_some() && told(&of_plug, "more-points").is_none());
+    // What was turned already is turned back.
+    let turned = [(
+        "CONTACT MATERIAL, 1, 2\n",
+        "CONTACT MATERIAL, 1, 2\nTIME STEP ESTIMATE, GLOBAL\nELEMENT, 1, EIGHT POINTS\n",
+    )];
+    let of_turned = knobs_of("perforation", "perforation", &turned);
+    assert_eq!(told(&of_turned, "element-estimate").as_deref(), Some("TIME STEP ESTIMATE, ELEMENT"));
+    assert_eq!(told(&of_turned, "one-point").as_deref(), Some("without ELEMENT"));
+    assert_eq!(told(&of_turned, "eight-points").as_deref(), Some(eight));
+    // The can is of shells, the plate of hexahedra.
+    let of_can = knobs_of("can_crush_shell", "can_crush_shell", &[]);
+    assert_eq!(told(&of_can, "more-points").as_deref(), Some("INTEGRATION POINTS, 1, 9, GAUSS"), "{of_can:?}");
+    assert_eq!(told(&of_can, "fewer-points").as_deref(), Some("INTEGRATION POINTS, 1, 3, GAUSS"));
+    assert!(told(&of_can, "later-erosion").is_none());
+    // A gas takes no eight points, has no moduli to bound a step with, and no contact.
+    let of_gas = knobs_of("sedov", "sedov", &[]);
+    let names: Vec<&str> = of_gas.iter().map(|knob| &knob.0[..]).collect();
+    let expected = [
+        "deck",
+        "round-off",
+        "mesh-2",
+        "half-steps",
+        "flanagan-belytschko",
+        "half-viscosity",
+        "no-linear-viscosity",
+        "single",
+    ];
+    assert_eq!(names, expected);
+    assert_eq!(told(&of_gas, "half-viscosity").as_deref(), Some("BULK VISCOSITY, 0.03, 0.6"));
 }
 
 /// A cube on a cube: contact has knobs.

@@ -521,6 +521,18 @@ pub enum DeathVariable {
     TimeStep,
 }
 
+impl DeathVariable {
+    /// Its name in the command.
+    pub fn name(&self) -> &str {
+        match self {
+            DeathVariable::State(name) => name,
+            DeathVariable::Field(field, component) => field.components().get(*component).copied().unwrap_or_default(),
+            DeathVariable::Volume => "VOLUME",
+            DeathVariable::TimeStep => "TMSTEP",
+        }
+    }
+}
+
 /// PLOT NODAL, PLOT ELEMENT, PLOT STATE.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlotRequests {

@@ -1,7 +1,7 @@
 //! What the front part of the log says of contact and of the removal of elements.
 
 use super::{echo::table, number};
-use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, DeathVariable, Friction, Model};
+use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, Friction, Model};
 use crate::solver::contact::{Crowded, DeepOverlap, Overlap};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
@@ -96,12 +96,7 @@ fn crowded(crowded: Crowded) -> Vec<String> {
 }
 
 fn death(death: &Death) -> String {
-    let variable = match &death.variable {
-        DeathVariable::State(name) => name.clone(),
-        DeathVariable::Field(field, component) => field.components()[*component].to_string(),
-        DeathVariable::Volume => "VOLUME".into(),
-        DeathVariable::TimeStep => "TMSTEP".into(),
-    };
+    let variable = death.variable.name();
     let bound = if death.is_maximum { "MAX" } else { "MIN" };
     let nodes = if death.keeps_nodes { "FREE" } else { "DROP" };
     let share = if death.share < 1.0 { format!("   {}", number(death.share)) } else { String::new() };

@@ -27,7 +27,8 @@ use crate::solver::nodes::Nodes;
 use facet::{Corners, Facet, Kind, Rows};
 use geometry::{Quadrilateral, RESISTANCES};
 use kernel::ShellStep;
-use rule::{MOST_POINTS, Rule};
+pub use rule::MOST_POINTS;
+use rule::Rule;
 use stable_step::Stiffness;
 use std::marker::PhantomData;
 
@@ -204,17 +205,22 @@ pub(super) fn unfit_law(block: &Block, model: &Model) -> Option<Unfit> {
     })
 }
 
+/// How many points through the thickness a block has, and the word of INTEGRATION POINTS for their rule.
+pub fn points_of(block: i64, model: &Model) -> (usize, &str) {
+    match model.section("INTEGRATION POINTS", block) {
+        Some(section) => (section.number("points") as usize, section.word("rule").unwrap_or("GAUSS")),
+        None => (USUAL_POINTS, "GAUSS"),
+    }
+}
+
 /// The points that the deck chooses for a block.
 fn points(block: &Block, model: &Model) -> Result<Vec<[f64; 2]>, Unfit> {
-    let Some(section) = model.section("INTEGRATION POINTS", block.id) else {
-        return Ok(Rule::Gauss.points(USUAL_POINTS));
-    };
-    let rule = match section.word("rule") {
-        Some("LOBATTO") => Rule::Lobatto,
-        Some("TRAPEZOID") => Rule::Trapezoid,
+    let (count, word) = points_of(block.id, model);
+    let rule = match word {
+        "LOBATTO" => Rule::Lobatto,
+        "TRAPEZOID" => Rule::Trapezoid,
         _ => Rule::Gauss,
     };
-    let count = section.number("points") as usize;
     if count != 1 && !(rule.fewest()..=MOST_POINTS).contains(&count) {
         return Err(Unfit {
             reason: format!("INTEGRATION POINTS: {rule:?} has no rule with {count} points"),

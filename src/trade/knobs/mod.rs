@@ -1,9 +1,12 @@
 //! What can be turned in a deck: only what the scene has.
 
+mod of_contact;
+mod of_elements;
+
 use super::edit::with_command;
 use crate::deck::Deck;
 use crate::mesh::{Dimension, Mesh, Shape};
-use crate::model::{ContactEdges, Hourglass, Model, Precision};
+use crate::model::{Death, Model, Precision};
 use crate::numbers::scientific;
 use crate::solver::elements::eight_points;
 
@@ -21,6 +24,12 @@ pub enum Knob {
     Mesh,
     /// The time step.
     TimeStep,
+    /// What bounds the time step.
+    Estimate,
+    /// The formulation of hexahedra.
+    Formulation,
+    /// Points through the thickness of shells.
+    Points,
     /// Hourglass control.
     Hourglass,
     /// Bulk viscosity.
@@ -31,6 +40,10 @@ pub enum Knob {
     Mass,
     /// How contact is enforced.
     Contact,
+    /// How what may touch is found.
+    Search,
+    /// When elements are taken away.
+    Erosion,
     /// Several together.
     Several,
 }
@@ -43,11 +56,16 @@ impl Knob {
             Knob::RoundOff => "round-off",
             Knob::Mesh => "mesh",
             Knob::TimeStep => "time step",
+            Knob::Estimate => "time step estimate",
+            Knob::Formulation => "element formulation",
+            Knob::Points => "thickness points",
             Knob::Hourglass => "hourglass control",
             Knob::Viscosity => "bulk viscosity",
             Knob::Precision => "precision",
             Knob::Mass => "mass scaling",
             Knob::Contact => "contact",
+            Knob::Search => "contact search",
+            Knob::Erosion => "erosion",
             Knob::Several => "several",
         }
     }
@@ -72,8 +90,16 @@ pub struct Variant {
 
 impl Variant {
     fn of(knob: Knob, name: &str, without: &[&'static str], line: String, work: f64) -> Variant {
-        let lines = if line.is_empty() { Vec::new() } else { vec![line.clone()] };
-        let words = if line.is_empty() { "as it is".to_string() } else { line };
+        let lines = if line.is_empty() { Vec::new() } else { vec![line] };
+        Variant::with(knob, name, without, lines, work)
+    }
+
+    fn with(knob: Knob, name: &str, without: &[&'static str], lines: Vec<String>, work: f64) -> Variant {
+        let words = match (&lines[..], without) {
+            ([], []) => "as it is".to_string(),
+            ([], _) => format!("without {}", without.join(", ")),
+            _ => lines.join("; "),
+        };
         Variant { name: name.into(), knob, words, change: (without.to_vec(), lines), refine: 1, work }
     }
 
@@ -82,9 +108,17 @@ impl Variant {
     pub fn is_finer(&self) -> bool {
         match self.knob {
             Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),
-            Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Viscosity => true,
-            // Another formulation is neither finer nor coarser.
-            Knob::None | Knob::Hourglass | Knob::Precision | Knob::Mass | Knob::Several => false,
+            Knob::Points => self.name == "more-points",
+            Knob::Estimate => self.name == "element-estimate",
+            Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Viscosity | Knob::Search => true,
+            // Another formulation is neither finer nor coarser, and when a material breaks is what its tests say.
+            Knob::None
+            | Knob::Formulation
+            | Knob::Hourglass
+            | Knob::Precision
+            | Knob::Mass
+            | Knob::Erosion
+            | Knob::Several => false,
         }
     }
 
@@ -122,23 +156,13 @@ pub fn variants(model: &Model, mesh: &Mesh, levels: &[u32]) -> Vec<Variant> {
         format!("TIME STEP SCALE, {:?}", 0.5 * scale),
         2.0,
     ));
-    all.extend(hourglass(model, mesh));
+    all.extend(of_elements::variants(model, mesh));
     all.extend(viscosity(model));
     all.extend(precision(model, mesh));
-    all.extend(contact(model, mesh));
+    all.extend(erosion(model));
+    all.extend(of_contact::variants(model, mesh));
     all.extend(meshes);
     all
-}
-
-fn hourglass(model: &Model, mesh: &Mesh) -> Option<Variant> {
-    let has =
-        mesh.blocks.iter().any(|block| matches!(block.shape, Shape::Hexahedron | Shape::Plane) && !block.is_empty());
-    let (name, line) = match model.hourglass {
-        Hourglass::AssumedStrain { .. } => ("flanagan-belytschko", "HOURGLASS CONTROL, FLANAGAN BELYTSCHKO"),
-        Hourglass::FlanaganBelytschko { .. } => ("assumed-strain", "HOURGLASS CONTROL, ASSUMED STRAIN"),
-    };
-    let without = &["HOURGLASS CONTROL", "HOURGLASS STIFFENING"];
-    has.then(|| Variant::of(Knob::Hourglass, name, without, line.into(), 1.0))
 }
 
 fn precision(model: &Model, mesh: &Mesh) -> Option<Variant> {
@@ -171,37 +195,31 @@ fn viscosity(model: &Model) -> Vec<Variant> {
     all
 }
 
-fn contact(model: &Model, mesh: &Mesh) -> Vec<Variant> {
-    if !model.contact.is_some() {
+/// Factor by which elements go later, and over which they go sooner.
+const LATER: f64 = 1.25;
+
+/// All rules of DEATH with other values; a value of zero stays.
+fn erosion(model: &Model) -> Vec<Variant> {
+    if model.deaths.iter().all(|rule| rule.value == 0.0) {
         return Vec::new();
     }
-    let control = &model.contact.control;
-    let passes = |passes: u32, tolerance: f64| format!("CONTACT PASSES, {passes}, {}", scientific(tolerance, 2));
-    let without = &["CONTACT PASSES"];
-    let now = control.passes;
-    let mut all = vec![
-        Variant::of(Knob::Contact, "one-pass", without, passes(1, control.tolerance), 1.0),
-        Variant::of(Knob::Contact, "loose-contact", without, passes(now, 100.0 * control.tolerance.max(1e-12)), 1.0),
-        Variant::of(
-            Knob::Contact,
-            "tight-contact",
-            without,
-            passes((5 * now).min(1000), 0.01 * control.tolerance),
-            1.5,
-        ),
-    ];
-    if model.contact.materials.is_some() && mesh.dimension == Dimension::Three {
-        let other = |name: &str, word: &str| {
-            Variant::of(Knob::Contact, name, &["CONTACT EDGES"], format!("CONTACT EDGES, {word}"), 1.2)
-        };
-        if control.edges != ContactEdges::None {
-            all.push(other("no-edges", "OFF"));
-        }
-        if control.edges != ContactEdges::All {
-            all.push(other("all-edges", "ALL"));
-        }
-    }
-    all
+    let of = |name: &str, later: f64| {
+        let lines = model.deaths.iter().map(|rule| {
+            // A largest value that is positive grows, and so does a smallest one that is negative.
+            let away = rule.is_maximum == (rule.value > 0.0);
+            death(rule, rule.value * if away { later } else { 1.0 / later })
+        });
+        Variant::with(Knob::Erosion, name, &["DEATH"], lines.collect(), 1.0)
+    };
+    vec![of("later-erosion", LATER), of("sooner-erosion", 1.0 / LATER)]
+}
+
+fn death(rule: &Death, value: f64) -> String {
+    let variable = rule.variable.name();
+    let bound = if rule.is_maximum { "MAX" } else { "MIN" };
+    let nodes = if rule.keeps_nodes { "FREE" } else { "DROP" };
+    let share = if rule.share == 1.0 { String::new() } else { format!(", {:?}", rule.share) };
+    format!("DEATH, {}, {variable}, {bound}, {}, {nodes}{share}", rule.block, scientific(value, 3))
 }
 
 /// Steps with which mass is added, of the mean step of the deck as it is.
