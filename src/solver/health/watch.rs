@@ -243,6 +243,9 @@ fn farthest_moved(mesh: &Mesh, body: &Body) -> Option<Spot> {
         return None;
     }
     let way = |node: usize| {
+        if body.tied.follows(node as u32) {
+            return 0.0;
+        }
         let way = subtract(body.positions[node], mesh.coordinates[node]);
         dot(way, way)
     };

@@ -193,6 +193,8 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     weigh(mesh, model, body, &layout, &mut motion);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(motion.len());
+    // Joints have moved what follows already.
+    let before = body.positions.clone();
     // The deepest overlap that each point takes part in: no farther is it moved.
     let mut farthest = vec![0.0; motion.len()];
     let mut stuck = Stuck::default();
@@ -216,10 +218,10 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             let node = layout.nodes[point] as usize;
             let there = add(motion.start(point as u32), enforcer.velocity_change(point, &motion, still.kick));
-            positions[node] = within(there, mesh.coordinates[node], farthest[point]);
+            positions[node] = within(there, before[node], farthest[point]);
         }
     }
-    Overlap { deep: deep_overlap(body, &layout), stuck, ..moved(mesh, body, &layout) }
+    Overlap { deep: deep_overlap(body, &layout), stuck, ..moved(&before, body, &layout) }
 }
 
 impl Stuck {
@@ -428,9 +430,9 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     found
 }
 
-fn moved(mesh: &Mesh, body: &Body, layout: &Layout) -> Overlap {
+fn moved(before: &[[f64; 3]], body: &Body, layout: &Layout) -> Overlap {
     layout.nodes.iter().fold(Overlap::default(), |sum, &node| {
-        let path = subtract(body.positions[node as usize], mesh.coordinates[node as usize]);
+        let path = subtract(body.positions[node as usize], before[node as usize]);
         let length = dot(path, path).sqrt();
         Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length), ..sum }
     })
