@@ -43,15 +43,8 @@ mod tensor;
 #[cfg(test)]
 mod tests;
 
-#[cfg(target_arch = "x86_64")]
-pub(crate) use avx2::F64x4;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use avx512::F64x8;
 pub use functions::{exp, ln, power};
 pub use portable::Pair;
-pub use single::Quad;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use single::{F32x8, F32x16};
 pub use tensor::{Matrix3, Sym3, multiply, multiply_transposed};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -224,6 +217,30 @@ pub trait Lanes:
     }
     /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
     fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize);
+}
+
+/// The vectors in which a kernel of a precision is compiled, named by its single number.
+pub trait Widths: Lanes {
+    /// 256 bits.
+    #[cfg(target_arch = "x86_64")]
+    type Avx2: Lanes<Row = Self::Row>;
+    /// 512 bits.
+    #[cfg(target_arch = "x86_64")]
+    type Avx512: Lanes<Row = Self::Row>;
+}
+
+impl Widths for f64 {
+    #[cfg(target_arch = "x86_64")]
+    type Avx2 = avx2::F64x4;
+    #[cfg(target_arch = "x86_64")]
+    type Avx512 = avx512::F64x8;
+}
+
+impl Widths for f32 {
+    #[cfg(target_arch = "x86_64")]
+    type Avx2 = single::F32x8;
+    #[cfg(target_arch = "x86_64")]
+    type Avx512 = single::F32x16;
 }
 
 /// Bits of the part of a double that is not its exponent.

@@ -1,16 +1,16 @@
-//! Lanes on any machine: two numbers side by side, or a single one (for tests and set-up).
+//! Lanes on any machine: a single number (for tests and set-up), or two side by side.
 
 use super::{BIAS, Corner, CornerForces, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Two lanes without a promise of vector instructions; compilers find those that every 64-bit processor has. More
-/// lanes would not run faster, and take long to compile.
+/// Two lanes of either precision without a promise of vector instructions; compilers find those that every 64-bit processor has.
+/// More lanes would not run faster, and take long to compile.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair([f64; 2]);
+pub struct Pair<T>([T; 2]);
 
 macro_rules! lane_by_lane {
     ($($trait:ident $method:ident $op:tt),+) => { $(
-        impl $trait for Pair {
+        impl<T: Lanes> $trait for Pair<T> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self { Pair([self.0[0] $op other.0[0], self.0[1] $op other.0[1]]) }
@@ -19,7 +19,7 @@ macro_rules! lane_by_lane {
 }
 lane_by_lane!(Add add +, Sub sub -, Mul mul *, Div div /);
 
-impl Neg for Pair {
+impl<T: Lanes> Neg for Pair<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -27,29 +27,40 @@ impl Neg for Pair {
     }
 }
 
-impl Lanes for Pair {
-    type Row = Row;
-    const SINGLE: bool = false;
-    const COUNT: usize = 2;
+impl<T: Lanes> Pair<T> {
+    /// What a function of a lane gives for both, taken apart.
+    #[inline(always)]
+    fn both(self, function: impl Fn(T) -> (T, T)) -> (Self, Self) {
+        let [(first, other_first), (second, other_second)] = [function(self.0[0]), function(self.0[1])];
+        (Pair([first, second]), Pair([other_first, other_second]))
+    }
+}
+
+impl<T: Lanes> Lanes for Pair<T> {
+    type Row = T::Row;
+    const SINGLE: bool = T::SINGLE;
+    const COUNT: usize = 2 * T::COUNT;
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Pair([value; 2])
+        Pair([T::splat(value); 2])
     }
     #[inline(always)]
-    fn load(row: &Row, part: usize) -> Self {
-        Pair([row.0[2 * part], row.0[2 * part + 1]])
+    fn load(row: &T::Row, part: usize) -> Self {
+        Pair([T::load(row, 2 * part), T::load(row, 2 * part + 1)])
     }
     #[inline(always)]
-    fn store(self, row: &mut Row, part: usize) {
-        row.0[2 * part..2 * part + 2].copy_from_slice(&self.0);
+    fn store(self, row: &mut T::Row, part: usize) {
+        self.0[0].store(row, 2 * part);
+        self.0[1].store(row, 2 * part + 1);
     }
     #[inline(always)]
     fn load_double(rows: &[Row], part: usize) -> Self {
-        Self::load(&rows[0], part)
+        Pair([T::load_double(rows, 2 * part), T::load_double(rows, 2 * part + 1)])
     }
     #[inline(always)]
     fn store_double(self, rows: &mut [Row], part: usize) {
-        self.store(&mut rows[0], part);
+        self.0[0].store_double(rows, 2 * part);
+        self.0[1].store_double(rows, 2 * part + 1);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -57,31 +68,43 @@ impl Lanes for Pair {
     }
     #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
-        Pair([f64::select_less(a.0[0], b.0[0], yes.0[0], no.0[0]), f64::select_less(a.0[1], b.0[1], yes.0[1], no.0[1])])
+        Pair([T::select_less(a.0[0], b.0[0], yes.0[0], no.0[0]), T::select_less(a.0[1], b.0[1], yes.0[1], no.0[1])])
     }
     #[inline(always)]
     fn any_less(a: Self, b: Self) -> bool {
-        a.0[0] < b.0[0] || a.0[1] < b.0[1]
+        T::any_less(a.0[0], b.0[0]) || T::any_less(a.0[1], b.0[1])
     }
     #[inline(always)]
     fn split_exponent(self) -> (Self, Self) {
-        let [(m0, e0), (m1, e1)] = [self.0[0].split_exponent(), self.0[1].split_exponent()];
-        (Pair([m0, m1]), Pair([e0, e1]))
+        self.both(T::split_exponent)
     }
     #[inline(always)]
     fn power_of_two(self) -> Self {
         Pair([self.0[0].power_of_two(), self.0[1].power_of_two()])
     }
     #[inline(always)]
-    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
-        let (first, second) = (&rows[index[2 * part] as usize].0, &rows[index[2 * part + 1] as usize].0);
+    fn halves(self) -> (Self, Self) {
+        self.both(T::halves)
+    }
+    #[inline(always)]
+    fn of_halves(upper: Self, lower: Self) -> Self {
+        Pair([T::of_halves(upper.0[0], lower.0[0]), T::of_halves(upper.0[1], lower.0[1])])
+    }
+    #[inline(always)]
+    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8] {
+        let [first, second] = [T::gather(rows, index, 2 * part), T::gather(rows, index, 2 * part + 1)];
+        array![c in 8 => Pair([first[c], second[c]])]
+    }
+    #[inline(always)]
+    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
+        let first = T::gather_from(rows, origin, index, 2 * part);
+        let second = T::gather_from(rows, origin, index, 2 * part + 1);
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]
     fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        for i in 0..2 {
-            out[2 * part + i][corner] = Force([force[0].0[i], force[1].0[i], force[2].0[i], 0.0]);
-        }
+        T::spread(array![i in 3 => force[i].0[0]], out, corner, 2 * part);
+        T::spread(array![i in 3 => force[i].0[1]], out, corner, 2 * part + 1);
     }
 }
 

@@ -119,7 +119,7 @@ impl KernelVisitor for Increment<'_> {
             row.0[1] = row.0[0];
         }
         let mut pair_stress = spread(sym(point.stress));
-        let pair_response = kernel.update::<Pair>(&pairs(&step), &mut pair_stress, &mut pair_stored, 0);
+        let pair_response = kernel.update::<Pair<f64>>(&pairs(&step), &mut pair_stress, &mut pair_stored, 0);
         let mut stress = sym(point.stress);
         let Response { returned, stiffness } = kernel.update::<f64>(&step, &mut stress, &mut point.stored, 0);
         (point.returned, point.dilatational) = (returned, stiffness.dilatational);
@@ -137,12 +137,12 @@ impl KernelVisitor for Increment<'_> {
     }
 }
 
-fn spread(t: Sym3<f64>) -> Sym3<Pair> {
+fn spread(t: Sym3<f64>) -> Sym3<Pair<f64>> {
     let [xx, yy, zz, xy, yz, zx] = t.to_array().map(Pair::splat);
     Sym3 { xx, yy, zz, xy, yz, zx }
 }
 
-fn pairs(step: &Step<f64>) -> Step<Pair> {
+fn pairs(step: &Step<f64>) -> Step<Pair<f64>> {
     Step {
         strain: spread(step.strain),
         stretch: spread(step.stretch),

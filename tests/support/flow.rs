@@ -6,7 +6,6 @@ use urto::mesh::Mesh;
 use urto::mesh::check::hexahedron_volume;
 use urto::mesh::corners::least_corner;
 use urto::model::Model;
-use urto::partition::Decomposition;
 use urto::solver::{Body, Request, Solver, centroid};
 
 /// An element where a run has left it.
@@ -67,7 +66,7 @@ pub fn alone(mesh: &Mesh, model: &Model) -> Solver {
     let body = Body::new(mesh, model).expect("materials");
     let cut = body.cut(1);
     let contributors = body.contributors(&cut);
-    let decomposition = Decomposition::new(&contributors, mesh.coordinates.len(), 1);
+    let decomposition = body.decomposition(&contributors, 1);
     Solver::new(mesh, model, &body, &decomposition.share(0), &mut Serial)
 }
 

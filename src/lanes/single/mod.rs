@@ -7,14 +7,11 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod portable;
-#[cfg(test)]
-mod tests;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::F32x8;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::F32x16;
-pub use portable::Quad;
 
 /// Bits of the part of a number that is not its exponent.
 const MANTISSA_BITS: u32 = 0x007f_ffff;

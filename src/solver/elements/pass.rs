@@ -2,11 +2,9 @@
 
 use super::block::Group;
 use crate::lanes::{
-    CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Quad, Row,
-    Vectors, prefetch,
+    CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Row, Vectors,
+    Widths, prefetch,
 };
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::{F32x8, F32x16, F64x4, F64x8};
 use crate::model::{BulkViscosity, StepModuli};
 
 /// Where corner forces go.
@@ -141,36 +139,29 @@ impl<'a> Pass<'a> {
 
     /// Does a step of every element, in double precision.
     pub fn over<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
-        let (group, nodes, sink, instructions) = self.taken_apart();
-        // Narrow builds compile one width: a sixth of a build's time is in the others, for every law and element.
-        if cfg!(one_width) {
-            return chunks::<Pair, N, S>(group, nodes, sink, step);
-        }
-        match instructions.vectors() {
-            // SAFETY: an instruction set is one that this processor has.
-            #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { chunks_avx512::<F64x8, N, S>(group, nodes, sink, step) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { chunks_avx2::<F64x4, N, S>(group, nodes, sink, step) },
-            _ => chunks::<Pair, N, S>(group, nodes, sink, step),
-        }
+        self.with::<f64, N, S>(step)
     }
 
     /// Does a step of every element, in single precision.
     pub fn over_single<const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
+        self.with::<f32, N, S>(step)
+    }
+
+    /// Does a step of every element in the widest vectors of a precision that there are.
+    fn with<P: Widths, const N: usize, S: StepKernel<N>>(self, step: &S) -> PassOutcome {
         let (group, nodes, sink, instructions) = self.taken_apart();
-        if cfg!(one_width) {
-            return chunks::<Quad, N, S>(group, nodes, sink, step);
+        // Narrow builds compile one width: a good part of a build's time is in the others, for every law and element.
+        if cfg!(any(one_width, test)) {
+            return chunks::<Pair<P>, N, S>(group, nodes, sink, step);
         }
         match instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { chunks_avx512::<F32x16, N, S>(group, nodes, sink, step) },
+            Vectors::Avx512 => unsafe { chunks_avx512::<P::Avx512, N, S>(group, nodes, sink, step) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { chunks_avx2::<F32x8, N, S>(group, nodes, sink, step) },
-            _ => chunks::<Quad, N, S>(group, nodes, sink, step),
+            Vectors::Avx2 => unsafe { chunks_avx2::<P::Avx2, N, S>(group, nodes, sink, step) },
+            _ => chunks::<Pair<P>, N, S>(group, nodes, sink, step),
         }
     }
 }

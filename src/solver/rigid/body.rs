@@ -111,17 +111,16 @@ impl RigidBody {
         self.begin();
         // What is held still takes up what it does not allow.
         let still = |hold: &&Hold| hold.motion.is_none();
-        let rows: Vec<Six> = self.holds.iter().filter(still).map(|hold| hold.row(self.arm(hold.arm))).collect();
+        let rows: Vec<Six> = self.holds.iter().filter(still).map(|hold| self.row(hold)).collect();
         let (chosen, _) = independent(&rows, self.free);
         let [[u, v, w], [x, y, z]] = self.motion(false);
         let missed: Vec<f64> = chosen.iter().map(|&i| product(&rows[i], &[u, v, w, x, y, z])).collect();
         let impulses = eliminated(&resistance(&rows, &chosen, &self.free), &missed);
+        let mut motion = (self.velocity, self.momentum);
         for (&i, impulse) in chosen.iter().zip(impulses) {
-            for axis in 0..3 {
-                self.velocity[axis] -= rows[i][axis] * impulse / self.shape.mass;
-                self.momentum[axis] -= rows[i][3 + axis] * impulse;
-            }
+            self.strike(&mut motion, &rows[i], -impulse);
         }
+        (self.velocity, self.momentum) = motion;
         self.begin();
     }
 
@@ -139,8 +138,7 @@ impl RigidBody {
         self.inertia = turned(&self.frame, &self.shape.inertia);
         self.next = (self.velocity, self.momentum);
         self.free = self.freely();
-        let enforced = self.enforced.iter().map(|&i| &self.holds[i]);
-        let rows: Vec<Six> = enforced.map(|hold| hold.row(self.arm(hold.arm))).collect();
+        let rows: Vec<Six> = self.enforced.iter().map(|&i| self.row(&self.holds[i])).collect();
         let (chosen, compliance) = independent(&rows, self.free);
         self.resistance = resistance(&rows, &chosen, &self.free);
         self.compliance = compliance;
@@ -161,6 +159,19 @@ impl RigidBody {
     /// Arm of a point at `arm` from the centre at the start.
     pub fn arm(&self, arm: [f64; 3]) -> [f64; 3] {
         times(&self.frame, arm)
+    }
+
+    /// Force and moment about the centre of a unit reaction of a hold now.
+    fn row(&self, hold: &Hold) -> Six {
+        hold.row(self.arm(hold.arm))
+    }
+
+    /// Adds an impulse along a row to a velocity and an angular momentum.
+    fn strike(&self, (velocity, momentum): &mut ([f64; 3], [f64; 3]), row: &Six, impulse: f64) {
+        for axis in 0..3 {
+            velocity[axis] += row[axis] * impulse / self.shape.mass;
+            momentum[axis] += row[3 + axis] * impulse;
+        }
     }
 
     /// Angular velocity at the present state of an angular momentum.
@@ -215,14 +226,11 @@ impl RigidBody {
             let missed: Vec<f64> = self.chosen.iter().map(|&i| missed[i] / step.drift).collect();
             let change = eliminated(&self.resistance, &missed);
             impulses.iter_mut().zip(&change).for_each(|(impulse, change)| *impulse -= change);
-            self.next = (velocity, momentum);
+            let mut next = (velocity, momentum);
             for (&i, impulse) in self.chosen.iter().zip(&impulses) {
-                let row = self.holds[i].row(self.arm(self.holds[i].arm));
-                for axis in 0..3 {
-                    self.next.0[axis] += row[axis] * impulse / self.shape.mass;
-                    self.next.1[axis] += row[3 + axis] * impulse;
-                }
+                self.strike(&mut next, &self.row(&self.holds[i]), *impulse);
             }
+            self.next = next;
             let settled = change.iter().zip(&impulses).all(|(change, impulse)| change.abs() <= SETTLED * impulse.abs());
             if settled {
                 break;

@@ -176,15 +176,16 @@ pub fn holds(mesh: &Mesh, model: &Model, (nodes, centre): (&[u32], [f64; 3]), po
     };
     let mut holds: Vec<Hold> = Vec::new();
     for alike in held_alike(mesh, model, nodes) {
-        let Alike { of, axis, nodes: own, .. } = &alike;
-        let first = own.first().copied();
-        if *of == Unknown::Rotation || !are_level(own, *axis, positions) {
-            // The body turns as one.
-            let count = if *of == Unknown::Rotation { 1 } else { 2 };
-            holds.extend(spanning(own, positions).into_iter().take(count).map(|node| hold(node, (*of, *axis), &alike)));
+        let (of, axis) = (alike.of, alike.axis);
+        // The body turns as one.
+        let most = if of == Unknown::Rotation { 1 } else { MOST_SPANNING };
+        let own = spanning(&alike.nodes, positions, most);
+        if of == Unknown::Rotation || !are_level(&own, axis, positions) {
+            holds.extend(own.into_iter().map(|node| hold(node, (of, axis), &alike)));
             continue;
         }
-        holds.extend(first.map(|node| hold(node, (*of, *axis), &alike)));
+        let first = own.first().copied();
+        holds.extend(first.map(|node| hold(node, (of, axis), &alike)));
         let across = [(axis + 1) % 3, (axis + 2) % 3];
         holds.extend(first.iter().flat_map(|&node| across.map(|other| hold(node, (Unknown::Rotation, other), &alike))));
     }
@@ -222,12 +223,12 @@ fn held_alike(mesh: &Mesh, model: &Model, nodes: &[u32]) -> Vec<Alike> {
     all
 }
 
-/// Whether nodes that go alike along an axis let their body turn about that axis only. Their differences d keep their components along
+/// Whether nodes that go alike along an axis, of which these span the others, let their body turn about that axis only. Their differences d keep their components along
 /// the axis a: u = Rᵀa with u·d = a·d for all of them. Two differences in different directions leave a itself and its mirror image in their plane; one
 /// leaves a circle, which is a point where d is along a. Equations for the single nodes would say less: those of differences in a plane with a are
 /// of second order, and hold only once the body has turned.
-fn are_level(nodes: &[u32], axis: usize, positions: &[[f64; 3]]) -> bool {
-    match spanning(nodes, positions)[..] {
+fn are_level(spanning: &[u32], axis: usize, positions: &[[f64; 3]]) -> bool {
+    match *spanning {
         [] | [_] => false,
         [a, b] => {
             let d = subtract(positions[b as usize], positions[a as usize]);
@@ -237,14 +238,17 @@ fn are_level(nodes: &[u32], axis: usize, positions: &[[f64; 3]]) -> bool {
     }
 }
 
-/// At most four of some nodes, far from each other: as many as it takes to say where all are.
-fn spanning(nodes: &[u32], positions: &[[f64; 3]]) -> Vec<u32> {
+/// Nodes that say how a body may turn: a third that is not on the line of two others ends the question.
+const MOST_SPANNING: usize = 3;
+
+/// At most so many of some nodes, far from each other: those that span the line or plane of all.
+fn spanning(nodes: &[u32], positions: &[[f64; 3]], most: usize) -> Vec<u32> {
     let Some(&first) = nodes.first() else { return Vec::new() };
     let from = |node: u32| subtract(positions[node as usize], positions[first as usize]);
     let mut chosen = vec![first];
     let mut rests: Vec<[f64; 3]> = nodes.iter().map(|&node| from(node)).collect();
     let mut size = 0.0;
-    while chosen.len() < 4 {
+    while chosen.len() < most {
         let length = |i: usize| dot(rests[i], rests[i]).sqrt();
         let farthest =
             (0..rests.len()).fold((0, 0.0), |best, i| if length(i) > best.1 { (i, length(i)) } else { best });

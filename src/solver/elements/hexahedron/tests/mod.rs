@@ -155,7 +155,7 @@ impl Rig {
                 kick: 0.0,
                 bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
                 moduli: StepModuli::Elastic,
-                instructions: InstructionSet::detect(),
+                instructions: InstructionSet::default(),
             },
         }
     }

@@ -25,7 +25,7 @@ pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
 }
 
 impl Rig {
-    pub fn new(law: Law, points: Vec<[f64; 2]>, thickness: f64, instructions: InstructionSet) -> Rig {
+    pub fn new(law: Law, points: Vec<[f64; 2]>, thickness: f64) -> Rig {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let element = Element::Shell(Shell { kind: PhantomData, thickness: Some(thickness), scale: 1.0, points });
         let new = NewElement {
@@ -57,7 +57,7 @@ impl Rig {
             kick: 0.0,
             bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
             moduli: StepModuli::Elastic,
-            instructions,
+            instructions: InstructionSet::default(),
         };
         Rig { block, nodes, forces: vec![Force::default(); 8], outcome: PassOutcome::NOTHING, settings }
     }
