@@ -1,8 +1,8 @@
 //! A command of a deck as written: named, typed fields, each with its place in the text.
 
-use super::{lexer::Field, source::Span};
+use super::{text::lexer::Field, text::source::Span};
 
-/// One command with its fields. Fields are looked up by the names of the grammar; see [`super::grammar::FieldRule`].
+/// One command with its fields. Fields are looked up by the names of the grammar; see [`super::commands::grammar::FieldRule`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Card {
     /// Name of the grammar's entry.

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::{
     aprepro::{self, Evaluated},
     card::{Card, Item, Row, Value},
-    diagnostic::{Diagnostic, Diagnostics},
-    fields::FieldReader,
-    grammar::{Entry, Form, Grammar, Kind, Status},
-    identify::Found,
-    lexer::{Field, FieldKind, Lexer, Record},
-    plane,
-    source::{Source, Span},
-    spelling::{self, Agreement, Spelled},
+    commands::fields::FieldReader,
+    commands::grammar::{Entry, Form, Grammar, Kind, Status},
+    commands::plane,
+    text::diagnostic::{Diagnostic, Diagnostics},
+    text::identify::Found,
+    text::lexer::{Field, FieldKind, Lexer, Record},
+    text::source::{Source, Span},
+    text::spelling::{self, Agreement, Spelled},
 };
 
 /// A deck as written: its text and its cards in order.

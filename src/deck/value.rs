@@ -2,10 +2,10 @@
 
 use super::{
     card::Value,
-    grammar::{Choice, FieldRule, Kind, Standing},
-    lexer::Field,
-    number,
-    spelling::{self, Agreement, Spelled},
+    commands::grammar::{Choice, FieldRule, Kind, Standing},
+    text::lexer::Field,
+    text::number,
+    text::spelling::{self, Agreement, Spelled},
 };
 
 /// Stands for everything where a number could stand.
@@ -60,7 +60,7 @@ fn real(rule: &FieldRule, field: &Field) -> Result<f64, Wrong> {
 }
 
 fn in_range(rule: &FieldRule, value: f64) -> Result<(), Wrong> {
-    match super::fields::range_in_words(rule.range) {
+    match super::commands::fields::range_in_words(rule.range) {
         Some(range) if !rule.range.contains(value) => Err(Wrong::must(range)),
         _ => Ok(()),
     }

@@ -1,8 +1,8 @@
 //! A file → lines and blocks: which lines belong to a condition or a loop, and where braces stand in a line.
 
 use crate::deck::{
-    diagnostic::Diagnostic,
-    source::{Source, Span},
+    text::diagnostic::Diagnostic,
+    text::source::{Source, Span},
 };
 
 /// A line, or a block of lines.

@@ -10,7 +10,7 @@ use super::{
     format::Format,
     functions::{self, Body, CONSTANTS, FUNCTIONS, REFUSED},
 };
-use crate::deck::{source::Span, spelling};
+use crate::deck::{text::source::Span, text::spelling};
 
 /// The format that numbers are printed in unless `_FORMAT` says otherwise.
 const FORMAT: &str = "%.10g";
@@ -268,7 +268,7 @@ impl Names {
             },
             Body::ToNumber => {
                 let text = self.text(&arguments[0])?;
-                let value = crate::deck::number::parse(text.trim()).map(|n| n.value);
+                let value = crate::deck::text::number::parse(text.trim()).map(|n| n.value);
                 let message = || format!("\"{}\" spells no number", spelling::cut(&text));
                 value.ok_or_else(|| Fault::at(arguments[0].span, message(), "")).and_then(number)
             }

@@ -5,7 +5,7 @@ use super::{
     Fault,
     lexer::{Token, What},
 };
-use crate::deck::source::Span;
+use crate::deck::text::source::Span;
 
 /// A part of an expression and its place.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::deck::source::Source;
+use crate::deck::text::source::Source;
 
 /// Bytes of an included file at most.
 const LARGEST: u64 = 64 << 20;

@@ -1,7 +1,7 @@
 //! What stands in one pair of braces → tokens, each with its place.
 
 use super::Fault;
-use crate::deck::source::Span;
+use crate::deck::text::source::Span;
 
 /// A token and its place in the file.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,8 +19,8 @@ mod run;
 
 use super::{
     definitions::Given,
-    diagnostic::Diagnostic,
-    source::{Source, Span},
+    text::diagnostic::Diagnostic,
+    text::source::{Source, Span},
 };
 
 /// What became of a text.

@@ -11,10 +11,10 @@ use super::{
     include, lexer,
 };
 use crate::deck::{
-    diagnostic::Diagnostic,
-    origin::{File, How, Origin, Piece},
-    source::{Source, Span},
-    spelling,
+    text::diagnostic::Diagnostic,
+    text::origin::{File, How, Origin, Piece},
+    text::source::{Source, Span},
+    text::spelling,
 };
 
 /// Lines that all passes of all loops work through at most: the loops of a slip of the finger end too.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::definitions::Definitions;
 use super::origin::Origin;
+use crate::deck::definitions::Definitions;
 use crate::files;
 
 /// A file's name and text. Spans are byte offsets into the text. Where the text was made by evaluating expressions, it
@@ -45,7 +45,7 @@ impl Source {
     }
 
     /// Evaluated text.
-    pub(super) fn evaluated(name: &str, text: String, origin: Origin) -> Source {
+    pub(in crate::deck) fn evaluated(name: &str, text: String, origin: Origin) -> Source {
         Source { origin: Some(Arc::new(origin)), ..Source::new(name, text) }
     }
 
@@ -76,7 +76,7 @@ impl Source {
     }
 
     /// Values from the command line.
-    pub(super) fn definitions(&self) -> Option<&Arc<Definitions>> {
+    pub(in crate::deck) fn definitions(&self) -> Option<&Arc<Definitions>> {
         self.given.as_ref()
     }
 
@@ -89,7 +89,7 @@ impl Source {
     }
 
     /// Names that have a value in its expressions from the start.
-    pub(super) fn names(&self) -> &[(String, u32)] {
+    pub(in crate::deck) fn names(&self) -> &[(String, u32)] {
         &self.names
     }
 

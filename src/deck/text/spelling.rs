@@ -149,7 +149,7 @@ fn enumerate<S: AsRef<str>>(names: &[S], conjunction: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deck::{lexer::Lexer, source::Source};
+    use crate::deck::{text::lexer::Lexer, text::source::Source};
 
     const NAMES: [&str; 6] = ["PLOT TIME", "PLOT NODAL", "PRESSURE", "PRESCRIBED FORCE", "MATERIAL", "MATERIAL POINT"];
 

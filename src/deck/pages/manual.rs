@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::{
+use crate::deck::{
     aprepro,
-    grammar::{Form, Grammar, Status},
+    commands::grammar::{Form, Grammar, Status},
     language,
-    page::{self, Body, Page},
+    pages::page::{self, Body, Page},
 };
 use crate::vocabulary::Models;
 
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn every_family_has_a_heading() {
         let families: Vec<&str> = HEADINGS.iter().map(|(family, _)| *family).collect();
-        let mut files: Vec<&str> = super::super::CARDS.iter().map(|(family, _)| *family).collect();
+        let mut files: Vec<&str> = crate::deck::CARDS.iter().map(|(family, _)| *family).collect();
         files.dedup();
         assert_eq!(families, files);
     }

@@ -8,7 +8,7 @@ use super::source::{Source, Span};
 
 /// The files that a text was made from, and which stretch came from where.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Origin {
+pub(in crate::deck) struct Origin {
     /// The deck itself, then every file that was included, in the order in which that happened.
     pub files: Vec<File>,
     /// Stretches in the order of the evaluated text; each ends where the next one starts.
@@ -17,7 +17,7 @@ pub(super) struct Origin {
 
 /// A file of a deck.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct File {
+pub(in crate::deck) struct File {
     /// Its name and text.
     pub source: Source,
     /// The file that includes it, and the place there.
@@ -26,7 +26,7 @@ pub(super) struct File {
 
 /// A stretch of evaluated text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Piece {
+pub(in crate::deck) struct Piece {
     /// First byte in the evaluated text.
     pub start: usize,
     /// Which file it came from.
@@ -39,7 +39,7 @@ pub(super) struct Piece {
 
 /// How a stretch of evaluated text was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum How {
+pub(in crate::deck) enum How {
     /// Byte by byte as it stands in the file.
     Copied,
     /// By evaluating an expression.

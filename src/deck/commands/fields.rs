@@ -1,12 +1,12 @@
 //! The fields of a record held against the rules of its entry, and what to say when they do not agree.
 
-use super::{
+use crate::deck::{
     card::{Item, Value},
-    diagnostic::{Diagnostic, Diagnostics},
-    grammar::{Absent, Choice, FieldRule, Kind, Standing},
-    lexer::{Field, FieldKind, Lexer},
-    source::{Source, Span},
-    spelling,
+    commands::grammar::{Absent, Choice, FieldRule, Kind, Standing},
+    text::diagnostic::{Diagnostic, Diagnostics},
+    text::lexer::{Field, FieldKind, Lexer},
+    text::source::{Source, Span},
+    text::spelling,
     value::{self, Wrong},
 };
 use crate::vocabulary::Range;
@@ -208,7 +208,7 @@ fn decimal_comma(rule: &FieldRule, fields: &[Field]) -> String {
     let [first, second, ..] = fields else { return String::new() };
     let glued = second.span.start == first.span.end + 1 && has_only_digits(first) && has_only_digits(second);
     let joined = format!("{}.{}", first.text, second.text);
-    match super::number::parse(&joined) {
+    match crate::deck::text::number::parse(&joined) {
         Some(number) if glued && rule.kind == Kind::Number && rule.range.contains(number.value) => {
             format!("a comma separates fields: did you mean {joined}?")
         }

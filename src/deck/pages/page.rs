@@ -1,14 +1,14 @@
 //! What there is to say about a command or a model with properties, ready to be printed as text or as a manual page.
 
-use super::{
-    fields::range_in_words,
-    glossary::{self, Term},
-    grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
+use crate::deck::{
+    commands::fields::range_in_words,
+    commands::grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
+    pages::glossary::{self, Term},
 };
 use crate::vocabulary::{Description, Models, Origin, Property};
 
 /// A page about one entry.
-pub(super) struct Page {
+pub(in crate::deck) struct Page {
     /// The name of the entry.
     pub title: String,
     /// What it does, with what it is not able to do yet.
@@ -18,7 +18,7 @@ pub(super) struct Page {
 }
 
 /// What stands under a heading.
-pub(super) enum Body {
+pub(in crate::deck) enum Body {
     /// Sentences.
     Text(Vec<String>),
     /// Lines of a deck.
@@ -28,7 +28,7 @@ pub(super) enum Body {
 }
 
 /// Heading of the section that says whose words these are.
-pub(super) const SPELLING: &str = "Spelling";
+pub(in crate::deck) const SPELLING: &str = "Spelling";
 
 impl Body {
     fn is_empty(&self) -> bool {
@@ -48,7 +48,7 @@ impl Page {
 }
 
 /// The page of a command, a group or a name that is planned; a command that chooses from `models` lists them.
-pub(super) fn of_entry(entry: &Entry, models: &[Models]) -> Page {
+pub(in crate::deck) fn of_entry(entry: &Entry, models: &[Models]) -> Page {
     let built = entry.status == Status::Built;
     let mut form = vec![entry.syntax()];
     if !entry.space.is_empty() {
@@ -93,7 +93,7 @@ pub(super) fn of_entry(entry: &Entry, models: &[Models]) -> Page {
 }
 
 /// The page of a model of a kind.
-pub(super) fn of_model(kind: &Models, entry: &Description) -> Page {
+pub(in crate::deck) fn of_model(kind: &Models, entry: &Description) -> Page {
     let [before, after] = kind.form;
     let mut form = vec![format!("{before}{}{after}", entry.name)];
     form.extend(entry.properties.iter().map(|p| match p.default {
@@ -119,7 +119,7 @@ pub(super) fn of_model(kind: &Models, entry: &Description) -> Page {
 }
 
 /// The page of a word or a variable of the glossary.
-pub(super) fn of_term(term: &Term) -> Page {
+pub(in crate::deck) fn of_term(term: &Term) -> Page {
     let title = term.names.first().cloned().unwrap_or_default();
     let mut sections = said("", term.text.clone());
     let others = term.names.iter().skip(1).cloned().collect::<Vec<_>>();

@@ -1,15 +1,15 @@
 //! Which entry a record belongs to, and what to say when there is none.
 
-use super::{
-    diagnostic::Diagnostic,
-    grammar::{Entry, Form, Status},
-    lexer::{Field, FieldKind, Record},
+use crate::deck::{
+    commands::grammar::{Entry, Form, Status},
     reader::{END, Reader},
-    spelling::{self, Agreement, Spelled},
+    text::diagnostic::Diagnostic,
+    text::lexer::{Field, FieldKind, Record},
+    text::spelling::{self, Agreement, Spelled},
 };
 
 /// The entry a record belongs to.
-pub(super) struct Found<'a> {
+pub(in crate::deck) struct Found<'a> {
     pub entry: &'a Entry,
     /// Number of fields that name it.
     pub words: usize,
@@ -18,13 +18,13 @@ pub(super) struct Found<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn recognise(&self, fields: &[Field]) -> Spelled<usize> {
+    pub(in crate::deck) fn recognise(&self, fields: &[Field]) -> Spelled<usize> {
         let entries = self.grammar.entries.iter().enumerate().filter(|(_, e)| e.form != Form::Material);
         spelling::recognise(fields, entries.flat_map(|(i, e)| e.spellings().map(move |s| (s, i))))
     }
 
     /// Finds the entry of a record, or reports why there is none.
-    pub(super) fn identify(&mut self, record: &Record) -> Option<Found<'a>> {
+    pub(in crate::deck) fn identify(&mut self, record: &Record) -> Option<Found<'a>> {
         let fields = &record.fields;
         if !fields[0].is_word() {
             self.not_a_word(record);

@@ -14,9 +14,9 @@ use nom::{
     sequence::preceded,
 };
 
-use super::{
-    number::{self, Number},
-    source::{Source, Span},
+use crate::deck::{
+    text::number::{self, Number},
+    text::source::{Source, Span},
 };
 
 /// One field of a record.

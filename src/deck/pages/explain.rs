@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use super::{
-    glossary,
-    grammar::{Entry, Form, Grammar, Kind, Standing, Status},
+use crate::deck::{
+    commands::grammar::{Entry, Form, Grammar, Kind, Standing, Status},
     language,
-    lexer::{Field, Lexer},
-    page::{self, Body, Page},
-    source::Source,
-    spelling::{self, Spelled},
+    pages::glossary,
+    pages::page::{self, Body, Page},
+    text::lexer::{Field, Lexer},
+    text::source::Source,
+    text::spelling::{self, Spelled},
 };
 use crate::vocabulary::{Description, Models};
 

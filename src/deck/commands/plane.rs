@@ -3,14 +3,14 @@
 //! A command with the directive `plane` makes a deck two-dimensional, wherever it stands. Fields and commands that the
 //! directive `space` names are then not part of the language, nor is the direction Z.
 
-use super::{
+use crate::deck::{
     Lexer, Source,
-    grammar::{Absent, Entry, FieldRule, Grammar, Kind, Status},
-    spelling::{self, Spelled},
+    commands::grammar::{Absent, Entry, FieldRule, Grammar, Kind, Status},
+    text::spelling::{self, Spelled},
 };
 
 /// Whether a deck has a command that makes it two-dimensional.
-pub(super) fn is_plane(grammar: &Grammar, source: &Source) -> bool {
+pub(in crate::deck) fn is_plane(grammar: &Grammar, source: &Source) -> bool {
     let mut lexer = Lexer::new(source);
     while let Some(record) = lexer.next_record() {
         let entries = grammar.entries.iter().enumerate();
@@ -70,8 +70,8 @@ fn nothing(kind: &Kind) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Deck, language};
     use super::*;
+    use crate::deck::{Deck, language};
 
     fn read(text: &str) -> (Deck, Vec<String>) {
         let (deck, found) = Deck::read(Source::new("deck.i", text), language());

@@ -30,11 +30,11 @@
 
 use std::sync::Arc;
 
-use super::{
+use crate::deck::{
     card::Card,
-    diagnostic::Diagnostics,
-    fields::FieldReader,
-    source::{Source, Span},
+    commands::fields::FieldReader,
+    text::diagnostic::Diagnostics,
+    text::source::{Source, Span},
 };
 use crate::vocabulary::{Origin, Range};
 
@@ -394,7 +394,7 @@ fn read_kind(text: &str) -> Result<Kind, String> {
 fn read_default(text: &str, kind: &Kind) -> Absent {
     let is_value = match kind {
         Kind::Number | Kind::NumberOr(_) | Kind::Integer | Kind::Id(_) | Kind::IdOrAll(_) => {
-            super::number::parse(text).is_some()
+            crate::deck::text::number::parse(text).is_some()
         }
         _ => text.chars().all(|c| c.is_ascii_uppercase() || c == ' '),
     };

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 /// An entry of a glossary.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Term {
+pub(in crate::deck) struct Term {
     /// The name and its other spellings, in capitals.
     pub names: Vec<String>,
     /// What there is to say: paragraphs, and lines that stay as they are, which begin with two blanks.
@@ -17,25 +17,25 @@ pub(super) struct Term {
 }
 
 /// Words of other codes.
-pub(super) fn words() -> &'static [Term] {
+pub(in crate::deck) fn words() -> &'static [Term] {
     static WORDS: OnceLock<Vec<Term>> = OnceLock::new();
-    WORDS.get_or_init(|| read(include_str!("../../grammar/words.txt")))
+    WORDS.get_or_init(|| read(include_str!("../../../grammar/words.txt")))
 }
 
 /// Variables of results and histories.
-pub(super) fn variables() -> &'static [Term] {
+pub(in crate::deck) fn variables() -> &'static [Term] {
     static VARIABLES: OnceLock<Vec<Term>> = OnceLock::new();
-    VARIABLES.get_or_init(|| read(include_str!("../../grammar/variables.txt")))
+    VARIABLES.get_or_init(|| read(include_str!("../../../grammar/variables.txt")))
 }
 
 /// The formulas of a law, by the name of its material model or equation of state.
-pub(super) fn law(name: &str) -> Option<&'static Term> {
+pub(in crate::deck) fn law(name: &str) -> Option<&'static Term> {
     static LAWS: OnceLock<Vec<Term>> = OnceLock::new();
-    find(LAWS.get_or_init(|| read(include_str!("../../grammar/laws.txt"))), name)
+    find(LAWS.get_or_init(|| read(include_str!("../../../grammar/laws.txt"))), name)
 }
 
 /// The entry with this name, in any case.
-pub(super) fn find<'a>(terms: &'a [Term], name: &str) -> Option<&'a Term> {
+pub(in crate::deck) fn find<'a>(terms: &'a [Term], name: &str) -> Option<&'a Term> {
     let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
     terms.iter().find(|term| term.names.iter().any(|known| known.eq_ignore_ascii_case(&name)))
 }
@@ -67,8 +67,8 @@ fn read(text: &str) -> Vec<Term> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::language;
     use super::*;
+    use crate::deck::language;
     use crate::material::{EQUATIONS_OF_STATE, MATERIALS};
 
     #[test]
