@@ -1,25 +1,16 @@
 //! What the user types at the shell, and what becomes of it. Every verb ends in an exit code.
 
-mod check;
-mod curve;
 mod date;
 mod display;
 mod input;
 mod manual;
 mod options;
 mod outputs;
-mod plot;
-mod report;
 mod restart;
-mod run;
-mod scale;
 mod signals;
 mod summary;
-mod sweep;
 mod terminal;
-mod trade;
 mod verbs;
-mod view;
 
 pub use manual::manual;
 pub use options::{Options, command};
@@ -136,20 +127,20 @@ fn carry_out(options: Options) -> Result<u8, Failure> {
         exodus::probe_with(program, [OsString::from("probe")]);
     }
     match options.verb {
-        Verb::Run(options) => run::run(&options),
-        Verb::Check(options) => check::check(&options),
-        Verb::Explain(options) => verbs::explain(&options),
-        Verb::Mesh(options) => verbs::mesh(&options),
-        Verb::Sweep(options) => sweep::sweep(&options),
-        Verb::Trade(options) => trade::trade(&options),
-        Verb::Refine(options) => verbs::refine(&options),
-        Verb::View(options) => view::view(&options),
-        Verb::Plot(options) => plot::plot(&options),
-        Verb::Report(options) => report::report(&options),
-        Verb::Diff(options) => verbs::diff(&options),
-        Verb::Scale(options) => scale::scale(&options),
-        Verb::Join(options) => verbs::join(&options),
-        Verb::Generate(options) => verbs::generate(&options),
+        Verb::Run(options) => verbs::run::run(&options),
+        Verb::Check(options) => verbs::check::check(&options),
+        Verb::Explain(options) => verbs::small::explain(&options),
+        Verb::Mesh(options) => verbs::small::mesh(&options),
+        Verb::Sweep(options) => verbs::sweep::sweep(&options),
+        Verb::Trade(options) => verbs::trade::trade(&options),
+        Verb::Refine(options) => verbs::small::refine(&options),
+        Verb::View(options) => verbs::view::view(&options),
+        Verb::Plot(options) => verbs::plot::plot(&options),
+        Verb::Report(options) => verbs::report::report(&options),
+        Verb::Diff(options) => verbs::small::diff(&options),
+        Verb::Scale(options) => verbs::scale::scale(&options),
+        Verb::Join(options) => verbs::small::join(&options),
+        Verb::Generate(options) => verbs::small::generate(&options),
         Verb::Probe(options) => {
             exodus::try_out(&options.file);
             Ok(DONE)

@@ -1,6 +1,6 @@
 //! `urto run --summary`: how a run went, as JSON, for scripts and for studies.
 
-use super::run::Prepared;
+use super::verbs::run::Prepared;
 use super::{Failure, options};
 use crate::plot::{self, Curve};
 use crate::run::{Ended, Files, RunError};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{
     body::{Body, Face, Sides},
-    merge,
+    changes::merge,
 };
 use crate::mesh::{Block, Dimension, Mesh, Shape, check};
 

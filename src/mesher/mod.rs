@@ -5,31 +5,18 @@
 //! to the bit on every machine.
 
 pub mod body;
+mod changes;
 pub mod recipe;
+mod shapes;
 
 mod assembly;
-mod cylinder;
-mod hex_box;
-mod line;
-mod merge;
-mod patch;
-mod perturb;
-mod pole;
 mod region;
-mod section;
 mod sets;
-mod sheet;
 mod skin;
-mod spacing;
-mod sphere;
-mod sweep;
-mod transform;
-mod triangles;
-mod tube;
 mod turn;
 
+pub use changes::sweep::{Sweep, Swept, sweep};
 pub use recipe::{CARDS, language, manual};
-pub use sweep::{Sweep, Swept, sweep};
 
 use assembly::{Assembled, Assembly};
 use recipe::Recipe;
@@ -182,7 +169,7 @@ fn split(recipe: &Recipe, assembly: &mut Assembly, diagnostics: &mut Diagnostics
 
 fn divide(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnostics) {
     for triangles in &recipe.triangles {
-        if !triangles::divide(&mut assembled.mesh, triangles.block, triangles.pattern) {
+        if !changes::triangles::divide(&mut assembled.mesh, triangles.block, triangles.pattern) {
             diagnostics.push(
                 Diagnostic::error(format!("TRIANGLES: block {} has no quadrilaterals of a surface", triangles.block))
                     .at(triangles.place.span, "nothing is divided")
@@ -194,7 +181,7 @@ fn divide(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnost
 
 fn perturb(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnostics) {
     for perturb in &recipe.perturbs {
-        if perturb::perturb(&mut assembled.mesh, perturb.block, perturb.amplitude) == 0 {
+        if changes::perturb::perturb(&mut assembled.mesh, perturb.block, perturb.amplitude) == 0 {
             diagnostics.push(
                 Diagnostic::error("PERTURB: there are no interior nodes").at(perturb.place.span, "nothing moves"),
             );

@@ -11,9 +11,9 @@ pub use manual::manual;
 
 use super::{
     body::Shape,
+    changes::transform::Move,
+    changes::triangles::Pattern,
     sets::{Place, Request},
-    transform::Move,
-    triangles::Pattern,
 };
 use crate::deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, spelling};
 

@@ -3,7 +3,7 @@
 use super::{Draft, Merge, Perturb, Place, Setter, Split, Triangles};
 use crate::{
     deck::{Card, Diagnostic},
-    mesher::{transform::Move, triangles::Pattern},
+    mesher::changes::{transform::Move, triangles::Pattern},
 };
 
 /// Shapes in a recipe at most, so that copies of copies do not fill the memory.

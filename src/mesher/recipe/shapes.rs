@@ -7,14 +7,16 @@ use crate::{
     deck::{Card, Diagnostic},
     mesher::{
         body::{Extent, Face, Shape},
-        cylinder::Cylinder,
-        hex_box::Hexahedron,
-        line::Line,
-        patch::{Disc, Patch, Ring},
-        sheet::Sheet,
-        spacing::Spacing,
-        sphere::{Sphere, SphereShell},
-        tube::Tube,
+        shapes::{
+            cylinder::Cylinder,
+            hex_box::Hexahedron,
+            line::Line,
+            patch::{Disc, Patch, Ring},
+            sheet::Sheet,
+            spacing::Spacing,
+            sphere::{Sphere, SphereShell},
+            tube::Tube,
+        },
     },
 };
 

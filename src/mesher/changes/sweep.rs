@@ -46,7 +46,7 @@ pub fn sweep(plane: &Mesh, sweep: Sweep, layers: usize) -> Option<Swept> {
             mesh.coordinates.push(match sweep {
                 Sweep::Extrude(length) => [x, y, if ring == layers { length } else { length * part }],
                 Sweep::Revolve(angle) => {
-                    let [c, s] = super::turn::direction(angle * part / 90.0);
+                    let [c, s] = crate::mesher::turn::direction(angle * part / 90.0);
                     [x * c, y, x * s]
                 }
             });

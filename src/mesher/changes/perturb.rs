@@ -1,7 +1,7 @@
 //! PERTURB: interior nodes pushed off their places, for tests that a regular mesh would pass by luck.
 
-use super::{distance, skin};
 use crate::mesh::Mesh;
+use crate::mesher::{distance, skin};
 
 /// Moves the interior nodes of one block, or of all blocks.
 ///

@@ -1,6 +1,6 @@
 //! SHEET, SHEET TUBE and SHEET SPHERE: surfaces of quadrilaterals, for shells. Each is a face of a solid shape.
 
-use super::body::{Body, Face, Shape};
+use crate::mesher::body::{Body, Face, Shape};
 
 /// One face of a solid shape, seen from outside of it.
 pub struct Sheet<S> {

@@ -1,6 +1,6 @@
 //! TRANSLATE, ROTATE and MIRROR: bodies put into place.
 
-use super::{body::Body, turn};
+use crate::mesher::{body::Body, turn};
 
 /// One change of place.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! RECTANGLE, QUADRILATERAL, DISC and RING: regions of two-dimensional meshes.
 
-use super::{
+use crate::mesher::{
     body::{Body, Face, Shape},
-    cylinder::Cylinder,
-    hex_box::between,
-    pole::Pole,
-    section::Section,
-    spacing::Spacing,
+    shapes::cylinder::Cylinder,
+    shapes::hex_box::between,
+    shapes::pole::Pole,
+    shapes::section::Section,
+    shapes::spacing::Spacing,
     turn,
 };
 

@@ -1,8 +1,8 @@
 //! `urto check`: what would be modelled, the first time step, memory and time to expect.
 
-use super::input::Given;
-use super::terminal::{complain, say};
-use super::{DONE, Failure, options};
+use crate::cli::input::Given;
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::mesh::{Dimension, plane};
 use crate::model::StepEstimate;

@@ -3,11 +3,11 @@
 //! The middle of the section is a rounded square of cells, the core; rings of cells lead from its rim to the circle.
 //! So there are no thin wedges at the axis, and all cells are of about one size.
 
-use super::{
+use crate::mesher::{
     body::{Body, Extent, Face, Shape},
-    hex_box::between,
-    section::Section,
-    spacing::Spacing,
+    shapes::hex_box::between,
+    shapes::section::Section,
+    shapes::spacing::Spacing,
     turn,
 };
 
@@ -42,7 +42,7 @@ impl Cylinder {
         [half * u * (1.0 - ROUNDING * v * v), half * v * (1.0 - ROUNDING * u * u)]
     }
 
-    pub(super) fn section(&self, refine: usize) -> Section {
+    pub(in crate::mesher) fn section(&self, refine: usize) -> Section {
         let n = self.core_cells * refine;
         let rings = self.rings * refine;
         let lattice = Lattice::new(n, self.extent);

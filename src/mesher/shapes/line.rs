@@ -1,6 +1,6 @@
 //! LINE: a row of two-node elements between two points.
 
-use super::body::{Body, Face, Shape};
+use crate::mesher::body::{Body, Face, Shape};
 
 /// Two-node elements from one point to another.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,9 @@
 //! Plane sections of quadrilaterals, and the bodies they sweep along z.
 
-use super::{
+use crate::mesher::{
     body::{Body, Face},
-    hex_box::between,
-    spacing::Spacing,
+    shapes::hex_box::between,
+    shapes::spacing::Spacing,
 };
 
 /// A mesh of quadrilaterals in the x-y plane.
@@ -21,7 +21,7 @@ impl Section {
     /// The section itself. It is handed out as the lower side of one layer of hexahedra about as thick as the section is wide,
     /// so that all that is done with solids is done with it; sides 0 to 3 are its edges.
     pub fn flat(&self) -> Body {
-        let size = super::bounds(&self.points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>());
+        let size = crate::mesher::bounds(&self.points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>());
         let thickness = size[..2].iter().map(|[low, high]| high - low).fold(0.0, f64::max);
         let mut body = self.sweep(thickness, Spacing { cells: 1, grading: 1.0 }, 1);
         body.flat = true;

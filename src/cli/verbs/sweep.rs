@@ -1,10 +1,10 @@
 //! `urto sweep`: studies. Each member is a run of this program, so that one that fails takes no other with it.
 
-use super::input::Given;
-use super::outputs::{Inputs, writable};
-use super::signals::Wishes;
-use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, options};
+use crate::cli::input::Given;
+use crate::cli::outputs::{Inputs, writable};
+use crate::cli::signals::Wishes;
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, FAILED, Failure, options};
 use crate::output::print::scientific;
 use crate::plot::Class;
 use crate::run::Files;

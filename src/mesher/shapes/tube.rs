@@ -1,10 +1,10 @@
 //! TUBE: a hollow cylinder on the origin, its axis along z.
 
-use super::{
+use crate::mesher::{
     body::{Body, Extent, Face, Shape},
-    hex_box::between,
-    section::Section,
-    spacing::Spacing,
+    shapes::hex_box::between,
+    shapes::section::Section,
+    shapes::spacing::Spacing,
     turn,
 };
 

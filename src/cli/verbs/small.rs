@@ -1,9 +1,9 @@
 //! The smaller verbs: explain, mesh, refine, diff, join, generate.
 
-use super::options::{self, Generated};
-use super::outputs::{ANOTHER_NAME, Inputs};
-use super::terminal::{complain, print, say};
-use super::{DONE, FAILED, Failure};
+use crate::cli::options::{self, Generated};
+use crate::cli::outputs::{ANOTHER_NAME, Inputs};
+use crate::cli::terminal::{complain, print, say};
+use crate::cli::{DONE, FAILED, Failure};
 use crate::mesh::Mesh;
 use crate::mesh::refine::refined;
 use crate::output::GLOBAL_VARIABLES;
@@ -63,9 +63,9 @@ fn overview() -> String {
 /// The recipe cannot be read or has mistakes, or the mesh cannot be written.
 pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
     let recipe = &options.recipe;
-    let given = super::input::definitions(&options.define)?;
-    let (mut mesh, files) = super::input::read_or_make(recipe, options.refine, &given, options.ranks)?;
-    super::input::all_used(&given)?;
+    let given = crate::cli::input::definitions(&options.define)?;
+    let (mut mesh, files) = crate::cli::input::read_or_make(recipe, options.refine, &given, options.ranks)?;
+    crate::cli::input::all_used(&given)?;
     let mut ends = String::new();
     if let Some(how) = sweep_of(options)? {
         let swept = mesher::sweep(&mesh, how, options.cells.unwrap_or(1) as usize);
@@ -88,7 +88,7 @@ pub fn mesh(options: &options::Mesh) -> Result<u8, Failure> {
 /// `urto refine`
 pub fn refine(options: &options::Refine) -> Result<u8, Failure> {
     let path = &options.mesh;
-    if super::input::is_recipe(path) {
+    if crate::cli::input::is_recipe(path) {
         let help = format_args!("help: `urto mesh {} --refine 2` makes the finer mesh", path.display()).to_string();
         return Err(Failure::input(format_args!("error: {} is a recipe, not a mesh\n{help}", path.display())));
     }
@@ -162,9 +162,9 @@ pub fn join(options: &options::Join) -> Result<u8, Failure> {
 /// None; the result has the type of those of all verbs.
 pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     let mut out = Vec::new();
-    let mut complete = |shell| clap_complete::generate(shell, &mut super::command(), "urto", &mut out);
+    let mut complete = |shell| clap_complete::generate(shell, &mut crate::cli::command(), "urto", &mut out);
     match options.what {
-        Generated::Man => out = super::manual().into_bytes(),
+        Generated::Man => out = crate::cli::manual().into_bytes(),
         Generated::ManDeck => out = deck::manual(&material::models()).into_bytes(),
         Generated::ManMesh => out = mesher::manual().into_bytes(),
         Generated::Bash => complete(clap_complete::Shell::Bash),

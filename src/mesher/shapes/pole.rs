@@ -5,7 +5,7 @@
 //! shapes, and at the pole sizes fall like exp(−2τ). Of a ball that is cut at the equator the plane must stay where it is:
 //! there φ is the height above it.
 
-use super::body::Body;
+use crate::mesher::body::Body;
 use crate::vector::{add, dot, scaled};
 
 /// Steps of Runge and Kutta's method where there is no closed form; one is never longer than 1/50.

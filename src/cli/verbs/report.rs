@@ -1,8 +1,8 @@
 //! `urto report`: a run as a page.
 
-use super::outputs::{ANOTHER_NAME, Inputs};
-use super::terminal::{complain, say};
-use super::{DONE, Failure, options, view};
+use crate::cli::outputs::{ANOTHER_NAME, Inputs};
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, Failure, options, verbs::view};
 use crate::plot::Class;
 use crate::report::{self, ReportError, ReportOptions};
 use crate::view::ViewOptions;

@@ -1,9 +1,9 @@
 //! `urto scale`: what a run would do on many ranks.
 
-use super::input::Given;
-use super::options::{DecompositionName, MachineName};
-use super::terminal::{complain, say};
-use super::{DONE, Failure, options};
+use crate::cli::input::Given;
+use crate::cli::options::{DecompositionName, MachineName};
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, Failure, options};
 use crate::comm::RankFailure;
 use crate::model::ContactDecomposition;
 use crate::scale::{self, Case, Machine};

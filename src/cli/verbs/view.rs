@@ -1,9 +1,9 @@
 //! `urto view`: pictures of results.
 
-use super::options::{self, MapName};
-use super::outputs::{ANOTHER_NAME, Inputs};
-use super::terminal::say;
-use super::{DONE, Failure};
+use crate::cli::options::{self, MapName};
+use crate::cli::outputs::{ANOTHER_NAME, Inputs};
+use crate::cli::terminal::say;
+use crate::cli::{DONE, Failure};
 use crate::view::{self, Direction, MapChoice, StateChoice, ViewError, ViewOptions};
 use std::path::PathBuf;
 
@@ -101,12 +101,12 @@ fn states(options: &options::View) -> Result<Vec<StateChoice>, Failure> {
 }
 
 /// States with commas between.
-pub(super) fn state_list(list: &str) -> Result<Vec<StateChoice>, Failure> {
+pub(in crate::cli) fn state_list(list: &str) -> Result<Vec<StateChoice>, Failure> {
     list.split(',').map(|text| text.trim().parse::<StateChoice>().map_err(Failure::input_error)).collect()
 }
 
 /// Planes such as `x=5,z=0`: axis and place.
-pub(super) fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Failure> {
+pub(in crate::cli) fn planes(option: &str, text: &str) -> Result<Vec<(usize, f64)>, Failure> {
     let plane = |text: &str| {
         let (axis, place) = text.split_once('=')?;
         let axis = ["x", "y", "z"].iter().position(|name| name.eq_ignore_ascii_case(axis.trim()))?;
@@ -154,7 +154,7 @@ fn ranges(option: &str, text: &str, example: &str) -> Result<Vec<NamedRange>, Fa
 }
 
 /// Mirror planes: `xy` for those through the origin, or each with its place.
-pub(super) fn mirrors(text: &str) -> Result<[Option<f64>; 3], Failure> {
+pub(in crate::cli) fn mirrors(text: &str) -> Result<[Option<f64>; 3], Failure> {
     let mut mirror = [None; 3];
     let letters = |part: &str| part.chars().map(|c| "xyz".find(c.to_ascii_lowercase())).collect::<Option<Vec<_>>>();
     for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {

@@ -1,11 +1,11 @@
 //! SPHERE and SPHERE SHELL: balls about the origin, solid with a rounded cube as core, or hollow.
 
-use super::{
+use crate::mesher::{
     body::{Body, CUTS, Extent, Face, Shape},
-    cylinder::ROUNDING,
-    hex_box::between,
-    pole::Pole,
-    spacing::Spacing,
+    shapes::cylinder::ROUNDING,
+    shapes::hex_box::between,
+    shapes::pole::Pole,
+    shapes::spacing::Spacing,
 };
 
 /// A solid ball.

@@ -1,9 +1,9 @@
 //! `urto plot`: curves from results and histories.
 
-use super::options;
-use super::outputs::{ANOTHER_NAME, Inputs};
-use super::terminal::{complain, say};
-use super::{DONE, Failure};
+use crate::cli::options;
+use crate::cli::outputs::{ANOTHER_NAME, Inputs};
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, Failure};
 use crate::output::print::scientific;
 use crate::plot::{self, Class, Curve, Drawn, Log, PlotOptions, Range};
 use std::path::{Path, PathBuf};

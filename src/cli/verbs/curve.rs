@@ -1,9 +1,9 @@
 //! `urto explain --curve`: how a block's law answers to simple motions.
 
-use super::input::deck_alone;
-use super::outputs::{ANOTHER_NAME, Inputs};
-use super::terminal::say;
-use super::{DONE, Failure, options};
+use crate::cli::input::deck_alone;
+use crate::cli::outputs::{ANOTHER_NAME, Inputs};
+use crate::cli::terminal::say;
+use crate::cli::{DONE, Failure, options};
 use crate::material::response::{Motion, curve as response};
 use crate::output::print::scientific;
 use crate::plot::{self, Curve, PlotOptions, Texts};

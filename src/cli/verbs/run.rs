@@ -1,10 +1,10 @@
 //! `urto run`.
 
-use super::input::Given;
-use super::outputs::{Inputs, writable};
-use super::signals::Wishes;
-use super::terminal::{complain, say};
-use super::{DONE, FAILED, Failure, date, display, options, restart, summary};
+use crate::cli::input::Given;
+use crate::cli::outputs::{Inputs, writable};
+use crate::cli::signals::Wishes;
+use crate::cli::terminal::{complain, say};
+use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, sentence, with_warnings};
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
@@ -29,16 +29,16 @@ pub fn run(options: &options::Run) -> Result<u8, Failure> {
 const ANOTHER_BASE: &str = "results take the deck's name, or that of --output: name another with --output";
 
 /// What a run needs besides its communicator.
-pub(super) struct Prepared {
-    pub(super) given: Given,
+pub(in crate::cli) struct Prepared {
+    pub(in crate::cli) given: Given,
     body: Body,
-    pub(super) ranks: usize,
-    pub(super) files: Files,
+    pub(in crate::cli) ranks: usize,
+    pub(in crate::cli) files: Files,
     split: bool,
     continuation: Option<Continuation>,
     banner: Vec<String>,
-    pub(super) qa: [String; 4],
-    pub(super) clock: [Instant; 2],
+    pub(in crate::cli) qa: [String; 4],
+    pub(in crate::cli) clock: [Instant; 2],
 }
 
 impl Prepared {

@@ -1,11 +1,11 @@
 //! `urto trade`: a deck in variants, each measured. Each is a run of this program, one after the other, so that they have the machine
 //! to themselves.
 
-use super::input::Given;
-use super::outputs::{Inputs, writable};
-use super::signals::Wishes;
-use super::terminal::say;
-use super::{DONE, Failure, options};
+use crate::cli::input::Given;
+use crate::cli::outputs::{Inputs, writable};
+use crate::cli::signals::Wishes;
+use crate::cli::terminal::say;
+use crate::cli::{DONE, Failure, options};
 use crate::exodus;
 use crate::mesh::refine::refined;
 use crate::run::Files;
@@ -249,7 +249,7 @@ impl<'a> Trial<'a> {
         if is_newer(&path, &self.inputs) {
             return Ok(path);
         }
-        let recipe = super::input::is_recipe(&self.given.mesh_path);
+        let recipe = crate::cli::input::is_recipe(&self.given.mesh_path);
         let finer;
         let mut mesh = &self.given.mesh;
         if refine > 1 && recipe {

@@ -1,8 +1,8 @@
 //! BOX and HEXAHEDRON: nx × ny × nz cells between eight corners.
 
-use super::{
+use crate::mesher::{
     body::{Body, Face, Shape},
-    spacing::Spacing,
+    shapes::spacing::Spacing,
 };
 
 /// A solid with six faces, mapped trilinearly from a cube. A box is the special case of right angles.
