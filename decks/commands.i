@@ -67,6 +67,7 @@ INITIAL VELOCITY ANGULAR, 2, 100., 0., 0., 0., 0., 0., 1.
 RIGID SURFACE, 100, 0., 0., 0., 0., 0., 1., 0.1      $ the floor, rough
 CONTACT MATERIAL, 1, 2                              $ wherever the bar may meet itself
 CONTACT DATA, 1, 2, 0.2, 0.5
+CONTACT EXCLUSION, 2                                $ the upper half never touches itself
 CONTACT SURFACE, 100, 300, 0.1, 0.5
 CONTACT NODE SET, 1                                 $ nodes that may be inside a block or on it
 CONTACT PASSES, 10, 1.E-6

@@ -14,6 +14,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT MATERIAL", contact_material),
     ("CONTACT SURFACE", contact_surface),
     ("CONTACT DATA", contact_data),
+    ("CONTACT EXCLUSION", contact_exclusion),
     ("CONTACT THICKNESS", |card, draft| {
         draft.model.contact.thicknesses.push((card.integer("block"), card.number("factor")));
     }),
@@ -142,6 +143,19 @@ fn contact_data(card: &Card, draft: &mut Draft) {
     beside_contact(card, draft);
 }
 
+fn contact_exclusion(card: &Card, draft: &mut Draft) {
+    let pair = ["first", "second"].map(|field| card.maybe_integer(field));
+    draft.model.contact.exclusions.push(pair);
+    if draft.deck.cards_of("CONTACT MATERIAL").next().is_none() {
+        draft.report(
+            Diagnostic::warning("CONTACT EXCLUSION: there is no CONTACT MATERIAL, so that nothing follows from this")
+                .at(card.record, "blocks that do not touch anyway")
+                .help("side sets of CONTACT SURFACE touch each other and nothing else"),
+        );
+    }
+    beside_contact(card, draft);
+}
+
 fn pair(materials: [i64; 2], card: &Card) -> ContactData {
     ContactData { materials, friction: friction(card), partition: card.maybe_number("partition") }
 }
@@ -179,7 +193,7 @@ fn data_of_all(card: &Card, [first, second]: [Option<i64>; 2], draft: &mut Draft
     }
 }
 
-/// Warns of CONTACT DATA about a block that no CONTACT MATERIAL names, wherever in the deck that stands.
+/// Warns of CONTACT DATA and CONTACT EXCLUSION about a block that no CONTACT MATERIAL names, wherever in the deck that stands.
 fn beside_contact(card: &Card, draft: &mut Draft) {
     let blocks =
         |card: &Card| -> Vec<i64> { card.items("block").iter().filter_map(|item| item.value.integer()).collect() };
@@ -196,7 +210,8 @@ fn beside_contact(card: &Card, draft: &mut Draft) {
         let all = spelling::all(&named.iter().map(i64::to_string).collect::<Vec<_>>());
         draft.report(
             Diagnostic::warning(format!(
-                "CONTACT DATA: block {block} touches nothing, so that nothing follows from this"
+                "{}: block {block} touches nothing, so that nothing follows from this",
+                card.name
             ))
             .at(card.place(field), format!("CONTACT MATERIAL names {all} only"))
             .help(format!("CONTACT MATERIAL, {block} lets it touch; CONTACT SURFACE has friction of its own")),

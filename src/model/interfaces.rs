@@ -9,6 +9,9 @@ pub struct Contact {
     pub surfaces: Vec<ContactSurface>,
     /// CONTACT DATA: what holds between two materials.
     pub data: Vec<ContactData>,
+    /// CONTACT EXCLUSION: numbers of blocks that do not touch each other; every block where the first is missing, the same block where
+    /// the second is.
+    pub exclusions: Vec<[Option<i64>; 2]>,
     /// CONTACT THICKNESS: blocks, and factors on the distance at which their surfaces and bars touch.
     pub thicknesses: Vec<(i64, f64)>,
     /// CONTACT NODE SET: node sets whose nodes touch as balls, and their radii.

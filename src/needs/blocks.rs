@@ -2,6 +2,7 @@
 
 use super::{Advice, Promise, Scene};
 use crate::comm::Communicator;
+use crate::model::{BlockMaterial, Death, DeathVariable};
 use crate::solver::Section;
 
 /// Laws that are ELASTIC until they flow, and what replacing them by it keeps: all but the first put the stress together from
@@ -51,8 +52,28 @@ fn never_flowed(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
         let name = material.law.entry().name;
         let Some((_, promise)) = ELASTIC_UNTIL_FLOW.iter().find(|(law, _)| *law == name) else { continue };
         let words = format!("block {} never flowed", block.id);
-        let instead = format!("MATERIAL, {}, ELASTIC", block.id);
-        list.push(Advice::spare(words, instead, *promise, Some((Section::Elements, block.len() as f64 / elements))));
+        let instead = format!("MATERIAL, {}, ELASTIC{}", block.id, without(scene, block.id));
+        // Elements of rigid bodies have no work.
+        let is_rigid = scene.model.rigid_bodies.iter().flatten().any(|rigid| *rigid == block.id);
+        let cost = (!is_rigid).then_some((Section::Elements, block.len() as f64 / elements));
+        list.push(Advice::spare(words, instead, *promise, cost));
     }
     list
+}
+
+/// What else must go from the deck with the variables of a block that becomes ELASTIC.
+fn without(scene: &Scene, block: i64) -> String {
+    let watches = |death: &Death| death.block == block && matches!(death.variable, DeathVariable::State(_));
+    let has = |material: &BlockMaterial| {
+        material.block != block && material.law.entry().state.iter().any(|variable| variable.name == PLASTIC_STRAIN)
+    };
+    let plotted = scene.model.plot_requests.state.iter().any(|name| name == PLASTIC_STRAIN);
+    let mut gone = Vec::new();
+    if scene.model.deaths.iter().any(watches) {
+        gone.push("the DEATH that watches it");
+    }
+    if plotted && !scene.model.materials.iter().any(has) {
+        gone.push("PLOT STATE, EQPS");
+    }
+    if gone.is_empty() { String::new() } else { format!(", without {},", gone.join(" and ")) }
 }

@@ -31,6 +31,8 @@ pub struct Scene<'a> {
     pub states: &'a [f64],
     /// Whether the run began from a restart: nobody has seen its beginning.
     pub continued: bool,
+    /// Nodes that were moved out of overlaps of the mesh before it began.
+    pub moved: usize,
 }
 
 /// What the advised deck keeps.

@@ -3,6 +3,7 @@
 use super::{Advice, Promise, Scene};
 use crate::comm::Communicator;
 use crate::mesh::Mesh;
+use crate::model::StepEstimate;
 use crate::numbers::scientific;
 use crate::solver::{Section, Slivers, Solver};
 
@@ -13,6 +14,12 @@ const WORTH_WORDS: f64 = 1.2;
 const LIMIT: f64 = 0.05;
 
 pub fn advice(scene: &Scene, _: &mut dyn Communicator) -> Vec<Advice> {
+    // A run that goes on has not seen its beginning, and other bounds of the step know nothing of single elements.
+    let other =
+        scene.model.step_estimate != StepEstimate::Element || scene.solver.time_step >= scene.model.time_step.longest;
+    if scene.continued || other {
+        return Vec::new();
+    }
     let Some(words) = words(scene.mesh, scene.solver) else { return Vec::new() };
     let Some(Slivers { gain, step, block_gain, .. }) = scene.solver.slivers else { return Vec::new() };
     let limit = if block_gain > LIMIT { format!(", {}", scientific(1.01 * block_gain, 2)) } else { String::new() };

@@ -4,7 +4,9 @@ use super::{Advice, Scene};
 use crate::comm::Communicator;
 use crate::mesh::exterior::{EXTERIOR, SIDES, across};
 use crate::mesh::{Mesh, Shape};
+use crate::model::Precision;
 use crate::output::block_energies;
+use crate::solver::Finding;
 
 /// Hourglass energy over internal energy from which a wall bends.
 const BENDS: f64 = 0.02;
@@ -14,17 +16,38 @@ const MOST: f64 = 0.5;
 pub fn advice(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
     let energies = block_energies(scene.mesh.blocks.len(), scene.solver, comm);
     let share = |index: usize| energies[4 * index + 2] / energies[4 * index + 1].abs();
-    if (0..scene.mesh.blocks.len()).all(|index| share(index).is_nan() || share(index) < BENDS) {
-        return Vec::new();
-    }
-    let thin = thin_blocks(scene.mesh).into_iter().filter(|index| share(*index) >= BENDS);
-    let words = |index: usize| {
-        let (id, percent) = (scene.mesh.blocks[index].id, 100.0 * share(index));
+    let bends = |index: usize| share(index) >= BENDS;
+    let thin = if (0..scene.mesh.blocks.len()).any(bends) { thin_blocks(scene.mesh) } else { Vec::new() };
+    let thin: Vec<usize> = thin.into_iter().filter(|index| bends(*index)).collect();
+    let words = |index: &usize| {
+        let (id, percent) = (scene.mesh.blocks[*index].id, 100.0 * share(*index));
         format!(
             "block {id} is a wall of one element that bends: its hourglass energy is {percent:.0} % of its internal energy"
         )
     };
-    thin.map(|index| Advice::lack(words(index), "two elements through the wall, or shells".into())).collect()
+    let mut list: Vec<Advice> = thin
+        .iter()
+        .map(|index| Advice::lack(words(index), "two elements through the wall, or shells".into()))
+        .collect();
+    list.extend(coarse(scene, &thin));
+    list
+}
+
+/// Blocks whose hourglass energy has passed a tenth of their internal energy, but for those that are walls.
+fn coarse(scene: &Scene, walls: &[usize]) -> Vec<Advice> {
+    let found = scene.solver.findings().iter().filter_map(Finding::of_hourglass);
+    let of_block = |(id, worst): (i64, f64)| {
+        let index = scene.mesh.block_index(id).filter(|index| !walls.contains(index))?;
+        let words = format!("the hourglass energy of block {id} came to {:.0} % of its internal energy", 100.0 * worst);
+        let instead = match scene.mesh.blocks[index].shape {
+            Shape::Hexahedron if scene.model.precision == Precision::Double => {
+                format!("a finer mesh there, or ELEMENT, {id}, EIGHT POINTS")
+            }
+            _ => "a finer mesh there".to_string(),
+        };
+        Some(Advice::lack(words, instead))
+    };
+    found.filter_map(of_block).collect()
 }
 
 /// Indices of the blocks of hexahedra most of whose elements reach from one side of the body to the other, and are less thick

@@ -334,6 +334,7 @@ impl<'a> Writer<'a> {
             lines: &self.lines,
             states: &self.states,
             continued: job.continuation.is_some(),
+            moved: job.body.overlap.nodes,
         };
         let complete = matches!(outcome, Ok(Request::Continue));
         let advice = if complete { needs::advice(&scene, comm) } else { Vec::new() };
@@ -356,6 +357,13 @@ impl<'a> Writer<'a> {
             advice: &advice,
         };
         let printed = self.print(&print::closing(&table, &ending));
+        let interval = job.model.plot.interval;
+        let of_output = print::advice_on_output(&table, states, interval).filter(|_| complete);
+        let told = advice.iter().cloned().chain(of_output).map(|advice| {
+            let share = print::share(&advice, &table);
+            (advice, share)
+        });
+        let told = told.collect();
         let by = outcome?;
         together(printed, comm)?;
         Ok(Ended {
@@ -371,7 +379,7 @@ impl<'a> Writer<'a> {
             findings: solver.findings().to_vec(),
             sections: table.sections.iter().map(|part| (part.name.clone(), part.spread.mean)).collect(),
             memory: table.memory,
-            advice: advice.iter().map(|advice| (advice.clone(), print::share(advice, &table))).collect(),
+            advice: told,
         })
     }
 }

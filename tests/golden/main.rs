@@ -59,6 +59,7 @@ const LIGHTER: &[Lighter] = &[
         ],
     },
     Lighter { deck: "lined_box", until: None, mesh: &[("10, 10, 20", "5, 5, 10")] },
+    Lighter { deck: "plate_triangles", until: None, mesh: &[("24, 24", "8, 8")] },
     Lighter { deck: "sedov", until: None, mesh: &[("30, 30, 30", "10, 10, 10")] },
     Lighter { deck: "square_tube", until: Some(2e-3), mesh: &[("8, 60", "4, 20")] },
     Lighter { deck: "taylor_bar", until: None, mesh: &[("8, 160, QUARTER", "2, 40, QUARTER")] },

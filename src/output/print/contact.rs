@@ -68,7 +68,11 @@ fn control(model: &Model) -> Vec<String> {
         format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
         format!("EDGES TOUCH EDGES: {}", edges(control.edges)),
     ];
-    lines.extend(thicknesses.chain(sets));
+    let apart = |pair: &[Option<i64>; 2]| match pair.map(|id| id.map_or("ALL".to_string(), |id| id.to_string())) {
+        [first, second] if pair[1].is_some() => format!("KEPT APART: {first} AND {second}"),
+        [first, _] => format!("KEPT FROM TOUCHING ITSELF: {first}"),
+    };
+    lines.extend(thicknesses.chain(sets).chain(model.contact.exclusions.iter().map(apart)));
     lines
 }
 

@@ -11,7 +11,7 @@ mod summary;
 mod warnings;
 
 pub use crate::numbers::scientific;
-pub use advice::{sentence, share};
+pub use advice::{output as advice_on_output, sentence, share};
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
 pub use steps::{StepLine, step_header, step_line};

@@ -1,7 +1,9 @@
 //! What the deck lets touch as it is now: points, faces, edges, and interfaces.
 
+use super::exclusions::Exclusions;
 use super::geometry::edges::{Edge, Shape};
 use super::geometry::faces::Faces;
+use super::meetings::Blocks;
 use super::search::locate::{Interface, Rule};
 use std::sync::Arc;
 
@@ -36,6 +38,10 @@ pub struct Layout {
     pub joined: Vec<Vec<u32>>,
     /// Whether there are surfaces; their edges meet all lines.
     pub surfaces: bool,
+    /// Blocks that CONTACT MATERIAL leaves apart.
+    pub exclusions: Arc<Exclusions>,
+    /// Blocks that have a say at each point, and at each face.
+    pub blocks_around: [Vec<Blocks>; 2],
 }
 
 impl Layout {

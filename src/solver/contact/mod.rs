@@ -4,12 +4,15 @@
 //! rank are `ContactNodes`; check and enforcement happen in a `LocalProblem`, of whole bodies on one rank, of a region
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
+mod arcs;
 pub mod check;
 mod contact_nodes;
 pub mod enforcement;
+mod exclusions;
 pub mod geometry;
 mod layout;
 mod local_problem;
+mod meetings;
 mod node_result;
 mod pairings;
 mod press_fit;
@@ -30,6 +33,7 @@ use super::rigid::{RigidBodies, RigidBody};
 use crate::comm::{Communicator, Traffic};
 use crate::mesh::Mesh;
 use crate::model::{ContactDecomposition, ContactSearch, Model, RigidSurface, Watched};
+use arcs::Arcs;
 use check::edge_edge;
 use check::edge_edge::EdgeContact;
 use check::node_face::{self, FaceContact, NONE};
@@ -54,8 +58,9 @@ use skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
+pub use enforcement::iterations::LOOSER;
 pub use report::{Report, Tally, Work};
-pub use seen::Seen;
+pub use seen::{Looser, Seen};
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
 const LINES_EVERY: u64 = 4;
@@ -99,6 +104,8 @@ pub struct Contact {
     pub tally: Tally,
     /// What has been met so far.
     seen: Seen,
+    /// What of the surface has touched when; nothing once elements have gone.
+    arcs: Arcs,
     /// Forces and works that the deck watches, and the numbers of the blocks.
     resultants: Resultants,
     block_ids: Vec<i64>,
@@ -147,6 +154,7 @@ impl Contact {
             gain: Gain::default(),
             tally: Tally::default(),
             seen: Seen::nothing(mesh.blocks.len(), model.rigid_surfaces.len()),
+            arcs: Arcs::new(layout.nodes.len(), layout.faces.len()),
             resultants: Resultants::new(model.histories.iter().filter_map(subject)),
             block_ids: mesh.blocks.iter().map(|block| block.id).collect(),
             searches: 0,
@@ -193,6 +201,7 @@ impl Contact {
     pub fn erode(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, comm: &mut dyn Communicator) {
         let history = self.carried.take().unwrap_or_else(|| self.problem.history());
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
+        self.arcs = Arcs::default();
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
         reshape::take_over(&mut self.layout, &old);
         let old_contact_nodes = std::mem::take(&mut self.contact_nodes);
@@ -228,6 +237,10 @@ impl Contact {
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(nodes, step, comm);
         self.problem.teach(&mut self.seen, (step.time, self.age));
+        self.seen.iterate(&outcome);
+        if self.age.is_multiple_of(arcs::EVERY) {
+            self.problem.teach_arcs(&mut self.arcs, (self.age / arcs::EVERY) as u32);
+        }
         self.book_resultants(step);
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
@@ -336,6 +349,7 @@ impl Contact {
         let motion = if remote.is_some() { &mut problem.motion } else { &mut contact_nodes.motion };
         motion.count(problem.locator.moving().iter().copied());
         self.counts = self.problem.locator.counts().map(|count| count as u64);
+        self.problem.count_candidates(&mut self.seen.met);
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);
         }
@@ -343,11 +357,11 @@ impl Contact {
 
     fn enforce(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let coupled = comm.size() > 1 && !self.problem.motion.mobility.bodies.is_empty();
-        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, .. } = self;
+        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, seen, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining, lines };
-        problem.find_constraints(&setting, step);
+        problem.find_constraints(&setting, step, &mut seen.met);
         match remote {
             Some(remote) => problem.find_forces(&setting, step, bank, &mut remote.others(comm)),
             None => {
@@ -376,7 +390,7 @@ impl Contact {
         problem.book(resultants, (planes, block_ids), step, mine);
     }
 
-    fn count(&mut self, Outcome { iterations, residual, deepest, depth, travel }: Outcome) {
+    fn count(&mut self, Outcome { iterations, residual, deepest, depth, travel, .. }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
         if depth > 0.0 {

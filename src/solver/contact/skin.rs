@@ -1,9 +1,11 @@
 //! The surfaces that the deck lets touch, found in the mesh, and layouts made of them, again when elements go.
 
+use super::exclusions::Exclusions;
 use super::geometry::edges;
 use super::geometry::faces::Faces;
 use super::geometry::surface::{Surface, back_nodes, face_nodes};
 use super::layout::Layout;
+use super::meetings;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
 use super::touching::Touching;
@@ -36,6 +38,7 @@ pub struct Skin {
     joined: Vec<(u32, Vec<u32>)>,
     /// Which edges may touch edges.
     edges_wanted: ContactEdges,
+    exclusions: Arc<Exclusions>,
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
     touching: Touching,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
@@ -67,6 +70,7 @@ impl Skin {
                 chosen[body.element_block[element as usize] as usize]
             }),
             edges_wanted: if mesh.dimension == Dimension::Two { ContactEdges::None } else { contact.control.edges },
+            exclusions: Arc::new(Exclusions::new(mesh, model)),
             free: Vec::new(),
             chosen,
         }
@@ -135,6 +139,8 @@ impl Skin {
             let point = layout.point(node) as usize;
             layout.point_block[point] = block;
         }
+        layout.blocks_around = meetings::blocks_around(&layout);
+        layout.exclusions = self.exclusions.clone();
         layout.interfaces = self.interfaces(&layout, &automatic);
         if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);

@@ -39,6 +39,7 @@ impl Contact {
         let Contact {
             // Of this part of the run.
             seen: _,
+            arcs: _,
             // Visited below.
             problem: _,
             carried: _,

@@ -1,6 +1,6 @@
 //! What a look at the run has found: numbers, places, and when. Words are made from these, so that they survive a restart.
 
-use super::symptoms::{SYMPTOMS, Symptom};
+use super::symptoms::{SYMPTOMS, Symptom, hourglass};
 use crate::solver::Solver;
 
 /// Places that a finding names at most.
@@ -70,6 +70,11 @@ impl Finding {
 
     fn symptom(&self) -> &'static Symptom {
         SYMPTOMS.iter().find(|symptom| symptom.code == self.code).unwrap_or(&SYMPTOMS[0])
+    }
+
+    /// The number of the block whose hourglass energy this is about, and the largest part of its internal energy that it was.
+    pub fn of_hourglass(&self) -> Option<(i64, f64)> {
+        (self.code == hourglass::SYMPTOM.code).then_some((self.evidence.block, self.worst))
     }
 
     /// In a few words, for a list of warnings.

@@ -61,13 +61,22 @@ impl Contact {
                 .of(i)
                 .iter()
                 .map(|&element| &elements[element as usize])
-                .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node));
+                .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node))
+                .filter(|(element, _)| !self.is_kept_apart(*point, *element));
             found.extend(of_others.filter_map(|outer| {
                 let depth = self.depth(outer.0, &corners(outer), *at)?;
                 Some(EmbeddedNode { node, element: outer.0, depth })
             }));
         }
         found
+    }
+
+    /// Whether the deck keeps a point from touching the faces of an element.
+    fn is_kept_apart(&self, point: u32, element: u32) -> bool {
+        let layout = &self.layout;
+        let block = layout.point_block[point as usize];
+        let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).find(|&face| face != ABSENT);
+        faces.is_some_and(|face| layout.exclusions.keep_apart(point, block, face, &layout.faces))
     }
 
     /// How deep a point is in an element, in thicknesses below the nearest of its outer faces; `None` where it is not in it.

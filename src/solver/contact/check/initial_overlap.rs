@@ -263,6 +263,12 @@ fn deep_overlap(body: &Body, layout: &Layout) -> DeepOverlap {
         let holds = |&place: &u32| !elements[place as usize].1.contains(&node) && is_inside(&corners(place), at(point));
         let held = candidates.of(point).iter().copied().filter(holds);
         let held: Vec<u32> = held.map(|place| elements[place as usize].0).collect();
+        let apart = |element: &u32| {
+            let face = (6 * element..6 * element + 6).map(|number| layout.face(number)).find(|&face| face != ABSENT);
+            let block = layout.point_block[point];
+            face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
+        };
+        let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
         let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, at(point)));
         let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
         deep.nodes += 1;

@@ -132,4 +132,8 @@ pub struct ConstraintState {
     pub last: (f64, [f64; 3]),
     /// Whether it pushes or overlaps.
     pub active: bool,
+    /// Whether it did so at any time in this step: else nothing would be another without it.
+    pub touched: bool,
+    /// Whether its friction was ever as large as it can be: else a larger coefficient would change nothing.
+    pub slid: bool,
 }

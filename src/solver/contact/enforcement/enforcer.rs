@@ -96,6 +96,7 @@ impl Enforcer {
         for (c, state) in constraints.iter().zip(&mut self.states) {
             state.last = (c.carried.normal_force, c.carried.tangential_force);
             state.active = state.strength > 0.0 && (c.carried.normal_force > 0.0 || state.closing < 0.0);
+            state.touched = state.active;
         }
         // Where nothing overlaps there is nothing to do. One iteration is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
@@ -175,6 +176,14 @@ impl Enforcer {
     ) -> impl Iterator<Item = (&'a Constraint, &'a ConstraintState)> {
         let all = constraints.iter().zip(&self.states);
         all.filter(|(c, state)| state.own && c.carried.normal_force > 0.0)
+    }
+
+    /// Constraints of this rank that were active at any time in the last solution, with their states.
+    pub fn touched<'a>(
+        &'a self,
+        constraints: &'a [Constraint],
+    ) -> impl Iterator<Item = (&'a Constraint, &'a ConstraintState)> {
+        constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.touched)
     }
 
     /// Velocity of a member of a constraint after the step: that without contact, and what all forces along their ray change.

@@ -1,6 +1,6 @@
 //! The iterations: each closes every gap as if its constraint were alone, with shares of the masses, and goes on a little.
 
-use super::constraint::Constraint;
+use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
 use super::other_ranks::{Largest, OtherRanks};
 use super::sweep;
@@ -30,8 +30,22 @@ pub struct Outcome {
     pub deepest: f64,
     /// The deepest one as a length.
     pub depth: f64,
-    /// Farthest that a constraint would move along its normal in the step without contact, a length.
+    /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
+    /// What looser tolerances would have spared.
+    pub looser: [Spared; LOOSER.len()],
+}
+
+/// Looser tolerances that are held beside the deck's: so many times as large.
+pub const LOOSER: [f64; 2] = [10.0, 100.0];
+
+/// Iterations of a step that a looser tolerance would not have made.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spared {
+    /// Their number.
+    pub iterations: u32,
+    /// How far they moved a constraint, the farthest of each added up, as a part of the face's size.
+    pub moved: f64,
 }
 
 /// Times that turn velocities into displacements and forces into velocities.
@@ -57,7 +71,7 @@ impl Enforcer {
         wanted: bool,
         others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
-        let (mut outcome, mut momentum) = (Outcome::default(), Momentum::new());
+        let (mut outcome, mut momentum, mut ended) = (Outcome::default(), Momentum::new(), [false; LOOSER.len()]);
         let mut own = self.extent(constraints, times.drift);
         own.wanted = f64::from(u8::from(wanted));
         loop {
@@ -70,23 +84,31 @@ impl Enforcer {
             if wanted == 0.0 {
                 return None;
             }
-            outcome = Outcome { residual, iterations: outcome.iterations + 1, deepest, depth, travel };
-            let settled = residual <= limits.tolerance && moved <= SETTLED * travel;
-            if settled || outcome.iterations == limits.iterations {
+            let mut looser = outcome.looser;
+            let by_looser = |factor: f64| residual <= factor * limits.tolerance && moved <= SETTLED * travel;
+            for (spared, _) in looser.iter_mut().zip(ended).filter(|(_, ended)| *ended) {
+                *spared = Spared { iterations: spared.iterations + 1, moved: spared.moved + residual };
+            }
+            ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= by_looser(factor));
+            outcome = Outcome { residual, iterations: outcome.iterations + 1, deepest, depth, travel, looser };
+            if by_looser(1.0) || outcome.iterations == limits.iterations {
                 return Some(outcome);
             }
         }
     }
 
-    /// Deepest penetration that motion has made, and the farthest that a constraint of this rank would move.
+    /// Deepest penetration that motion has made, and the farthest that a contact of this rank would move.
     fn extent(&self, constraints: &[Constraint], drift: f64) -> Largest {
         let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
         own.fold(Largest::default(), |all, (c, state)| {
             let penetration = c.carried.penetration;
+            // A node above a plane is no contact until it reaches it.
+            let is_contact = state.active || !matches!(c.origin, Origin::Plane(_));
+            let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
             Largest {
                 deepest: (penetration / c.size).max(all.deepest),
                 depth: penetration.max(all.depth),
-                travel: (drift * state.free).abs().max(all.travel),
+                travel: travel.max(all.travel),
                 ..all
             }
         })

@@ -15,7 +15,7 @@ pub struct Largest {
     pub deepest: f64,
     /// The deepest one as a length.
     pub depth: f64,
-    /// Farthest that a constraint would move along its normal in the step without contact, a length.
+    /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
     /// Farthest that the iteration moved a constraint, a length.
     pub moved: f64,

@@ -170,6 +170,7 @@ fn correct_one<const COUNT: usize>(
         let slip = add(state.slip, tangential(change, c.normal));
         let wanted = subtract(tried_tangential, scaled(slip, 1.0 / (times.kick * sliding)));
         let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
+        state.slid |= size > most && normal_force > 0.0;
         let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
         let turn = subtract(tangential_force, tried_tangential);
         moved = moved.max(dot(turn, turn).sqrt() * times.both * sliding);
@@ -178,6 +179,7 @@ fn correct_one<const COUNT: usize>(
         state.last.1 = tangential_force;
     }
     (c.carried.normal_force, state.last.0, state.active) = (normal_ahead, normal_force, true);
+    state.touched = true;
     moved
 }
 

@@ -19,6 +19,7 @@ use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::NodeMotion;
 use super::layout::{ABSENT, Layout, inverse};
+use super::meetings::{Blocks, Meetings};
 use super::node_result::NodeResult;
 use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Candidate, Locator, Rule};
@@ -71,6 +72,8 @@ pub struct LocalProblem {
     /// How far around itself each edge looks for others, a length.
     edge_reaches: Vec<f64>,
     point_block: Vec<u32>,
+    /// Blocks that have a say at each point, and at each face.
+    blocks_around: [Vec<Blocks>; 2],
     rules: Vec<Rule>,
     history: Vec<[FaceContact; MAX_FACES]>,
     edge_history: Vec<EdgeContact>,
@@ -154,6 +157,10 @@ impl LocalProblem {
             edge_reaches: edges.iter().map(|edge| edge_edge::reach(&faces, edge)).collect(),
             edges,
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
+            blocks_around: [
+                numbering.points.iter().map(|&point| layout.blocks_around[0][point as usize]).collect(),
+                numbering.faces.iter().map(|&face| layout.blocks_around[1][face as usize]).collect(),
+            ],
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
             history: vec![NO_CONTACT; points],
             planes,
@@ -258,13 +265,13 @@ impl LocalProblem {
         }
     }
 
-    /// Finds the constraints of a step, whose motion is in `motion`.
-    pub fn find_constraints(&mut self, setting: &StepInput, step: &StepTimes) {
+    /// Finds the constraints of a step, whose motion is in `motion`; `met` learns which blocks meet.
+    pub fn find_constraints(&mut self, setting: &StepInput, step: &StepTimes, met: &mut Meetings) {
         match self.motion.instructions().vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.find_constraints_avx2(setting, step) },
-            _ => self.find_each(setting, step),
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.find_constraints_avx2(setting, step, met) },
+            _ => self.find_each(setting, step, met),
         }
     }
 
@@ -275,18 +282,18 @@ impl LocalProblem {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn find_constraints_avx2(&mut self, setting: &StepInput, step: &StepTimes) {
-        self.find_each(setting, step)
+    unsafe fn find_constraints_avx2(&mut self, setting: &StepInput, step: &StepTimes, met: &mut Meetings) {
+        self.find_each(setting, step, met)
     }
 
     // Inlined, as what it calls most is, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn find_each(&mut self, setting: &StepInput, step: &StepTimes) {
+    fn find_each(&mut self, setting: &StepInput, step: &StepTimes, met: &mut Meetings) {
         self.constraints.clear();
         if !self.rules.is_empty() {
             self.locator.step(&self.motion, &self.faces);
-            self.check(setting.pairings, setting.remaining, step.drift);
-            self.check_edges(setting.pairings, setting.lines);
+            self.check(setting, step.drift, met);
+            self.check_edges(setting.pairings, setting.lines, met);
         }
         // With rigid bodies alone, no force of a step can push a node in that is farther away than a face is large.
         let reach = match (self.rules.is_empty(), self.are_coupled()) {
@@ -348,8 +355,9 @@ impl LocalProblem {
 
     /// The detailed check of every point with candidates; what it touches becomes constraints and history.
     #[inline(always)]
-    fn check(&mut self, pairings: &Pairings, remaining: f64, drift: f64) {
-        let LocalProblem { motion, faces, point_block, rules, locator, history, .. } = self;
+    fn check(&mut self, setting: &StepInput, drift: f64, met: &mut Meetings) {
+        let StepInput { pairings, remaining, .. } = *setting;
+        let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
         let check = NodeFaceCheck { motion, faces, longest_path: locator.last_path() };
         for i in 0..locator.slave_nodes().len() {
@@ -381,6 +389,7 @@ impl LocalProblem {
             for (place, contact) in contacts.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
+                met.meet(blocks_around[0][point as usize], blocks_around[1][contact.face as usize]);
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[contact.face as usize]);
                 let before_growth = contact.tolerated;
                 let contact = &DetectedContact { tolerated: remaining * before_growth, ..*contact };
@@ -397,10 +406,10 @@ impl LocalProblem {
 
     /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due.
     #[inline(always)]
-    fn check_edges(&mut self, pairings: &Pairings, lines: bool) {
-        let LocalProblem {
-            motion, faces, locator, edges, edge_reaches, edge_history, pair_places, constraints, ..
-        } = self;
+    fn check_edges(&mut self, pairings: &Pairings, lines: bool, met: &mut Meetings) {
+        let LocalProblem { motion, faces, locator, edges, edge_reaches, edge_history, .. } = self;
+        let LocalProblem { pair_places, constraints, blocks_around: [_, around], .. } = self;
+        let blocks = |edge: u32| edges[edge as usize].faces.iter().fold(0, |set, &face| set | around[face as usize]);
         let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
@@ -418,6 +427,8 @@ impl LocalProblem {
             match check.pair(pair, past, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
+                    met.meet(blocks(pair[0]), blocks(pair[1]));
+                    met.edges = true;
                     edge_history.push(now);
                     constraints.push(*constraint);
                 }

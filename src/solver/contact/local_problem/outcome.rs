@@ -3,40 +3,55 @@
 use super::LocalProblem;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
+use crate::solver::contact::arcs::{Arcs, OPPOSED};
 use crate::solver::contact::check::node_face::NONE;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, Origin};
 use crate::solver::contact::enforcement::resultants::{Resultants, Share, Side};
+use crate::solver::contact::geometry::projection::area_normal;
+use crate::solver::contact::meetings::Meetings;
 use crate::solver::contact::node_result::{Details, NodeResult, Status};
 use crate::solver::contact::seen::Seen;
+use crate::vector::dot;
 
 impl LocalProblem {
-    /// Lets `seen` learn what the contacts of this step have met; `when` is its time, and the number of steps before it.
+    /// Lets `seen` learn what the contacts of this step did; `when` is its time, and the number of steps before it.
     pub fn teach(&self, seen: &mut Seen, when: (f64, u64)) {
-        let LocalProblem { faces, edges, history, numbering, planes, .. } = self;
-        let lacks_blocks = seen.lacks_blocks();
-        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
-            seen.touch(c, when);
-            match c.origin {
-                Origin::Face(_, place) if lacks_blocks => {
-                    let point = c.members[0];
-                    let touched = history.get(point as usize).map(|past| past[place as usize].face);
-                    let Some(face) = touched.filter(|face| *face != NONE) else { continue };
-                    let around = faces.around(point).iter().copied();
-                    around.chain([face]).for_each(|face| seen.meet(faces.block[face as usize]));
-                }
-                Origin::Edges(first, second) => {
-                    seen.edges = true;
-                    let here = [first, second].map(|edge| numbering.edges.binary_search(&edge));
-                    let of_edges = here.into_iter().flatten().flat_map(|edge| edges[edge].faces);
-                    of_edges.for_each(|face| seen.meet(faces.block[face as usize]));
-                }
-                Origin::Plane(number) => {
-                    let node = planes.binary_search_by_key(&number, |node| node.number);
-                    node.into_iter().for_each(|node| seen.push(planes[node].plane));
-                }
-                Origin::Face(..) => (),
+        for (c, state) in self.enforcer.touched(&self.constraints) {
+            seen.slid |= state.slid;
+            if c.carried.normal_force > 0.0 {
+                seen.touch(c, when);
             }
+            if let Origin::Plane(number) = c.origin {
+                let node = self.planes.binary_search_by_key(&number, |node| node.number);
+                node.into_iter().for_each(|node| seen.push(self.planes[node].plane));
+            }
+        }
+    }
+
+    /// Lets `arcs` see which nodes are pushed in this step, the `look`-th at which it looks.
+    pub fn teach_arcs(&self, arcs: &mut Arcs, look: u32) {
+        let LocalProblem { faces, numbering, motion, .. } = self;
+        for (c, _) in self.enforcer.pushing(&self.constraints).filter(|(c, _)| !matches!(c.origin, Origin::Edges(..))) {
+            let point = c.members[0];
+            let Some(&number) = numbering.points.get(point as usize) else { continue };
+            arcs.touch(number, look);
+            for &face in faces.around(point) {
+                let number = numbering.faces[face as usize];
+                let normal = || area_normal(&faces.end(face, motion));
+                let looks = |normal: [f64; 3]| dot(normal, c.normal) < OPPOSED * dot(normal, normal).sqrt();
+                if arcs.waits(number) && looks(normal()) {
+                    arcs.meet(number);
+                }
+            }
+        }
+    }
+
+    /// Counts the candidates of the last search by the blocks of node and face.
+    pub fn count_candidates(&self, met: &mut Meetings) {
+        for (point, candidates) in self.locator.candidates() {
+            let block = self.point_block[point as usize];
+            candidates.iter().for_each(|candidate| met.count(block, self.faces.block[candidate.face as usize]));
         }
     }
 

@@ -208,6 +208,12 @@ impl Locator {
         &self.slave_nodes
     }
 
+    /// Slave nodes, each with its candidates.
+    pub fn candidates(&self) -> impl Iterator<Item = (u32, &[Candidate])> {
+        let bounds = self.first.windows(2).map(|bounds| bounds[0] as usize..bounds[1] as usize);
+        self.slave_nodes.iter().copied().zip(bounds.map(|bounds| &self.candidates[bounds]))
+    }
+
     /// Finds the candidates of the `i`-th slave node whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The search on boxes: which points may meet which faces, and which edges may cross, until the next search.
 
-use super::locate::{Candidate, Interface};
+use super::locate::{Candidate, Interface, Rule};
 use crate::solver::contact::check::{edge_edge, node_face};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
@@ -95,8 +95,14 @@ pub fn find(
             let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
             let faces = &layout.faces;
             let joined = |face: u32| layout.are_joined(point, &faces.corners[face as usize]);
+            let by_blocks = layout.interfaces[number].rule == Rule::Blocks;
+            let block = layout.point_block[point as usize];
+            let kept_apart = |face: u32| by_blocks && layout.exclusions.keep_apart(point, block, face, faces);
             let unrelated = near.filter(|&face| {
-                !faces.same_element(face, point) && !faces.grown_together(point, face) && !joined(face)
+                !faces.same_element(face, point)
+                    && !faces.grown_together(point, face)
+                    && !joined(face)
+                    && !kept_apart(face)
             });
             found.candidates.extend(unrelated.map(|face| Candidate { face, interface: number as u32 }));
         }
@@ -167,7 +173,10 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
             let others = &layout.edges[other as usize].ends;
             one.ends.iter().any(|&end| layout.are_joined(end, others))
         };
-        let others = others.filter(|&other| !joined(other));
+        let kept_apart = |other: u32| {
+            layout.exclusions.keep_edges_apart(one.faces, layout.edges[other as usize].faces, &layout.faces)
+        };
+        let others = others.filter(|&other| !joined(other) && !kept_apart(other));
         let unrelated = others.filter(|&other| edges::unrelated(one, &layout.edges[other as usize], &layout.faces));
         pairs.extend(unrelated.map(|second| [first, second]));
     }

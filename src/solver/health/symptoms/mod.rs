@@ -5,7 +5,7 @@ pub mod contact_gain;
 mod corners;
 mod debris;
 mod given_back;
-mod hourglass;
+pub mod hourglass;
 mod imbalance;
 mod overlap_deep;
 mod overlap_moved;
