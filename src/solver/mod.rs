@@ -58,6 +58,9 @@ const REACHED: f64 = 1e-6;
 /// So many steps at the end are made alike, and shorter by a twentieth at most, so that the last one reaches the end.
 const LAST_STEPS: f64 = 20.0;
 
+/// Accounts below this part of the largest energy supplied so far are round-off: all has come to rest.
+const AT_REST: f64 = 1e-6;
+
 /// One rank's solver.
 pub struct Solver {
     /// This rank's part of the problem.
@@ -340,7 +343,8 @@ impl Solver {
             Some((step, totals)) if step == self.step => totals,
             _ => {
                 self.refresh();
-                let totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
+                let mut totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
+                totals.least_scale = AT_REST * self.watch.supplied;
                 self.last_totals = Some((self.step, totals));
                 totals
             }

@@ -38,6 +38,8 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// Kinetic energy of what MASS SCALING has added. It is a part of `kinetic`.
     pub added_kinetic: f64,
+    /// An energy below which all accounts are round-off of what was supplied before.
+    pub least_scale: f64,
 }
 
 impl Totals {
@@ -58,6 +60,7 @@ impl Totals {
             momentum: [s[7], s[8], s[9]],
             eroded: s[10],
             added_kinetic: s[11],
+            least_scale: 0.0,
         }
     }
 
@@ -84,9 +87,10 @@ impl Totals {
         [self.hourglass, self.bulk_viscosity, self.friction].map(|taken| (-taken).max(0.0))
     }
 
-    /// The largest account.
+    /// The largest account, or what is left of it as `least_scale` when all has come to rest.
     pub fn scale(&self, initial: f64) -> f64 {
-        [self.kinetic, self.internal, initial, self.external, self.contact].iter().fold(0.0, |m, e| e.abs().max(m))
+        let accounts = [self.kinetic, self.internal, initial, self.external, self.contact];
+        accounts.iter().fold(self.least_scale, |m, e| e.abs().max(m))
     }
 
     /// Imbalance over the largest account; 0 when nothing has happened yet.

@@ -56,6 +56,7 @@ const SOUND: Totals = Totals {
     press_fit: 0.0,
     momentum: [0.0; 3],
     added_kinetic: 0.0,
+    least_scale: 0.0,
 };
 
 #[test]
