@@ -92,6 +92,40 @@ fn sheets_stop_each_other_at_their_thickness() {
     }
 }
 
+/// Two sheets in exactly one plane that come together in it, edge to edge and corner to edge, whichever way they look: they stop each
+/// other with half of each thickness in between.
+#[test]
+fn sheets_in_one_plane_meet_edge_to_edge() {
+    for (turned, flipped, triangles) in [
+        (0.0, false, ""),
+        (0.0, true, ""),
+        (45.0, false, ""),
+        (45.0, true, ""),
+        (0.0, false, "TRIANGLES, 1\nTRIANGLES, 2\n"),
+    ] {
+        // Turned by 45 degrees about its middle, a corner comes first.
+        let half = if turned == 0.0 { 0.035 } else { 0.035 * std::f64::consts::SQRT_2 };
+        let mut mesh = recipe(&format!(
+            "TITLE\n TWO SHEETS\nSHEET, 1,  0., 0., 0.,  0.1, 0.1, 0.,  5, 5\n\
+             SHEET, 2,  -0.035, -0.035, 0.,  0.07, 0.07, 0.,  4, 4\nROTATE, 2, Z, {turned}\n\
+             TRANSLATE, 2, {}, 0.047, 0.\n{triangles}",
+            0.1 + half + 1.5 * T
+        ));
+        if flipped {
+            mesh.blocks[1].nodes.chunks_exact_mut(4).for_each(|nodes| nodes.swap(1, 3));
+        }
+        let more =
+            format!("SHELL THICKNESS, 1, {T}\nSHELL THICKNESS, 2, {T}\nINITIAL VELOCITY MATERIAL, 2, -10., 0., 0.\n");
+        let run = on_ranks(&deck(5e-4, &more, 2), &mesh);
+        let least = sound("one plane", &run, &mesh, T);
+        between("one plane", "least distance over that at which they touch", least, 0.99, 1.01);
+        close("one plane", "momentum", run.last().totals.momentum[0], run.lines[0].totals.momentum[0], 1e-10);
+        let (speeds, nodes) = (run.end().nodal("VELX"), nodes_of(&mesh, 1));
+        let mean = nodes.iter().map(|&node| speeds[node]).sum::<f64>() / nodes.len() as f64;
+        between("one plane", "mean velocity of the sheet that was at rest", mean, -10.0, -1.0);
+    }
+}
+
 /// The same where one of the sheets, or both, are of triangles.
 #[test]
 fn sheets_of_triangles_stop_each_other_at_their_thickness() {

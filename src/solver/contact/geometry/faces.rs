@@ -41,6 +41,8 @@ pub struct Faces {
     pub node_reach: Vec<f64>,
     /// Whether the face is one of both sides of a surface.
     two_sided: Vec<bool>,
+    /// Which of its edges are on the border of the surface, a bit for each corner at which one begins.
+    borders: Vec<u8>,
     /// The same depth at the start.
     start_depth: Vec<f64>,
     /// How often the depth has become less by a factor of √2 since then.
@@ -88,6 +90,7 @@ impl Faces {
         faces.depth.clone_from(&faces.start_depth);
         faces.thinning = vec![0; faces.len()];
         faces.connect(points);
+        faces.borders = (0..faces.len() as u32).map(|face| faces.find_borders(face)).collect();
         let thickest =
             |point: u32| faces.around(point).iter().map(|&face| faces.reach[face as usize]).fold(0.0, f64::max);
         faces.node_reach = (0..points as u32).map(thickest).collect();
@@ -112,6 +115,7 @@ impl Faces {
             some.start_depth.push(self.start_depth[face]);
             some.reach.push(self.reach[face]);
             some.two_sided.push(self.two_sided[face]);
+            some.borders.push(self.borders[face]);
             some.thinning.push(self.thinning[face]);
             some.element.push(self.element[face].map(|of| if of == u32::MAX { of } else { point(of) }));
         }
@@ -175,6 +179,28 @@ impl Faces {
             next[point as usize] += 1;
         }
         self.around = around;
+    }
+
+    /// See [`Faces::borders_of`].
+    fn find_borders(&self, face: u32) -> u8 {
+        let corners = self.corners[face as usize];
+        let goes_on = |a: u32, b: u32| {
+            let there = |&other: &u32| self.corners[other as usize].contains(&b);
+            self.around(a)
+                .iter()
+                .filter(|other| there(other))
+                .any(|&other| self.number[other as usize] / 6 != self.number[face as usize] / 6)
+        };
+        let is_border = |i: &usize| {
+            let (a, b) = (corners[*i], corners[(*i + 1) % 4]);
+            a != b && !goes_on(a, b)
+        };
+        if self.two_sided[face as usize] { (0..4).filter(is_border).fold(0, |borders, i| borders | 1 << i) } else { 0 }
+    }
+
+    /// Edges of one side of a surface at which no other element goes on: bit i for that from corner i to the next.
+    pub fn borders_of(&self, face: u32) -> u8 {
+        self.borders[face as usize]
     }
 
     /// Faces with this point as a corner.

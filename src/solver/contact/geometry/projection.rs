@@ -42,14 +42,21 @@ const AROUND: f64 = 3.0;
 
 impl Projection {
     /// The same of a point beyond the border that is near it, seen from the nearest point of the border: faces that touch at a
-    /// distance are round there. The foot is then on the face. Itself elsewhere.
-    pub fn around_border(self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> Projection {
+    /// distance are round there, also in their plane where the surface ends, which is at the edges `borders`, a bit each. The foot is
+    /// then on the face. Itself elsewhere.
+    pub fn around_border(self, corners: &[[f64; 3]; 4], point: [f64; 3], borders: u8) -> Projection {
         let way = subtract(point, foot(corners, &self.weights));
         let length = dot(way, way).sqrt();
-        if self.outside <= 0.0 || self.gap <= 0.0 || self.outside > AROUND * self.gap || length <= 0.0 {
+        let in_front = self.gap > 0.0 && self.outside <= AROUND * self.gap;
+        if self.outside <= 0.0 || length <= 0.0 || !(in_front || self.is_beside(self.gap, borders)) {
             return self;
         }
         Projection { gap: length, normal: scaled(way, 1.0 / length), outside: 0.0, rounded: true, ..self }
+    }
+
+    /// Whether the point, at this height above the face, is beyond the end of a surface, about in its plane: neither side is in the way.
+    pub fn is_beside(&self, height: f64, borders: u8) -> bool {
+        self.outside > AROUND * height.abs() && borders >> self.triangle & 1 == 1
     }
 }
 

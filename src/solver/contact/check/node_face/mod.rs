@@ -183,7 +183,7 @@ impl NodeFaceCheck<'_> {
         };
         let mut projection = projection::project(&corners, at)?;
         if distance > 0.0 {
-            projection = projection.around_border(&corners, at);
+            projection = projection.around_border(&corners, at, self.faces.borders_of(face));
         }
         projection.gap -= distance;
         Some(projection)
@@ -219,6 +219,8 @@ impl NodeFaceCheck<'_> {
                 if self.in_reach(past.face, &projection, past.tolerated) {
                     contacts.push(self.held(past.face, projection, past.tolerated));
                 }
+            } else if self.is_beside(point, past.face, &projection) {
+                contacts.extend(self.held_around(point, past.face, past.tolerated));
             } else if left.is_none() {
                 left = Some((past.face, past.tolerated, projection));
             }
@@ -229,6 +231,12 @@ impl NodeFaceCheck<'_> {
         self.still_around(point, near, past, contacts);
         // Of the faces around those that hold the point only those that fold towards it can hold it as well.
         self.folds(point, near, contacts);
+    }
+
+    /// Whether a point stands beside the end of a surface, whose projection counts its gap from where they touch.
+    fn is_beside(&self, point: u32, face: u32, projection: &Projection) -> bool {
+        let distance = self.faces.distance(point, face);
+        distance > 0.0 && projection.is_beside(projection.gap + distance, self.faces.borders_of(face))
     }
 
     /// A point that has left its faces: on to a face around the first of them, or held by that as it was.
