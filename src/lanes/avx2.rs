@@ -116,8 +116,8 @@ impl Lanes for F64x4 {
         [first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]]
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        let turned = transpose([force[0].0, force[1].0, force[2].0, unsafe { _mm256_setzero_pd() }]);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+        let turned = transpose(force.map(|vector| vector.0));
         for (i, vector) in turned.into_iter().enumerate() {
             unsafe { _mm256_store_pd(out[part * 4 + i][corner].0.as_mut_ptr(), vector.0) }
         }

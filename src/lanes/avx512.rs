@@ -126,11 +126,10 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, _part: usize) {
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, _part: usize) {
         unsafe {
-            let zero = _mm512_setzero_pd();
             let (a, b) = (_mm512_unpacklo_pd(force[0].0, force[1].0), _mm512_unpackhi_pd(force[0].0, force[1].0));
-            let (p, q) = (_mm512_unpacklo_pd(force[2].0, zero), _mm512_unpackhi_pd(force[2].0, zero));
+            let (p, q) = (_mm512_unpacklo_pd(force[2].0, force[3].0), _mm512_unpackhi_pd(force[2].0, force[3].0));
             let low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0);
             let high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
             // Elements (0, 2), (1, 3), (4, 6), (5, 7).

@@ -136,7 +136,8 @@ pub fn prefetch<R: Numbers>(rows: &[R]) {
     let _ = rows;
 }
 
-/// A force on a node, `[x, y, z, 0]`; four numbers so that it moves as one vector.
+/// What an element adds to a node, `[x, y, z, s]`: a force, and a number of its own that neighbours are to hear of (0 where there is
+/// none); four numbers so that it moves as one vector.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(32))]
 pub struct Force(pub [f64; 4]);
@@ -215,8 +216,8 @@ pub trait Lanes:
     fn of_halves(upper: Self, _lower: Self) -> Self {
         upper
     }
-    /// Turns three component vectors into forces of the part's elements: `out[element][corner]`.
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize);
+    /// Turns four component vectors into what the part's elements add to a node: `out[element][corner]`.
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize);
 }
 
 /// The vectors in which a kernel of a precision is compiled, named by its single number.

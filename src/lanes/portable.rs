@@ -102,9 +102,9 @@ impl<T: Lanes> Lanes for Pair<T> {
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        T::spread(array![i in 3 => force[i].0[0]], out, corner, 2 * part);
-        T::spread(array![i in 3 => force[i].0[1]], out, corner, 2 * part + 1);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+        T::spread(array![i in 4 => force[i].0[0]], out, corner, 2 * part);
+        T::spread(array![i in 4 => force[i].0[1]], out, corner, 2 * part + 1);
     }
 }
 
@@ -159,7 +159,7 @@ impl Lanes for f64 {
         rows[index[part] as usize].0
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        out[part][corner] = Force([force[0], force[1], force[2], 0.0]);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+        out[part][corner] = Force(force);
     }
 }

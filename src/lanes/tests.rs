@@ -103,7 +103,7 @@ fn operate<V: Lanes>([a, b, c]: &[V::Row; 3]) -> Vec<V::Row> {
     out
 }
 
-/// Rows gathered, as they are and from others, turned and spread again: components 0 to 2 come back as forces.
+/// Rows gathered, as they are and from others, turned and spread again: four of the components come back as forces.
 #[inline(always)]
 fn turn<V: Lanes>((rows, [origin, index]): &(&[Row], [Corner; 2])) -> Turned<V::Row> {
     let (mut own, mut from) = (vec![V::Row::default(); 8], vec![V::Row::default(); 8]);
@@ -116,7 +116,7 @@ fn turn<V: Lanes>((rows, [origin, index]): &(&[Row], [Corner; 2])) -> Turned<V::
             relative[c].store(&mut from[c], part);
         }
         for corner in 0..8 {
-            let force = [gathered[corner], gathered[(corner + 1) % 8], gathered[(corner + 2) % 8]];
+            let force = array![i in 4 => gathered[(corner + i) % 8]];
             V::spread(force, &mut forces, corner, part);
         }
     }
@@ -227,8 +227,8 @@ fn gathering_and_spreading_turn_rows<P: Precision>() {
             for c in 0..8 {
                 assert_eq!(own[c].number(lane), rounded(row(index)[c]));
                 assert_eq!(from[c].number(lane), rounded(row(index)[c] - row(origin)[c]));
-                let expected = [0, 1, 2].map(|i| rounded(row(index)[(c + i) % 8]));
-                assert_eq!(forces[lane][c].0, [expected[0], expected[1], expected[2], 0.0]);
+                let expected = [0, 1, 2, 3].map(|i| rounded(row(index)[(c + i) % 8]));
+                assert_eq!(forces[lane][c].0, expected);
             }
         }
     }

@@ -220,6 +220,9 @@ pub const END_POWER: &str = "ENDPOWER";
 pub const CORNERS: [&str; 9] =
     ["CORNER1", "CORNER2", "CORNER3", "CORNER4", "CORNER5", "CORNER6", "CORNER7", "CORNER8", "LEASTCOR"];
 
+/// Stored by laws with [`Kernel::FLUID`] before these: the rate at which the volume grew in the last step, over it, 1/time.
+pub const VOLUME_RATE: &str = "VOLRATE";
+
 /// A law as the element kernel sees it: one material point per lane, in a frame that turns with the material.
 ///
 /// An implementation is compiled into the element loop of its own, so nothing here costs a call.

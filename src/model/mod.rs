@@ -174,6 +174,11 @@ impl Model {
     pub fn section(&self, command: &str, block: i64) -> Option<&Section> {
         self.sections.iter().rfind(|section| section.command == command && section.block == block)
     }
+
+    /// Whether any material is a fluid: see [`Law::is_fluid`](crate::material::Law::is_fluid).
+    pub fn has_fluids(&self) -> bool {
+        self.materials.iter().any(|material| material.law.is_fluid())
+    }
 }
 
 /// HISTORY: what is watched.

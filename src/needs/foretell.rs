@@ -46,8 +46,7 @@ fn apart(mesh: &Mesh, model: &Model, solver: &Solver) -> Vec<String> {
     };
     let blocks: Vec<&Block> = mesh.blocks.iter().filter(chosen).filter(|block| !block.is_empty()).collect();
     // What an equation of state drives has no speed yet.
-    let fluid = model.materials.iter().any(|material| material.law.is_fluid());
-    if driven || fluid || blocks.len() < 2 {
+    if driven || model.has_fluids() || blocks.len() < 2 {
         return Vec::new();
     }
     let nodes = &solver.domain.nodes;

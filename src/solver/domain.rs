@@ -7,7 +7,7 @@ use super::elements::{Element, ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::exchange::Exchange;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
-use super::nodes::{Nodes, add, cross, dot, scaled, subtract};
+use super::nodes::{Nodes, Rates, add, cross, dot, scaled, subtract};
 use super::rigid::RigidBodies;
 use super::rotations::Rotations;
 use super::tied::Ties;
@@ -134,7 +134,7 @@ impl Domain {
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
         let mut domain = Domain {
-            nodes: nodes(mesh, body, share),
+            nodes: nodes(mesh, model, body, share),
             blocks: blocks(mesh, model, body, share, &local),
             element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
             element_file,
@@ -154,7 +154,7 @@ impl Domain {
             erosion: None,
             added_mass: body.added_mass.of_nodes(&share.nodes),
             mass_added: (!model.mass_scalings.is_empty()).then(|| body.added_mass.total()),
-            exchange: Exchange::new(share),
+            exchange: Exchange::new(share, model.has_fluids()),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
         domain.rigid = RigidBodies::new(mesh, model, body, &local, &domain.nodes);
@@ -341,7 +341,7 @@ fn rotations(body: &Body, share: &Share, local: &[u32]) -> Vec<(u32, u32)> {
     share.nodes.iter().enumerate().filter_map(of).filter(|(_, rotation)| *rotation != ABSENT).collect()
 }
 
-fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
+fn nodes(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Nodes {
     let row = |&file: &u32| {
         let ([x, y, z], m) = (body.start_of(file), body.node_mass[file as usize]);
         let inverse = body.tied.inverse_mass(file, &body.node_mass).unwrap_or(1.0 / m);
@@ -358,8 +358,28 @@ fn nodes(mesh: &Mesh, body: &Body, share: &Share) -> Nodes {
         places: share.nodes.partition_point(|&file| (file as usize) < mesh.coordinates.len()),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
+        rates: rates(mesh, model, body, share),
         passive: Vec::new(),
     }
+}
+
+/// How many corners of elements of fluids there are at the nodes of the mesh that a rank has, its own elements and others'.
+fn rates(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Rates {
+    if !model.has_fluids() {
+        return Rates::default();
+    }
+    // Elements of rigid bodies do not move of their own accord, and say nothing.
+    let is_fluid =
+        |block: usize| body.block_body[block].is_none() && model.materials[body.block_material[block]].law.is_fluid();
+    let fluids: Vec<bool> = (0..body.block_material.len()).map(is_fluid).collect();
+    let mut corners = vec![0u32; mesh.coordinates.len()];
+    for (nodes, &block) in body.element_nodes.iter().zip(&*body.element_block) {
+        if fluids[block as usize] {
+            nodes.iter().for_each(|&node| corners[node as usize] += 1);
+        }
+    }
+    let here = share.nodes.iter().map_while(|&node| corners.get(node as usize).copied());
+    Rates::new(&here.collect::<Vec<u32>>())
 }
 
 /// Element blocks with elements on this rank. Elements come block by block, so each block is one run of them.

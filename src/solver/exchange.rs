@@ -16,13 +16,15 @@ pub struct Exchange {
     /// Place of the first corner of the first loaded face among them.
     pub first_face: usize,
     peers: Vec<Peer>,
+    /// Whether the fourth numbers travel, too: they say something where there are fluids.
+    rates: bool,
     /// The share's plan of messages and sums, its slots numbered as in `slots`.
     plan: Share,
 }
 
 impl Exchange {
-    /// From a rank's share of the body: its elements and its loaded faces.
-    pub fn new(share: &Share) -> Exchange {
+    /// From a rank's share of the body: its elements and its loaded faces. With `rates` the fourth numbers travel, too.
+    pub fn new(share: &Share, rates: bool) -> Exchange {
         let compact = CompactSlots::new(share);
         let faces: usize = share.groups[1..].iter().map(|faces| faces.nodes.nodes().len()).sum();
         let mut plan = Share { groups: Vec::new(), nodes: Vec::new(), owned: Vec::new(), ..share.clone() };
@@ -37,7 +39,8 @@ impl Exchange {
         Exchange {
             slots: vec![Force::default(); compact.kept as usize + faces],
             first_face: compact.kept as usize,
-            peers: share.peers(3),
+            peers: share.peers(if rates { 4 } else { 3 }),
+            rates,
             plan,
         }
     }
@@ -47,7 +50,12 @@ impl Exchange {
         if self.peers.is_empty() {
             return;
         }
-        self.plan.pack(&mut self.peers, |slot| negative(&self.slots[slot as usize]));
+        let own = |slot: u32| negative(&self.slots[slot as usize]);
+        if self.rates {
+            self.plan.pack(&mut self.peers, own);
+        } else {
+            self.plan.pack(&mut self.peers, |slot| without_rate(own(slot)));
+        }
         comm.start_exchange(&mut self.peers);
     }
 
@@ -58,13 +66,22 @@ impl Exchange {
         }
         comm.finish_exchange(&mut self.peers);
         let own = |slot: u32| negative(&self.slots[slot as usize]);
-        self.plan.sum(&self.peers, own, |node, [x, y, z]| forces[node as usize] = Force([x, y, z, 0.0]));
+        if self.rates {
+            self.plan.sum(&self.peers, own, |node, sum| forces[node as usize] = Force(sum));
+        } else {
+            let own = |slot: u32| without_rate(own(slot));
+            self.plan.sum(&self.peers, own, |node, [x, y, z]| forces[node as usize] = Force([x, y, z, 0.0]));
+        }
     }
 }
 
 /// What subtracting a contribution adds: the same bits as the subtraction itself.
-fn negative(force: &Force) -> [f64; 3] {
-    [-force.0[0], -force.0[1], -force.0[2]]
+fn negative(force: &Force) -> [f64; 4] {
+    force.0.map(|number| -number)
+}
+
+fn without_rate([x, y, z, _]: [f64; 4]) -> [f64; 3] {
+    [x, y, z]
 }
 
 /// Numbers of the slots that are really kept: those of border elements and of loaded faces.

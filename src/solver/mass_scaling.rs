@@ -216,7 +216,7 @@ fn steps_of(mesh: &Mesh, model: &Model, body: &Body, batch: &[usize]) -> Vec<f64
         moduli: model.time_step.moduli,
         instructions: InstructionSet::detect(),
     };
-    at_rest.run(&rows, Sink::Nodes { forces: &mut forces, border: &[] }, &settings);
+    at_rest.run(&rows, &[], Sink::Nodes { forces: &mut forces, border: &[] }, &settings);
     let steps = &at_rest.interior.steps;
     (0..batch.len()).map(|i| steps[i / CHUNK].0[i % CHUNK]).collect()
 }

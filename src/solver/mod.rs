@@ -422,6 +422,7 @@ impl Solver {
         self.add_faces();
         self.clock.stop(Section::Assembly);
         self.domain.exchange.finish(comm, &mut self.domain.nodes.forces);
+        self.domain.nodes.keep_rates();
         self.clock.stop(Section::Communication);
         self.local = found;
     }
@@ -448,7 +449,7 @@ impl Solver {
         let mut slots = &mut exchange.slots[..];
         for block in blocks {
             let (own, rest) = slots.split_at_mut(block.border.force_count());
-            found = found.and(block.run(&nodes.rows, Sink::Apart(own), &self.pass));
+            found = found.and(block.run(&nodes.rows, &nodes.rates.means, Sink::Apart(own), &self.pass));
             slots = rest;
         }
         found
@@ -461,7 +462,7 @@ impl Solver {
         for block in blocks {
             let (border, rest) = slots.split_at(block.border.force_count());
             let sink = Sink::Nodes { forces: &mut nodes.forces, border };
-            found = found.and(block.run(&nodes.rows, sink, &self.pass));
+            found = found.and(block.run(&nodes.rows, &nodes.rates.means, sink, &self.pass));
             slots = rest;
         }
         found

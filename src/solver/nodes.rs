@@ -21,11 +21,50 @@ pub struct Nodes {
     pub file: Vec<u32>,
     /// Whether this rank answers for the node: one rank does, of those that share it.
     pub owned: Vec<bool>,
+    /// What elements of fluids hear of their neighbours.
+    pub rates: Rates,
     /// Nodes that are not integrated, ascending: those inside rigid bodies, on which no force acts.
     pub passive: Vec<Range<usize>>,
 }
 
+/// Mean rates, at each node, at which the volumes of the elements of fluids there grow; empty where there are no such elements.
+#[derive(Debug, Clone, Default)]
+pub struct Rates {
+    /// Whether there are such elements on any rank.
+    wanted: bool,
+    /// One over the number of corners of such elements at a node of the mesh, zero where there are none. Elements that are gone
+    /// go on to count, as if their volumes stood still.
+    shares: Vec<f64>,
+    /// Means of the last pass over the elements, 1/time.
+    pub means: Vec<f64>,
+}
+
+impl Rates {
+    /// From the number of corners at each node; before the first pass nothing is known.
+    pub fn new(corners: &[u32]) -> Rates {
+        let share = |&count: &u32| if count == 0 { 0.0 } else { 1.0 / f64::from(count) };
+        Rates { wanted: true, shares: corners.iter().map(share).collect(), means: vec![0.0; corners.len()] }
+    }
+
+    /// Whether any element asks for them.
+    pub fn are_wanted(&self) -> bool {
+        self.wanted
+    }
+
+    /// Takes the sums of a pass, which come subtracted as forces do, out of these.
+    fn take(&mut self, forces: &mut [Force]) {
+        for ((mean, share), force) in self.means.iter_mut().zip(&self.shares).zip(forces) {
+            *mean = -share * std::mem::take(&mut force.0[3]);
+        }
+    }
+}
+
 impl Nodes {
+    /// Keeps what the elements of fluids have said of their rates in the last pass. Forces are forces alone from then on.
+    pub fn keep_rates(&mut self) {
+        self.rates.take(&mut self.forces);
+    }
+
     /// Number of nodes, rotations and whatever else is behind them.
     pub fn len(&self) -> usize {
         self.rows.len()

@@ -25,7 +25,12 @@ impl Solver {
             let mut trial = BlockTrial { index: block.index, stable_step: f64::INFINITY, seconds: f64::INFINITY };
             for _ in 0..passes {
                 let begun = Instant::now();
-                let found = block.run(&nodes.rows, Sink::Nodes { forces: &mut forces, border: &[] }, &self.pass);
+                let found = block.run(
+                    &nodes.rows,
+                    &nodes.rates.means,
+                    Sink::Nodes { forces: &mut forces, border: &[] },
+                    &self.pass,
+                );
                 trial.seconds = trial.seconds.min(begun.elapsed().as_secs_f64());
                 trial.stable_step = trial.stable_step.min(found.stable_step);
             }

@@ -170,8 +170,8 @@ impl Lanes for F32x8 {
         }])
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        let turned = transpose_halves([force[0].0, force[1].0, force[2].0, unsafe { _mm256_setzero_ps() }]);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+        let turned = transpose_halves(force.map(|vector| vector.0));
         for (i, pair) in turned.into_iter().enumerate() {
             unsafe {
                 let first = _mm256_cvtps_pd(_mm256_castps256_ps128(pair));

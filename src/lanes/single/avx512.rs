@@ -171,9 +171,9 @@ impl Lanes for F32x16 {
         turned([less(rows, origin[0], index[0]), less(rows, origin[1], index[1])])
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, _part: usize) {
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, _part: usize) {
         unsafe {
-            let turned = transpose_quarters([force[0].0, force[1].0, force[2].0, _mm512_setzero_ps()]);
+            let turned = transpose_quarters(force.map(|vector| vector.0));
             for (i, four) in turned.into_iter().enumerate() {
                 let halves = [_mm512_castps512_ps256(four), _mm512_extractf32x8_ps::<1>(four)];
                 for (h, half) in halves.into_iter().enumerate() {

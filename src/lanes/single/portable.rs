@@ -75,8 +75,7 @@ impl Lanes for f32 {
         array![c in 8 => (own.0[c] - first.0[c]) as f32]
     }
     #[inline(always)]
-    fn spread(force: [Self; 3], out: &mut CornerForces, corner: usize, part: usize) {
-        let [x, y, z] = force.map(f64::from);
-        out[part][corner] = Force([x, y, z, 0.0]);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+        out[part][corner] = Force(force.map(f64::from));
     }
 }

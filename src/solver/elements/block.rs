@@ -311,14 +311,21 @@ impl ElementBlock {
         let ElementBlock { element, law, border, interior, .. } = self;
         // The steps of the elements are not to be overwritten.
         let kept = [&mut *border, &mut *interior].map(|group| std::mem::take(&mut group.steps));
-        let pass =
-            Pass { border: &mut *border, interior: &mut *interior, nodes, sink, instructions: settings.instructions };
+        let pass = Pass {
+            border: &mut *border,
+            interior: &mut *interior,
+            nodes,
+            rates: &[],
+            sink,
+            instructions: settings.instructions,
+        };
         element.probe(probe, pass, law, settings);
         [border.steps, interior.steps] = kept;
     }
 
-    /// Advances one group: the border elements when the sink keeps forces apart, else the interior.
-    pub fn run(&mut self, nodes: &[Row], sink: Sink, settings: &PassSettings) -> PassOutcome {
+    /// Advances one group: the border elements when the sink keeps forces apart, else the interior. `rates` are those of
+    /// [`Nodes`], which fluids ask for.
+    pub fn run(&mut self, nodes: &[Row], rates: &[f64], sink: Sink, settings: &PassSettings) -> PassOutcome {
         let ElementBlock { element, law, density, border, interior, keeps_steps, rigid, .. } = self;
         if *rigid {
             return PassOutcome::NOTHING;
@@ -327,7 +334,7 @@ impl ElementBlock {
             let group = if matches!(sink, Sink::Apart(_)) { &mut *border } else { &mut *interior };
             group.steps.resize(group.mass.len(), Row::default());
         }
-        let pass = Pass { border, interior, nodes, sink, instructions: settings.instructions };
+        let pass = Pass { border, interior, nodes, rates, sink, instructions: settings.instructions };
         element.run(pass, law, *density, settings)
     }
 }

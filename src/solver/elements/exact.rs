@@ -48,6 +48,11 @@ impl AccountRows {
         end - 9..end
     }
 
+    /// Row of the rate of the volume in the last pass, of fluids.
+    pub fn of_rate<K: Kernel>(&self) -> usize {
+        self.of_corners::<K>().start - 1
+    }
+
     fn end_power<K: Kernel>(&self) -> usize {
         self.law + K::STATE.len() - 1
     }

@@ -41,6 +41,29 @@ pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
     growing.min(shrinking).min(otherwise)
 }
 
+/// A neighbour's rate may be this many times smaller than the element's own before viscosity acts in full: see [`jump`].
+const STEEPEST: f64 = 2.0;
+
+/// The part 1 − ψ of bulk viscosity that acts: 0 where the rate of the volume goes on evenly from element to element, 1 where it
+/// jumps. With the ratios r of both neighbours' rates to the own one, ψ = max(0, min(1, (r₋ + r₊)/2, 2 r₋, 2 r₊)), and the least of
+/// it over the directions counts (Christensen 1991; Benson 1992; Caramana, Shashkov and Whalen 1998). `last` and `means` belong to
+/// the last pass; `means` are those over pairs of opposite faces, half of which is the element's own, so that r = 2 mean/last − 1.
+/// Where the rate is larger `now`, ψ is smaller by as much: what acts would else depend on how near to nothing the last one was.
+#[inline(always)]
+pub fn jump<V: Lanes>([last, now]: [V; 2], means: &[[V; 2]]) -> V {
+    let (zero, one, two) = (V::splat(0.0), V::splat(1.0), V::splat(2.0));
+    let (half, steepest) = (V::splat(0.5), V::splat(STEEPEST));
+    let sign = V::select_less(last, zero, -one, one);
+    let size = last * sign;
+    let mut even = size;
+    for pair in means {
+        let [a, b] = pair.map(|mean| (two * mean - last) * sign);
+        even = even.min((a + b) * half).min(a * steepest).min(b * steepest);
+    }
+    // A rate of nothing jumps; where one is no number, viscosity acts.
+    one - even.max(zero) / size.max(now.max(-now)).max(V::splat(V::TINY))
+}
+
 /// What holds the corners of an element, and what that costs its stable step.
 pub struct Brake<V> {
     volume: V,
@@ -101,4 +124,34 @@ impl<V: Lanes> Brake<V> {
 #[inline(always)]
 pub fn any_close<V: Lanes>(row: &V::Row, part: usize) -> bool {
     V::any_less(V::load(row, part), V::splat(CLOSE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::jump;
+
+    /// In one direction, given the rates of the element and of its neighbours.
+    fn between(own: f64, [left, right]: [f64; 2]) -> f64 {
+        jump([own, own], &[[0.5 * (own + left), 0.5 * (own + right)]])
+    }
+
+    #[test]
+    fn viscosity_acts_where_rates_jump() {
+        // Even flow: nothing acts, in compression and in expansion.
+        for own in [-3.0, 2.0] {
+            assert_eq!(between(own, [own, own]), 0.0);
+            assert_eq!(between(own, [0.75 * own, 1.25 * own]), 0.0);
+            assert_eq!(between(own, [0.5 * own, own]), 0.25);
+            // The foot and the top of a front, and what rings.
+            assert_eq!(between(own, [0.0, 4.0 * own]), 1.0);
+            assert_eq!(between(own, [0.0, 0.0]), 1.0);
+            assert_eq!(between(own, [-own, -own]), 1.0);
+        }
+        assert_eq!(between(0.0, [1.0, 1.0]), 1.0);
+        assert_eq!(between(f64::NAN, [1.0, 1.0]), 1.0);
+        // Directions: the least even one counts. A rate that has doubled since: half of it acts.
+        assert_eq!(jump([1.0, 1.0], &[[1.0, 1.0], [0.5, 0.5]]), 1.0);
+        assert_eq!(jump([1.0, 2.0], &[[1.0, 1.0]]), 0.5);
+        assert_eq!(jump([1.0, -2.0], &[[1.0, 1.0]]), 0.5);
+    }
 }

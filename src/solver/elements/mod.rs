@@ -27,7 +27,7 @@ use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
 pub use formulation::{Energies, Entry, Formulation, PointEntry, Probe, Sample, StoredRow, Touch, Unfit};
-pub use pass::{Masses, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
+pub use pass::{Given, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 pub use shell::triangle;
 
 macro_rules! elements {

@@ -76,6 +76,9 @@ pub trait StepKernel<const N: usize> {
     /// Whether the forces of an element add up to nothing, so that rounding may be made good.
     const BALANCED: bool = true;
 
+    /// Whether it asks for the rates of its neighbours: see [`Given::rates`].
+    const NEIGHBOURS: bool = false;
+
     /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
     #[inline(always)]
     fn about_axis(&self) -> bool {
@@ -83,24 +86,27 @@ pub trait StepKernel<const N: usize> {
     }
 
     /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities by direction and corner,
-    /// both relative to the first corner, and the elements' masses. Advances the rows of `state`.
+    /// both relative to the first corner. Advances the rows of `state`.
     fn step<V: Lanes>(
         &self,
         positions: &[[V; N]; 3],
         velocities: &[[V; N]; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, N>,
     ) -> Outcome<V, N>;
 }
 
-/// The masses of the elements of one part of a chunk.
+/// What the elements of one part of a chunk are given beside their motion.
 #[derive(Debug, Clone, Copy)]
-pub struct Masses<V> {
+pub struct Given<V, const N: usize> {
     /// Mass of the material: over its density, the volume at the start.
     pub material: V,
     /// What the corners have to move: the same, and what MASS SCALING has added.
     pub moving: V,
+    /// At each corner the mean of the [`Outcome::rate`] that its elements had in the last pass; zeros unless
+    /// [`StepKernel::NEIGHBOURS`].
+    pub rates: [V; N],
 }
 
 /// What a part of a chunk hands back.
@@ -109,6 +115,8 @@ pub struct Outcome<V, const N: usize> {
     pub force: [[V; N]; 3],
     /// Largest stable time step; not positive, or no number, of an element that has failed.
     pub stable_step: V,
+    /// Rate at which the volume grows, over it, of elements whose neighbours ask; else zero.
+    pub rate: V,
 }
 
 /// A pass over one group of a block: its border elements when the sink keeps forces apart, else its interior.
@@ -119,6 +127,8 @@ pub struct Pass<'a> {
     pub interior: &'a mut Group,
     /// Nodes.
     pub nodes: &'a [Row],
+    /// Mean rates of the elements at each node, empty where no element asks: see [`Given::rates`].
+    pub rates: &'a [f64],
     /// Where the forces go.
     pub sink: Sink<'a>,
     /// Instruction set.
@@ -127,8 +137,9 @@ pub struct Pass<'a> {
 
 impl<'a> Pass<'a> {
     /// The group to advance, the nodes and where the forces go.
-    fn taken_apart(self) -> (&'a mut Group, &'a [Row], Target<'a>, InstructionSet) {
-        let Pass { border, interior, nodes, sink, instructions } = self;
+    fn taken_apart(self) -> (&'a mut Group, NodeNumbers<'a>, Target<'a>, InstructionSet) {
+        let Pass { border, interior, nodes, rates, sink, instructions } = self;
+        let nodes = NodeNumbers { rows: nodes, rates };
         match sink {
             Sink::Apart(slots) => (border, nodes, Target::Apart(slots), instructions),
             Sink::Nodes { forces, border: slots } => {
@@ -170,7 +181,7 @@ impl<'a> Pass<'a> {
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
-    nodes: &[Row],
+    nodes: NodeNumbers,
     sink: Target,
     kernel: &S,
 ) -> PassOutcome {
@@ -181,11 +192,18 @@ unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
 #[target_feature(enable = "avx2")]
 unsafe fn chunks_avx2<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
-    nodes: &[Row],
+    nodes: NodeNumbers,
     sink: Target,
     kernel: &S,
 ) -> PassOutcome {
     chunks::<V, N, S>(group, nodes, sink, kernel)
+}
+
+/// What a pass fetches from nodes.
+#[derive(Clone, Copy)]
+struct NodeNumbers<'a> {
+    rows: &'a [Row],
+    rates: &'a [f64],
 }
 
 /// Where the forces of a chunk go, with what the merge of border elements has to remember.
@@ -244,7 +262,7 @@ impl Merge<'_> {
 #[inline(always)]
 fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     group: &mut Group,
-    nodes: &[Row],
+    nodes: NodeNumbers,
     mut sink: Target,
     kernel: &S,
 ) -> PassOutcome {
@@ -263,15 +281,16 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
-            let (x, v) = relative_corners::<V, N>(nodes, connectivity, part, kernel.about_axis(), places);
+            let (x, v) = relative_corners::<V, N>(nodes.rows, connectivity, part, kernel.about_axis(), places);
             let material = V::load_double(&group.mass[chunk..], part);
             let moving = group.moving.get(chunk..).filter(|rows| !rows.is_empty());
             let moving = moving.map_or(material, |rows| V::load_double(rows, part));
-            let mass = Masses { material, moving };
-            let outcome = kernel.step(&x, &v, state, part, mass);
+            let rates =
+                if S::NEIGHBOURS { gathered::<V, N>(nodes.rates, connectivity, part) } else { [V::splat(0.0); N] };
+            let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
             for corner in 0..N {
-                let force = [outcome.force[0][corner], outcome.force[1][corner], outcome.force[2][corner]];
-                V::spread(force, &mut corner_forces, corner, part);
+                let [x, y, z] = &outcome.force;
+                V::spread([x[corner], y[corner], z[corner], outcome.rate], &mut corner_forces, corner, part);
             }
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
             let (here, step) = (V::splat(row as f64), outcome.stable_step);
@@ -312,14 +331,30 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
 #[inline(always)]
 fn balance<const N: usize>(forces: &mut CornerForces) {
     for corners in forces {
-        let mut sum = [0.0; 4];
+        let mut sum = [0.0; 3];
         for corner in &corners[1..N] {
             for (sum, force) in sum.iter_mut().zip(corner.0) {
                 *sum += force;
             }
         }
-        corners[0] = Force(sum.map(|sum| 0.0 - sum));
+        let [x, y, z] = sum.map(|sum| 0.0 - sum);
+        corners[0] = Force([x, y, z, corners[0].0[3]]);
     }
+}
+
+/// Numbers of nodes, one per corner.
+#[inline(always)]
+fn gathered<V: Lanes, const N: usize>(numbers: &[f64], connectivity: &[[[u32; CHUNK]; N]], part: usize) -> [V; N] {
+    let mut gathered = [V::splat(0.0); N];
+    for (corner, gathered) in gathered.iter_mut().enumerate() {
+        let mut row = V::Row::default();
+        for lane in part * V::COUNT..(part + 1) * V::COUNT {
+            let node = connectivity[lane / CHUNK][corner][lane % CHUNK];
+            row.set(lane, numbers.get(node as usize).copied().unwrap_or_default());
+        }
+        *gathered = V::load(&row, part);
+    }
+    gathered
 }
 
 /// Positions and velocities of the corners, relative to the first corner so that neither a far origin nor a fast

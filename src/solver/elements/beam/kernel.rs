@@ -4,7 +4,7 @@ use super::section::MOST_FIBRES;
 use super::{point_rows, rows};
 use crate::lanes::{Lanes, array};
 use crate::material::{Kernel, Moduli};
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::uniaxial;
 
 /// What holds for all beams of a block in a step.
@@ -110,7 +110,7 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
         velocities: &[[V; 4]; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 4>,
     ) -> Outcome<V, 4> {
         let (zero, half, dt) = (V::splat(0.0), V::splat(0.5), V::splat(self.times[1]));
         // (i) axes before, in the middle of and after the step; rates in the middle
@@ -140,10 +140,11 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
         let force: [V; 3] = array![i in 3 => n * e1[i] + qy * e2[i] + qz * e3[i]];
         let moment: [V; 3] = array![i in 3 => t * e1[i] + my * e2[i] + mz * e3[i]];
         let couple: [V; 3] = array![i in 3 => lever * (qz * e2[i] - qy * e3[i])];
-        let stable_step = self.stable_step(now.length, state, part, mass.moving);
+        let stable_step = self.stable_step(now.length, state, part, given.moving);
         Outcome {
             force: array![i in 3 => [zero - force[i], force[i], couple[i] - moment[i], couple[i] + moment[i]]],
             stable_step: V::select_less(zero, now.length, stable_step, zero),
+            rate: zero,
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, do
 use crate::solver::elements::hexahedron::hourglass::Resistance;
 use crate::solver::elements::hexahedron::kernel::{corner_forces, hourglass_rates, lengths};
 use crate::solver::elements::hexahedron::kinematics::{self, Motion};
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
@@ -62,7 +62,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         velocities: &[Corners<V>; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 8>,
     ) -> Outcome<V, 8> {
         let settings = &self.settings;
         let (zero, one, half) = (V::splat(0.0), V::splat(1.0), V::splat(0.5));
@@ -105,7 +105,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         let Answer { moments, old, stiffest } = self.points(motion, middle_volume, state, part);
 
         // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity, as with one point: the assumed strain's stiffness is the same
-        let light = mass.moving * V::splat(settings.least_share);
+        let light = given.moving * V::splat(settings.least_share);
         let operator = gradient(&x);
         let b_squared = operator.square4608();
         let measure = stiffness_measure(&operator);
@@ -134,7 +134,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         }]];
         let total = moments.mean.rotate(&r).add_diagonal(viscous);
         let force = corner_forces(&total, &resistance, &x, &operator.g24, one / operator.volume192);
-        Outcome { force, stable_step }
+        Outcome { force, stable_step, rate: V::splat(0.0) }
     }
 }
 

@@ -24,6 +24,11 @@ pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
     ROWS.of_corners::<K>()
 }
 
+/// Row of the rate of the volume in the last pass, of fluids.
+pub fn rate_row<K: Kernel>() -> usize {
+    ROWS.of_rate::<K>()
+}
+
 /// What is known of a step's work before the law has found its stress.
 pub struct Start<V> {
     /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is

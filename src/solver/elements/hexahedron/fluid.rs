@@ -16,6 +16,16 @@ pub fn resistance<V: Lanes>(rates: &Resistance<V>, factor: f64, mass: V, stable_
     array![i in 3 => array![a in 4 => viscosity * rates[i][a]]]
 }
 
+/// Corners of the faces, opposite ones side by side.
+const FACES: [[[usize; 4]; 2]; 3] =
+    [[[0, 3, 4, 7], [1, 2, 5, 6]], [[0, 1, 4, 5], [3, 2, 7, 6]], [[0, 1, 2, 3], [4, 5, 6, 7]]];
+
+/// Means of what the corners have over the faces, opposite ones side by side.
+#[inline(always)]
+pub fn across<V: Lanes>(of: &Corners<V>) -> [[V; 2]; 3] {
+    array![k in 3 => FACES[k].map(|f| ((of[f[0]] + of[f[1]]) + (of[f[2]] + of[f[3]])) * V::splat(0.25))]
+}
+
 /// The Jacobian of a corner, e₁·(e₂ × e₃) of its three edges: its derivatives by the edges, and its rate.
 struct Corner<V> {
     jacobian: V,

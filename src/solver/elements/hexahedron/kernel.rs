@@ -12,8 +12,8 @@ use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
-use crate::solver::elements::fluid::gentle_step;
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::fluid::{gentle_step, jump};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
@@ -65,6 +65,8 @@ pub struct Physics<'a, K, H> {
 }
 
 impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
+    const NEIGHBOURS: bool = K::FLUID;
+
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
@@ -72,9 +74,9 @@ impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
         velocities: &[Corners<V>; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 8>,
     ) -> Outcome<V, 8> {
-        step(positions, velocities, state, part, mass, self)
+        step(positions, velocities, state, part, given, self)
     }
 }
 
@@ -86,7 +88,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     velocities: &[Corners<V>; 3],
     state: &mut [V::Row],
     part: usize,
-    mass: Masses<V>,
+    given: Given<V, 8>,
     Physics { settings, law, control }: &Physics<K, H>,
 ) -> Outcome<V, 8> {
     let time_step = V::splat(settings.time_step);
@@ -123,7 +125,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let old = Sym3::load(&state[rows::STRESS..], part);
     let mut stress = old;
     let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
-    let inverse_volume = V::splat(settings.density) / mass.material;
+    let inverse_volume = V::splat(settings.density) / given.material;
     let (energy, swept) = match &start {
         Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
         None => (zero, zero),
@@ -152,7 +154,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
-    let light = mass.moving * V::splat(settings.least_share);
+    let light = given.moving * V::splat(settings.least_share);
     let gradient = gradient(&x);
     let inverse = V::splat(1.0) / gradient.volume192;
     let b_squared = gradient.square4608();
@@ -165,7 +167,13 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
     let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
     let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
-    let damping = damping(settings.viscosity, bound, rate);
+    let whole = damping(settings.viscosity, bound, rate);
+    let mut damping = whole;
+    if K::FLUID {
+        let row = &mut state[exact::rate_row::<K>()];
+        damping = whole * jump([V::load(row, part), rate], &fluid::across(&given.rates));
+        rate.store(row, part);
+    }
     let viscous = damping * modulus * bound * rate;
     let last = V::load(&state[rows::VISCOUS_STRESS], part);
     viscous.store(&mut state[rows::VISCOUS_STRESS], part);
@@ -190,7 +198,8 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         let sizes =
             [gradient.volume192 * V::splat(1.0 / 192.0), light, stable_step, b_squared * V::splat(1.0 / 4608.0)];
         let rates = exact::rates(&v, &x, &start.flow, gradient.volume192);
-        let resistance = fluid::resistance(&rates, control.of_fluids(), light, stable_step);
+        // As strongly as where all of the viscosity acts: a limiter sees no modes.
+        let resistance = fluid::resistance(&rates, control.of_fluids(), light, damped_step(bound, whole));
         for i in 0..3 {
             store(resistance[i], state, rows::HOURGLASS + 4 * i, part);
         }
@@ -223,7 +232,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     if K::FLUID {
         force = array![i in 3 => array![n in 8 => force[i][n] + held.force[i][n]]];
     }
-    Outcome { force, stable_step }
+    Outcome { force, stable_step, rate: if K::FLUID { rate } else { zero } }
 }
 
 /// Accounts of energies, by their place behind the internal one.

@@ -13,7 +13,7 @@ use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::Moduli;
 use crate::model::BulkViscosity;
 use crate::solver::elements::Probe;
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 
 /// What holds for a whole block.
 pub struct Vibration {
@@ -40,7 +40,7 @@ pub struct FrameRows {
 }
 
 impl StepKernel<8> for Vibration {
-    // Masses are no forces.
+    // Given are no forces.
     const BALANCED: bool = false;
 
     #[inline(always)]
@@ -50,14 +50,14 @@ impl StepKernel<8> for Vibration {
         velocities: &[Corners<V>; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 8>,
     ) -> Outcome<V, 8> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let light = mass.moving * V::splat(self.least_share);
+        let light = given.moving * V::splat(self.least_share);
         if matches!(self.probe, Probe::Mass) {
             // Forces are subtracted.
             let corner = zero - light * V::splat(0.125);
-            return Outcome { force: [[corner; 8], [zero; 8], [zero; 8]], stable_step: one };
+            return Outcome { force: [[corner; 8], [zero; 8], [zero; 8]], stable_step: one, rate: zero };
         }
         let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
         let u: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
@@ -102,7 +102,7 @@ impl StepKernel<8> for Vibration {
         let part_left = (one + damping * damping).sqrt() - damping;
         let factor = one / (part_left * part_left);
         let force = corner_forces(&stress, &resistance, &x, &operator.g24, inverse);
-        Outcome { force: array![i in 3 => array![n in 8 => force[i][n] * factor]], stable_step: one }
+        Outcome { force: array![i in 3 => array![n in 8 => force[i][n] * factor]], stable_step: one, rate: zero }
     }
 }
 

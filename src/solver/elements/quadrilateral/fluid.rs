@@ -20,6 +20,13 @@ pub fn power_of_modes<V: Lanes>(resistance: &[V; 2], rates: &[V; 2]) -> V {
     resistance[0] * rates[0] + resistance[1] * rates[1]
 }
 
+/// Means of what the corners have over the sides, opposite ones side by side.
+#[inline(always)]
+pub fn across<V: Lanes>(of: &Corners<V>) -> [[V; 2]; 2] {
+    let half = |a: usize, b: usize| (of[a] + of[b]) * V::splat(0.5);
+    [[half(0, 3), half(1, 2)], [half(0, 1), half(2, 3)]]
+}
+
 /// Of the Jacobian of a corner, e₁ × e₂ of its two edges: the derivatives by the edges, and the rate.
 struct Corner<V> {
     normals: [[V; 2]; 2],

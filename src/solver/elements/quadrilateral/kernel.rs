@@ -1,6 +1,6 @@
 //! The four-node quadrilateral with one integration point: one step of one part of a chunk.
 
-use super::exact::{Start, corner_rows, power_of_stress};
+use super::exact::{Start, corner_rows, power_of_stress, rate_row};
 use super::fluid;
 use super::hourglass;
 use super::kinematics::{self, Flat, Motion};
@@ -11,8 +11,8 @@ use crate::material::{Kernel, Step};
 use crate::model::{BulkViscosity, Hourglass};
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
-use crate::solver::elements::fluid::gentle_step;
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::fluid::{gentle_step, jump};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
 
@@ -83,6 +83,8 @@ pub fn solid<V: Lanes>([xx, yy, zz, xy]: Flat<V>) -> Sym3<V> {
 }
 
 impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
+    const NEIGHBOURS: bool = K::FLUID;
+
     #[inline(always)]
     fn about_axis(&self) -> bool {
         self.section.about_axis()
@@ -95,7 +97,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         velocities: &[Corners<V>; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 4>,
     ) -> Outcome<V, 4> {
         let Physics { settings, law, section } = self;
         let (about_axis, turn) = (section.about_axis(), section.turn());
@@ -138,7 +140,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let operator = section.operator(&x);
         let volume = operator.volume * V::splat(turn);
         let (own, law_state) = state.split_at_mut(rows::LAW);
-        let inverse_volume = V::splat(settings.density) / mass.material;
+        let inverse_volume = V::splat(settings.density) / given.material;
         let (energy, swept) = match &start {
             Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
             None => (zero, zero),
@@ -196,7 +198,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         square = square + stiffness * (across + V::splat(2.0) * across.sqrt()) * lightest;
         if about_axis {
             // Three times what the heaviest quarter has beyond the lightest corner.
-            let uneven = (lightest * mass.moving * V::splat(0.75) - V::splat(3.0)).max(zero).min(one);
+            let uneven = (lightest * given.moving * V::splat(0.75) - V::splat(3.0)).max(zero).min(one);
             let squares: Corners<V> = array![i in 4 => gamma[i] * gamma[i]];
             square = square + uneven * stiffness * dot(&squares, &inverse_corners);
         }
@@ -209,7 +211,15 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         // Where viscosity rules the step, it falls with the square of the frequency.
         let shorter = if compatible { square / (square + of_hoop) } else { one };
         let rate = gradient[0][0] + gradient[1][1] + hoop;
-        let damping = damping(settings.viscosity, bound, rate);
+        let whole = damping(settings.viscosity, bound, rate);
+        let mut damping = whole;
+        if K::FLUID {
+            let row = &mut law_state[rate_row::<K>() - rows::LAW];
+            let acts = jump([V::load(row, part), rate], &fluid::across(&given.rates));
+            // Elements along the axis of Galerkin's form need all of it: without, they are squeezed flat behind a shock.
+            damping = if compatible || !about_axis { whole * acts } else { whole };
+            rate.store(row, part);
+        }
         let viscous = damping * modulus * bound * rate;
         let last = V::load(&own[rows::VISCOUS_STRESS], part);
         viscous.store(&mut own[rows::VISCOUS_STRESS], part);
@@ -225,7 +235,9 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             let heavy = V::splat(4.0) / lightest;
             // What slows the modes of the plane works on weighted ones.
             let rates = if compatible { [dot(&gamma, &v[0]), dot(&gamma, &v[1])] } else { start.flow.hourglass };
-            let resistance = fluid::resistance(&rates, hourglass::of_fluids(settings.control), heavy, stable_step);
+            // As strongly as where all of the viscosity acts: a limiter sees no modes.
+            let step = damped_step(bound, whole);
+            let resistance = fluid::resistance(&rates, hourglass::of_fluids(settings.control), heavy, step);
             store(resistance, own, rows::HOURGLASS, part);
             let sizes = [operator.area, heavy, stable_step, b_squared];
             held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes, weights.as_ref());
@@ -276,7 +288,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
                 force[i] = array![n in 4 => force[i][n] + held.force[i][n]];
             }
         }
-        Outcome { force, stable_step }
+        Outcome { force, stable_step, rate: if K::FLUID { rate } else { zero } }
     }
 }
 

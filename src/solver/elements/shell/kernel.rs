@@ -9,7 +9,7 @@ use crate::lanes::{Lanes, Numbers, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
-use crate::solver::elements::pass::{Masses, Outcome, StepKernel};
+use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::accumulate;
 use std::marker::PhantomData;
 
@@ -50,7 +50,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         velocities: &[[V; N]; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, N>,
     ) -> Outcome<V, N> {
         let half_step = V::splat(0.5 * self.times[1]);
         let zero = V::splat(0.0);
@@ -77,7 +77,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         let (turn, _) = now.turn(&reference);
         let [forces, moments] = now.forces(&resultants(&found, resisted, viscous, turn, now.area()));
         // (v) stable step
-        let stable_step = self.stable_step(&x, &rates, &found, state, part, mass.moving);
+        let stable_step = self.stable_step(&x, &rates, &found, state, part, given.moving);
         let stable_step = V::select_less(zero, now.area(), stable_step, zero);
         let mut force = [[zero; N]; 3];
         for i in 0..3 {
@@ -86,7 +86,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
                 force[i][c + C] = moments[c][i];
             }
         }
-        Outcome { force, stable_step }
+        Outcome { force, stable_step, rate: V::splat(0.0) }
     }
 }
 

@@ -5,7 +5,7 @@
 //! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
 use super::{
-    Energies, Entry, Formulation, Group, Masses, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
+    Energies, Entry, Formulation, Given, Group, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
     StepKernel, StoredRow, Touch, Unfit, uniaxial,
 };
 use crate::lanes::{Lanes, Matrix3, Sym3, array, exp};
@@ -193,7 +193,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         velocities: &[[V; 2]; 3],
         state: &mut [V::Row],
         part: usize,
-        mass: Masses<V>,
+        given: Given<V, 2>,
     ) -> Outcome<V, 2> {
         let half = V::splat(0.5);
         // (i) strain increment at mid-step
@@ -227,11 +227,11 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         energy.store(&mut state[rows::INTERNAL_ENERGY], part);
         // (iv) √(M/k), k the larger of the stiffness along, E A/L, and across, N/L
         let stiffest = self.modulus(&answer.response, answer.along);
-        let stable_step = (mass.moving * length / (stiffest * section)).sqrt();
+        let stable_step = (given.moving * length / (stiffest * section)).sqrt();
         let zero = V::splat(0.0);
         // A truss that has no length any more has failed.
         let stable_step = V::select_less(zero, length, stable_step, zero);
-        Outcome { force: array![i in 3 => [zero - end[i], end[i]]], stable_step }
+        Outcome { force: array![i in 3 => [zero - end[i], end[i]]], stable_step, rate: zero }
     }
 }
 

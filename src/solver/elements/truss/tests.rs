@@ -65,7 +65,7 @@ impl Rig {
         self.forces.fill(Force::default());
         self.settings.time_step = 1.0;
         let sink = Sink::Nodes { forces: &mut self.forces, border: &[] };
-        self.block.run(&self.nodes, sink, &self.settings)
+        self.block.run(&self.nodes, &[], sink, &self.settings)
     }
 
     fn state(&self, row: usize) -> f64 {

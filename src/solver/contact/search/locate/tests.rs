@@ -277,6 +277,7 @@ impl Stage {
             places: count,
             file: (0..count as u32).collect(),
             owned: vec![true; count],
+            rates: Default::default(),
             passive: Vec::new(),
         }
     }

@@ -176,7 +176,7 @@ impl Rig {
         // Half of the kick after a step belongs to it.
         self.pass.kick = 0.5 * (self.pass.time_step + time_step);
         self.pass.time_step = time_step;
-        self.block.run(&self.nodes, Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
+        self.block.run(&self.nodes, &[], Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
     }
 
     /// Moves every node to a place in one step, along a straight line.

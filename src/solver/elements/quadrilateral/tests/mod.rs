@@ -114,7 +114,7 @@ impl Rig {
         self.forces.fill(Force::default());
         self.pass.time_step = time_step;
         self.pass.time += time_step;
-        self.block.run(&self.nodes, Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
+        self.block.run(&self.nodes, &[], Sink::Nodes { forces: &mut self.forces, border: &[] }, &self.pass)
     }
 
     fn force(&self, node: usize) -> [f64; 3] {

@@ -71,7 +71,7 @@ impl Rig {
         self.forces.fill(Force::default());
         self.settings.time_step = 1.0;
         let sink = Sink::Nodes { forces: &mut self.forces, border: &[] };
-        self.outcome = self.block.run(&self.nodes, sink, &self.settings);
+        self.outcome = self.block.run(&self.nodes, &[], sink, &self.settings);
     }
 
     /// Stretches along x by a strain of the start.
