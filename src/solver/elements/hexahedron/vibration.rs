@@ -40,7 +40,7 @@ pub struct FrameRows {
 }
 
 impl StepKernel<8> for Vibration {
-    // Given are no forces.
+    // Masses are no forces.
     const BALANCED: bool = false;
 
     #[inline(always)]
