@@ -205,6 +205,8 @@ fn implosion_of_a_sphere_in_the_compatible_form() {
         let case = format!("sphere, compatible, {through}");
         let gas = run(&deck, &mesh).whole();
         println!("{case} steps: {}", gas.last().step);
+        // After 34 steps of 100 rays what slows modes and holds corners has given back 9e-9 more than it took so far, which counts as an
+        // error; the accounts close to round-off.
         between(&case, "worst energy balance", gas.worst_balance(), 0.0, 1e-8);
         let (off, density) = of_rings(gas.end().element("DENSITY"), around);
         between(&case, "largest departure from round", off, 0.0, round);
