@@ -50,17 +50,16 @@ fn curve(label: String, points: &[[f64; 2]]) -> Curve {
     Curve { points: true, ..Curve::of(label, x, y) }
 }
 
-/// Knobs whose way is drawn.
-const DRAWN: [Knob; 8] = [
-    Knob::Mesh,
-    Knob::TimeStep,
-    Knob::Hourglass,
-    Knob::Viscosity,
-    Knob::Precision,
-    Knob::Contact,
-    Knob::Mass,
-    Knob::Several,
-];
+/// Knobs whose way is drawn: all that were turned, in the order of the rows.
+fn turned(rows: &[Row]) -> Vec<Knob> {
+    let mut knobs: Vec<Knob> = Vec::new();
+    for knob in rows.iter().map(|row| row.variant.knob) {
+        if !matches!(knob, Knob::None | Knob::RoundOff) && !knobs.contains(&knob) {
+            knobs.push(knob);
+        }
+    }
+    knobs
+}
 
 /// The front as a line, and for each knob the way that it goes from the deck as it is, from the cheapest to the dearest.
 fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {
@@ -76,7 +75,7 @@ fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         (points.len() > 1).then(|| curve(knob.name().into(), &points))
     };
-    [curve("front".into(), &line)].into_iter().chain(DRAWN.into_iter().filter_map(way)).collect()
+    [curve("front".into(), &line)].into_iter().chain(turned(rows).into_iter().filter_map(way)).collect()
 }
 
 fn meshes(judgement: &Judgement) -> Vec<Curve> {
