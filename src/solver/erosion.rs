@@ -10,7 +10,7 @@ mod state;
 use super::Body;
 use super::domain::ABSENT;
 use super::elements::fields::{field_values, state_values};
-use super::elements::{Element, ElementBlock, Energies, Group};
+use super::elements::{Element, ElementBlock, Energies, Group, Steps};
 use super::nodes::{Nodes, dot};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::lanes::Row;
@@ -97,16 +97,17 @@ impl Erosion {
     }
 
     /// Takes away what fails and what is deleted now, and returns the canonical numbers of what went on all ranks,
-    /// ascending; `None` when nothing has changed. `time` is that of the present positions, and `time_step` has led to them.
+    /// ascending; `None` when nothing has changed. `time` is that of the present positions, and `steps` have led to them.
     pub fn advance(
         &mut self,
         blocks: &mut [ElementBlock],
         canonical: &[u32],
         nodes: &mut Nodes,
-        [time, time_step]: [f64; 2],
+        time: f64,
+        steps: Steps,
         comm: &mut dyn Communicator,
     ) -> Option<Vec<u32>> {
-        let deleted = self.deletions.due(time, time_step);
+        let deleted = self.deletions.due(time, steps.time_step);
         let mut dead: Vec<u32> = Vec::new();
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
@@ -122,11 +123,12 @@ impl Erosion {
                 } else {
                     self.failing(&rules, block, group, nodes, lost)
                 };
-                let ElementBlock { border: at_border, interior, element, .. } = block;
+                let ElementBlock { border: at_border, interior, element, law, .. } = block;
                 let group = if border { at_border } else { interior };
                 for i in failed {
                     dead.push(canonical[group.places[i] as usize]);
-                    let last = element.last_half_step(group, i, nodes, time_step);
+                    let exact = element.last_exact_work(group, i, nodes, law, steps);
+                    let last = exact.unwrap_or_else(|| element.last_half_step(group, i, nodes, steps.time_step));
                     self.energy.push(stored_energy(element, group, i) + last);
                     stand_in.take_over(group, i);
                 }

@@ -47,7 +47,7 @@ use crate::mesh::{Mesh, Shape};
 use crate::model::{Function, Model, MotionKind, Precision, StepEstimate, TimeStepControl, Unknown};
 use crate::partition::Share;
 use constraints::StepTimes;
-use elements::{PassOutcome, PassSettings, Sink};
+use elements::{PassOutcome, PassSettings, Sink, Steps};
 use frequency::{GlobalStep, Votes};
 use health::Watch;
 use std::collections::BTreeSet;
@@ -432,7 +432,8 @@ impl Solver {
         let Domain { erosion, blocks, nodes, element_canonical, contact, pressure_faces, loads, .. } = &mut self.domain;
         let Some(erosion) = erosion else { return };
         self.clock.start();
-        if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, [self.time, self.time_step], comm) {
+        let steps = Steps { time_step: self.time_step, kick: self.kick };
+        if let Some(dead) = erosion.advance(blocks, element_canonical, nodes, self.time, steps, comm) {
             loads::all(pressure_faces, loads).for_each(|load| load.lose(&dead, false));
             self.global_step.iter_mut().for_each(GlobalStep::forget);
             if let Some(contact) = contact {

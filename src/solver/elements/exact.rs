@@ -23,7 +23,7 @@ pub struct AccountRows {
 }
 
 /// The step that is booked.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Steps {
     /// Δt
     pub time_step: f64,

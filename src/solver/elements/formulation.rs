@@ -1,6 +1,7 @@
 //! What every kind of element says of itself. The rest of the solver asks by these roles and knows no element by name.
 
 use super::block::{Group, NewElement};
+use super::exact::Steps;
 use super::pass::{Pass, PassOutcome, PassSettings};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
@@ -202,4 +203,10 @@ pub trait Formulation: Sized {
     /// Work that the last forces of the `i`-th element have done since the last state. They acted for half of the step that
     /// led here, and no new forces come to be averaged with them when the element goes.
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64;
+
+    /// The same of an element with an equation of state, whose accounts are exact: with hourglass resistance and held corners of
+    /// fluids, and with what was owed of the step before. `None` of other laws.
+    fn last_exact_work(&self, _group: &Group, _i: usize, _nodes: &Nodes, _law: &Law, _steps: Steps) -> Option<f64> {
+        None
+    }
 }

@@ -26,6 +26,7 @@ use crate::model::{Model, Precision};
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
+pub use exact::Steps;
 pub use formulation::{Energies, Entry, Formulation, PointEntry, Probe, Sample, StoredRow, Touch, Unfit};
 pub use pass::{Given, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
 pub use shell::triangle;
@@ -153,6 +154,13 @@ macro_rules! elements {
             /// See [`Formulation::last_half_step`].
             pub fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
                 match self { $(Element::$element(own) => own.last_half_step(group, i, nodes, time_step),)+ }
+            }
+
+            /// See [`Formulation::last_exact_work`].
+            pub fn last_exact_work(
+                &self, group: &Group, i: usize, nodes: &Nodes, law: &Law, steps: Steps,
+            ) -> Option<f64> {
+                match self { $(Element::$element(own) => own.last_exact_work(group, i, nodes, law, steps),)+ }
             }
         }
     };

@@ -3,14 +3,16 @@
 
 use super::carried;
 use super::fluid;
-use super::geometry::{Corners, Gradient, Modes, dot, gradient};
+use super::geometry::{Corners, Gradient, Modes, dot, gradient, modes};
 use super::hourglass::Resistance;
 use super::kernel::{Settings, hourglass_rates};
 use super::kinematics::rotation_matrix;
 use super::rows;
-use crate::lanes::{Lanes, Matrix3, Sym3, array};
-use crate::material::Kernel;
-use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
+use crate::lanes::{CHUNK, Lanes, Matrix3, Row, Sym3, array};
+use crate::material::{Kernel, KernelVisitor};
+use crate::solver::elements::Group;
+use crate::solver::elements::exact::{AccountRows, StartPowers, Steps, Works};
+use crate::solver::nodes::Nodes;
 
 /// Where the accounts are.
 const ROWS: AccountRows = AccountRows {
@@ -81,9 +83,9 @@ impl<V: Lanes> Start<V> {
         [positions, velocities]: [&[Corners<V>; 3]; 2],
         state: &[V::Row],
         part: usize,
-        settings: &Settings,
+        steps: Steps,
     ) -> Start<V> {
-        let time_step = V::splat(settings.time_step);
+        let time_step = V::splat(steps.time_step);
         let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
         let gradient_before = gradient(&before);
         let flow_before = flow(v, &gradient_before);
@@ -108,14 +110,50 @@ impl<V: Lanes> Start<V> {
             of_modes = of_modes + fluid::power(&before, velocities, &state[corner_rows::<K>()], part);
         }
         let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
-        let works = ROWS.begin::<V, K>(&powers, state, part, settings.steps());
-        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, settings.steps());
+        let works = ROWS.begin::<V, K>(&powers, state, part, steps);
+        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, steps);
         Start { energy, swept: time_step * growth, flow, growth, works }
+    }
+
+    /// Work that the forces of the step's start have done in it, and what was owed of the step before.
+    #[inline(always)]
+    pub fn work(&self) -> V {
+        (self.works[0] + self.works[1]) + self.works[2]
     }
 
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
     #[inline(always)]
     pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {
         ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
+    }
+}
+
+/// Finds the work that the last forces of an element which goes have done, where it has an equation of state.
+pub struct LastWork<'a> {
+    /// Where it is.
+    pub group: &'a Group,
+    /// Which it is.
+    pub i: usize,
+    /// Its nodes.
+    pub nodes: &'a Nodes,
+    /// The step that led to where they are.
+    pub steps: Steps,
+}
+
+impl KernelVisitor for LastWork<'_> {
+    type Output = Option<f64>;
+
+    fn visit<K: Kernel>(self, _: K) -> Option<f64> {
+        if !K::EQUATION {
+            return None;
+        }
+        let LastWork { group, i, nodes, steps } = self;
+        let state: Vec<Row> = (0..rows::LAW + K::STATE.len()).map(|row| Row([group.value(i, row); CHUNK])).collect();
+        let relative = |of: [[f64; 3]; 8]| [0, 1, 2].map(|k: usize| of.map(|own| own[k] - of[0][k]));
+        let (x, v) = (relative(group.positions(i, nodes)), relative(group.velocities(i, nodes)));
+        let modes = [&x, &v].map(|of| [0, 1, 2].map(|k: usize| modes(&of[k])));
+        let work = Start::of::<K>([&modes[0], &modes[1]], [&x, &v], &state, 0, steps).work();
+        // An element that dies inverted may have moved beyond all measure.
+        Some(if work.is_finite() { work } else { 0.0 })
     }
 }

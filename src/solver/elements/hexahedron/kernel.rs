@@ -97,8 +97,11 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let v: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
 
     // (o) what the forces of the step's start have done, where that is heat
-    let start =
-        if K::EQUATION { Some(Start::of::<K>([&x, &v], [positions, velocities], state, part, settings)) } else { None };
+    let start = if K::EQUATION {
+        Some(Start::of::<K>([&x, &v], [positions, velocities], state, part, settings.steps()))
+    } else {
+        None
+    };
 
     // (i) velocity gradient and hourglass rates at mid-step
     let half_step = V::splat(0.5 * settings.time_step);

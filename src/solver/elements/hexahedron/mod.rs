@@ -11,7 +11,7 @@ pub mod range;
 pub(super) mod vibration;
 
 use super::{
-    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Probe, Sample, StepKernel,
+    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Probe, Sample, StepKernel, Steps,
     StoredRow, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
@@ -212,6 +212,10 @@ impl Formulation for Hexahedron {
         let work = 0.5 * time_step * mean_power(&total, &now, &v, time_step);
         // An element that dies inverted may have moved beyond all measure.
         if work.is_finite() { work } else { 0.0 }
+    }
+
+    fn last_exact_work(&self, group: &Group, i: usize, nodes: &Nodes, law: &Law, steps: Steps) -> Option<f64> {
+        law.accept(exact::LastWork { group, i, nodes, steps })
     }
 }
 

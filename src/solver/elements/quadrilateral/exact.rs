@@ -6,9 +6,11 @@ use super::kernel::{Rates, Settings, load, rates, rotated, solid, weighted_modes
 use super::kinematics::Flat;
 use super::rows;
 use super::sections::{Corners, Section};
-use crate::lanes::{Lanes, array};
-use crate::material::Kernel;
-use crate::solver::elements::exact::{AccountRows, StartPowers, Works};
+use crate::lanes::{CHUNK, Lanes, Row, array};
+use crate::material::{Kernel, KernelVisitor};
+use crate::solver::elements::Group;
+use crate::solver::elements::exact::{AccountRows, StartPowers, Steps, Works};
+use crate::solver::nodes::Nodes;
 
 /// Where the accounts are.
 const ROWS: AccountRows = AccountRows {
@@ -69,9 +71,9 @@ impl<V: Lanes> Start<V> {
         [x, v]: [&[Corners<V>; 2]; 2],
         state: &[V::Row],
         part: usize,
-        settings: &Settings,
+        steps: Steps,
     ) -> Start<V> {
-        let time_step = V::splat(settings.time_step);
+        let time_step = V::splat(steps.time_step);
         let before: [Corners<V>; 2] =
             [array![i in 4 => x[0][i] - time_step * v[0][i]], array![i in 4 => x[1][i] - time_step * v[1][i]]];
         let flow_before = flow(section, v, &before);
@@ -89,9 +91,15 @@ impl<V: Lanes> Start<V> {
                 + fluid::power([&before, v], &state[corner_rows::<K>()], part, section.weights(&before).as_ref());
         }
         let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
-        let works = ROWS.begin::<V, K>(&powers, state, part, settings.steps());
-        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, settings.steps());
+        let works = ROWS.begin::<V, K>(&powers, state, part, steps);
+        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, steps);
         Start { energy, swept: time_step * growth, flow, growth, works }
+    }
+
+    /// Work that the forces of the step's start have done in it, and what was owed of the step before.
+    #[inline(always)]
+    pub fn work(&self) -> V {
+        (self.works[0] + self.works[1]) + self.works[2]
     }
 
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
@@ -104,4 +112,37 @@ impl<V: Lanes> Start<V> {
 #[inline(always)]
 fn trace<V: Lanes>(flow: &Rates<V>) -> V {
     (flow.gradient[0][0] + flow.gradient[1][1]) + flow.hoop
+}
+
+/// Finds the work that the last forces of an element which goes have done, where it has an equation of state.
+pub struct LastWork<'a> {
+    /// What the third dimension is.
+    pub section: Section,
+    /// Where it is.
+    pub group: &'a Group,
+    /// Which it is.
+    pub i: usize,
+    /// Its nodes.
+    pub nodes: &'a Nodes,
+    /// The step that led to where they are.
+    pub steps: Steps,
+}
+
+impl KernelVisitor for LastWork<'_> {
+    type Output = Option<f64>;
+
+    fn visit<K: Kernel>(self, _: K) -> Option<f64> {
+        if !K::EQUATION {
+            return None;
+        }
+        let LastWork { section, group, i, nodes, steps } = self;
+        let state: Vec<Row> = (0..rows::LAW + K::STATE.len()).map(|row| Row([group.value(i, row); CHUNK])).collect();
+        let (at, v): ([[f64; 3]; 4], [[f64; 3]; 4]) = (group.positions(i, nodes), group.velocities(i, nodes));
+        // The axis stays where it is.
+        let x = [at.map(|own| own[0]), at.map(|own| own[1] - at[0][1])];
+        let v = [0, 1].map(|k: usize| v.map(|own| own[k]));
+        let work = Start::of::<K>(section, [&x, &v], &state, 0, steps).work();
+        // An element that dies inverted may have moved beyond all measure.
+        Some(if work.is_finite() { work } else { 0.0 })
+    }
 }

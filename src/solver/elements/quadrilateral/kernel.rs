@@ -108,7 +108,8 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         let v = [velocities[0], velocities[1]];
 
         // (o) what the forces of the step's start have done, where that is heat
-        let start = if K::EQUATION { Some(Start::of::<K>(*section, [&x, &v], state, part, settings)) } else { None };
+        let start =
+            if K::EQUATION { Some(Start::of::<K>(*section, [&x, &v], state, part, settings.steps())) } else { None };
 
         // (i) velocity gradient and hourglass rates at mid-step
         let middle: [Corners<V>; 2] =

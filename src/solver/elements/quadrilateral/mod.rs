@@ -12,7 +12,7 @@ pub mod kinematics;
 pub mod sections;
 
 use super::{
-    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Sample, StoredRow, Unfit,
+    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, Sample, Steps, StoredRow, Unfit,
 };
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
@@ -203,6 +203,10 @@ impl Formulation for Quadrilateral {
         let work = 0.5 * time_step * self.section.turn() * (0..4).map(of_corner).sum::<f64>();
         // An element that dies inverted may have moved beyond all measure.
         if work.is_finite() { work } else { 0.0 }
+    }
+
+    fn last_exact_work(&self, group: &Group, i: usize, nodes: &Nodes, law: &Law, steps: Steps) -> Option<f64> {
+        law.accept(exact::LastWork { section: self.section, group, i, nodes, steps })
     }
 }
 
