@@ -42,7 +42,7 @@ fn sound(case: &str, run: &Run, mesh: &Mesh, thickness: f64) -> f64 {
     for state in &run.states {
         let at = state.positions(mesh);
         assert_eq!(surfaces.pierced(&at), [], "{case}, time {}", state.time);
-        least = least.min(surfaces.nearest(&at));
+        least = least.min(surfaces.nearest(&at).0);
     }
     println!("{case} least distance over thickness: {:.4}", least / thickness);
     between(
@@ -259,7 +259,7 @@ fn walls_of_a_flat_tube_are_a_thickness_apart() {
     for state in &run.states {
         let at = state.positions(&mesh);
         assert_eq!(surfaces.pierced(&at), [], "time {}", state.time);
-        least = least.min(surfaces.nearest(&at));
+        least = least.min(surfaces.nearest(&at).0);
     }
     between("flat tube", "least distance over thickness", least / thick, 0.98, 1.02);
     between("flat tube", "energy balance", run.worst_balance(), 0.0, 0.02);
@@ -296,6 +296,45 @@ fn bars_touch_at_their_radius() {
             -1.0,
             1e-12,
         );
+    }
+}
+
+/// A bar falls along the bottom of a hollow and along a ridge, both held: nodes stay at their distance from both flanks of a hollow,
+/// whose faces reach over each other, and ahead of a ridge so sharp that neither of its flanks sees them in front.
+#[test]
+fn a_bar_keeps_its_distance_in_a_hollow_and_ahead_of_a_ridge() {
+    for (case, degrees) in
+        [("hollow of 15 degrees", 7.5_f64), ("of 30", 15.0), ("of 90", 45.0), ("ridge of 160", -80.0)]
+    {
+        let slope = degrees.to_radians().tan();
+        let mut mesh = recipe(
+            "TITLE\n FLANKS\nSHEET, 1,  -0.05, -0.01, 0.,  0.1, 0.02, 0.,  5, 2\nLINE, 2,  -0.037, 2.E-4, 7.E-3,  0.037, 2.E-4, 7.E-3,  7\n\
+             NODE SET BOX, 1, -0.06, 0.06, -0.02, 0.02, -1.E-6, 1.E-6\n",
+        );
+        for node in nodes_of(&mesh, 1) {
+            mesh.coordinates[node][2] = slope * mesh.coordinates[node][1].abs();
+        }
+        let held: String = ["X", "Y", "Z"].map(|axis| format!("NO DISPLACEMENT, {axis}, 1\n")).concat();
+        let more = format!(
+            "SHELL THICKNESS, 1, {T}\nTRUSS AREA, 2, 2.82743E-5\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -10.\n{held}"
+        );
+        let run = on_ranks(&deck(4e-4, &more, 2), &mesh);
+        let (radius, end) = (3e-3, [0.01, 0.01 * slope]);
+        // Everything is alike along the bar: a flank is a segment from the line in the middle.
+        let to_flank = |[y, z]: [f64; 2]| {
+            let along = ((y.abs() * end[0] + z * end[1]) / (end[0] * end[0] + end[1] * end[1])).clamp(0.0, 1.0);
+            (y.abs() - along * end[0]).hypot(z - along * end[1])
+        };
+        let mut least = f64::INFINITY;
+        for state in &run.states {
+            let at = state.positions(&mesh);
+            for node in nodes_of(&mesh, 2) {
+                least = least.min(to_flank([at[node][1], at[node][2]]));
+            }
+        }
+        between(case, "least distance over radius and half the thickness", least / (radius + 0.5 * T), 0.995, 1.001);
+        let given = run.last().totals.contact / run.initial_energy;
+        between(case, "work of contact over the initial energy", given, -1.0, 1e-12);
     }
 }
 

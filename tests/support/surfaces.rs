@@ -65,10 +65,11 @@ impl Surfaces {
         found
     }
 
-    /// The least distance between a node of shells and a face of shells that has no node in common with the faces around it.
-    pub fn nearest(&self, at: &[Point]) -> f64 {
+    /// The least distance between a node of shells and a face of shells that has no node in common with the faces around it,
+    /// with the node and the corners of the face.
+    pub fn nearest(&self, at: &[Point]) -> (f64, u32, [u32; 4]) {
         let (order, widest) = self.by_x(at);
-        let mut least = f64::INFINITY;
+        let (mut least, mut pair) = (f64::INFINITY, (0, [0; 4]));
         for (node, own) in (0u32..).zip(&self.around).filter(|(_, own)| own.iter().any(|&f| self.of_shells[f as usize]))
         {
             let x = at[node as usize];
@@ -79,11 +80,14 @@ impl Surfaces {
                 }
                 if self.of_shells[f as usize] && !own.iter().any(|&g| self.meet(g, f)) {
                     let corners = self.faces[f as usize].map(|n| at[n as usize]);
-                    least = triangles(&corners).map(|t| to_triangle(x, t)).fold(least, f64::min);
+                    let distance = triangles(&corners).map(|t| to_triangle(x, t)).fold(f64::INFINITY, f64::min);
+                    if distance < least {
+                        (least, pair) = (distance, (node, self.faces[f as usize]));
+                    }
                 }
             }
         }
-        least
+        (least, pair.0, pair.1)
     }
 
     fn meet(&self, a: u32, b: u32) -> bool {

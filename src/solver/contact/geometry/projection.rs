@@ -45,13 +45,27 @@ impl Projection {
     /// distance are round there, also in their plane where the surface ends, which is at the edges `borders`, a bit each. The foot is
     /// then on the face. Itself elsewhere.
     pub fn around_border(self, corners: &[[f64; 3]; 4], point: [f64; 3], borders: u8) -> Projection {
+        let in_front = self.gap > 0.0 && self.outside <= AROUND * self.gap;
+        if self.outside > 0.0 && (in_front || self.is_beside(self.gap, borders)) {
+            self.seen_from_border(corners, point)
+        } else {
+            self
+        }
+    }
+
+    /// The same of a point beyond the border, seen from the nearest point of it. Itself for a point on the border.
+    pub fn seen_from_border(self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> Projection {
         let way = subtract(point, foot(corners, &self.weights));
         let length = dot(way, way).sqrt();
-        let in_front = self.gap > 0.0 && self.outside <= AROUND * self.gap;
-        if self.outside <= 0.0 || length <= 0.0 || !(in_front || self.is_beside(self.gap, borders)) {
+        if length <= 0.0 {
             return self;
         }
         Projection { gap: length, normal: scaled(way, 1.0 / length), outside: 0.0, rounded: true, ..self }
+    }
+
+    /// Corners, by their places in the face, of the edge beyond which the point lies, or which is nearest to its foot.
+    pub fn edge(&self) -> [usize; 2] {
+        [self.triangle, (self.triangle + 1) % 4]
     }
 
     /// Whether the point, at this height above the face, is beyond the end of a surface, about in its plane: neither side is in the way.

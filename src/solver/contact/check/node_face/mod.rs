@@ -34,6 +34,10 @@ const HOLLOW: f64 = 0.05;
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
+/// The same of faces that are touched at a distance: in a hollow each of them reaches over the other, and a point held by one alone
+/// would be nearer to the other by as much.
+const SAME_WAY_AT_DISTANCE: f64 = 0.995;
+
 /// Contact of a node with a face, remembered from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceContact {
@@ -184,9 +188,34 @@ impl NodeFaceCheck<'_> {
         let mut projection = projection::project(&corners, at)?;
         if distance > 0.0 {
             projection = projection.around_border(&corners, at, self.faces.borders_of(face));
+            if projection.outside > 0.0 && projection.gap >= 0.0 {
+                let from_border = projection.seen_from_border(&corners, at);
+                let near = from_border.gap < distance + keep(self.faces, face);
+                if near && self.is_ahead_of_ridge(face, &projection, at, at_end) {
+                    projection = from_border;
+                }
+            }
         }
         projection.gap -= distance;
         Some(projection)
+    }
+
+    /// Whether a point beyond the border of a face is ahead of a ridge there: also beyond the border of the face that goes on. Where
+    /// a surface is folded by more than twice 71 degrees, a wedge is left that neither face would see around its border.
+    fn is_ahead_of_ridge(&self, face: u32, projection: &Projection, at: [f64; 3], at_end: bool) -> bool {
+        let corners = self.faces.corners[face as usize];
+        let [a, b] = projection.edge().map(|i| corners[i]);
+        let is_beyond = |other: u32| {
+            let corners =
+                if at_end { self.faces.end(other, self.motion) } else { self.faces.start(other, self.motion) };
+            projection::project(&corners, at).is_some_and(|projection| projection.outside > 0.0)
+        };
+        let goes_on = |other: &u32| {
+            self.faces.corners[*other as usize].contains(&b) && self.faces.go_on(face, *other) == Some(true)
+        };
+        let mut beyond =
+            self.faces.around(a).iter().filter(|other| goes_on(other)).map(|&other| is_beyond(other)).peekable();
+        beyond.peek().is_some() && beyond.all(|beyond| beyond)
     }
 
     /// Whether a point that one face has held stays on the same side of a surface if another one holds it: across an edge the
@@ -248,8 +277,8 @@ impl NodeFaceCheck<'_> {
         (old, tolerated, projection): (u32, f64, Projection),
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let slightly = projection.outside <= HOLD * self.faces.size[old as usize];
-        let mut behind = 0;
+        let (slightly, normal) = (projection.outside <= HOLD * self.faces.size[old as usize], projection.normal);
+        let (mut behind, mut rises) = (false, false);
         let mut next: Option<(u32, Projection)> = None;
         let to = |face: &&u32| {
             self.related(old, **face) && past.iter().all(|p| p.face != **face) && self.stays_outside(point, old, **face)
@@ -262,7 +291,10 @@ impl NodeFaceCheck<'_> {
             else {
                 continue;
             };
-            behind += u32::from(projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs());
+            if projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs() {
+                behind = true;
+                rises |= self.rises(old, face, normal);
+            }
             if projection.outside == 0.0
                 && self.in_reach(face, &projection, tolerated)
                 && next.is_none_or(|(_, best)| projection.gap.abs() < best.gap.abs())
@@ -272,14 +304,18 @@ impl NodeFaceCheck<'_> {
         }
         match next {
             Some((face, projection)) => contacts.push(self.held(face, projection, tolerated)),
-            // Behind the edge of a hollow a point is behind both faces and its foot beyond both.
-            None if (slightly
-                || behind > 0 && projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs())
-                && self.in_reach(old, &projection, tolerated) =>
-            {
+            None if slightly && self.in_reach(old, &projection, tolerated) => {
                 contacts.push(self.held(old, projection, tolerated));
             }
-            None => contacts.extend(self.held_around(point, old, tolerated)),
+            None => {
+                // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
+                // is as well, where it is nearer than they touch.
+                let deep = behind && projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs();
+                let flat =
+                    (deep && self.in_reach(old, &projection, tolerated)).then(|| self.held(old, projection, tolerated));
+                let around = || self.held_around(point, old, tolerated);
+                contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
+            }
         }
     }
 
@@ -307,9 +343,13 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
     fn goes_on(&self, old: u32, face: u32, projection: &Projection, next: &Projection) -> bool {
+        dot(projection.normal, next.normal) > SAME_WAY || self.rises(old, face, projection.normal)
+    }
+
+    /// Whether a face lies in front of another one, of this normal: they make a hollow.
+    fn rises(&self, old: u32, face: u32, normal: [f64; 3]) -> bool {
         let middle = |face| projection::centre(&self.faces.end(face, self.motion));
-        dot(projection.normal, next.normal) > SAME_WAY
-            || dot(subtract(middle(face), middle(old)), projection.normal) > 0.0
+        dot(subtract(middle(face), middle(old)), normal) > 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
@@ -370,7 +410,8 @@ impl NodeFaceCheck<'_> {
         let mut kept = 0;
         for i in 0..contacts.len() {
             let contact = contacts[i];
-            if kept < MAX_FACES && contacts[..kept].iter().all(|other| self.apart(other, &contact)) {
+            let same_way = if self.faces.distance(point, contact.face) > 0.0 { SAME_WAY_AT_DISTANCE } else { SAME_WAY };
+            if kept < MAX_FACES && contacts[..kept].iter().all(|other| self.apart(other, &contact, same_way)) {
                 contacts[kept] = contact;
                 kept += 1;
             }
@@ -380,8 +421,8 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a face holds a point in a way that the one chosen before does not: it pushes another way, and does not
     /// merely lie around the corner of the same body.
-    fn apart(&self, first: &DetectedContact, second: &DetectedContact) -> bool {
-        if dot(first.projection.normal, second.projection.normal) > SAME_WAY {
+    fn apart(&self, first: &DetectedContact, second: &DetectedContact, same_way: f64) -> bool {
+        if dot(first.projection.normal, second.projection.normal) > same_way {
             return false;
         }
         if !self.faces.adjacent(first.face, second.face) {

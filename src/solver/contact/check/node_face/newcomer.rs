@@ -46,7 +46,7 @@ impl NodeFaceCheck<'_> {
             let unseen = if start.gap < 0.0 { 0.0 } else { 1.0 };
             let time = self.first_touch(point, face).or_else(|| stays_in_front.then_some(unseen))?;
             // Nearer than thicknesses allow, as the mesh has it or because it came from beside, it stays as near.
-            return comes().then(|| contact(time, start.gap.min(0.0)));
+            return comes().then(|| contact(time, self.nearness(point, face, &start).min(0.0)));
         }
         if self.faces.is_two_sided(face) {
             // It is on the other side.
@@ -60,6 +60,15 @@ impl NodeFaceCheck<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &end);
         inside.then(|| contact(0.0, start.gap))
+    }
+
+    /// How far a point is at the beginning of the step from touching a face: from the nearest point of its border where it is beyond.
+    fn nearness(&self, point: u32, face: u32, start: &Projection) -> f64 {
+        if start.outside <= 0.0 {
+            return start.gap;
+        }
+        let (corners, at) = (self.faces.start(face, self.motion), self.motion.start(point));
+        start.seen_from_border(&corners, at).gap - self.faces.distance(point, face)
     }
 
     /// Whether a point that ends the step beyond the border of a face may have touched it on its way: nobody goes farther in the step
