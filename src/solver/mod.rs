@@ -451,6 +451,7 @@ impl Solver {
         for block in blocks {
             let (own, rest) = slots.split_at_mut(block.border.force_count());
             found = found.and(block.run(&nodes.rows, &nodes.rates.means, Sink::Apart(own), &self.pass));
+            block.border.forget_forces_of_gone(own);
             slots = rest;
         }
         found

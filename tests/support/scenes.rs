@@ -17,9 +17,14 @@ pub struct Scene {
 }
 
 /// Numbers that look random and follow from a seed (splitmix64: Steele, Lea and Flood 2014).
-pub(super) struct Dice(u64);
+pub struct Dice(u64);
 
 impl Dice {
+    /// Numbers of a seed.
+    pub fn of(seed: u64) -> Dice {
+        Dice(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d)
+    }
+
     pub(super) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -28,24 +33,28 @@ impl Dice {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    /// Evenly spread between two numbers.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
     /// Evenly spread in its logarithm.
-    pub(super) fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.next())
     }
 
-    pub(super) fn count(&mut self, low: usize, high: usize) -> usize {
+    /// A count between two, both of them possible.
+    pub fn count(&mut self, low: usize, high: usize) -> usize {
         low + (self.next() * (high - low + 1) as f64) as usize
     }
 
-    pub(super) fn chance(&mut self, probability: f64) -> bool {
+    /// True with a probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
         self.next() < probability
     }
 
-    pub(super) fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+    /// One of some choices.
+    pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.count(0, choices.len() - 1)]
     }
 }
@@ -139,7 +148,7 @@ impl Builder {
 /// What the scene of a seed is built with.
 pub(super) fn builder(seed: u64) -> Builder {
     Builder {
-        dice: Dice(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5851_f42d_4c95_7f2d),
+        dice: Dice::of(seed),
         recipe: "TITLE\n SCENE\n".into(),
         deck: String::new(),
         speed: 0.0,

@@ -2,7 +2,7 @@
 
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
-use crate::lanes::{CHUNK, Numbers, Row, SingleRow};
+use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
 use crate::model::Precision;
 use crate::solver::domain::state_names;
@@ -180,6 +180,13 @@ impl Group {
         for slot in std::iter::once(i).chain(copies) {
             self.set(slot, stand_in, mass, numbers);
         }
+    }
+
+    /// Takes what elements that are gone have left out of `forces`, one for each corner in group order: the stand-in of a gas is under
+    /// its initial pressure, and forces that are kept apart go to the nodes that the element had.
+    pub fn forget_forces_of_gone(&self, forces: &mut [Force]) {
+        let all = forces.chunks_exact_mut(self.unknowns.max(1)).zip(&self.gone);
+        all.filter(|(_, gone)| **gone).for_each(|(own, _)| own.fill(Force::default()));
     }
 
     /// Number of elements.
