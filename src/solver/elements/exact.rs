@@ -57,6 +57,12 @@ impl AccountRows {
         self.law + K::STATE.len() - 1
     }
 
+    /// Energy that hourglass resistance and held corners of fluids have taken so far, with what the forces of the step's start did.
+    #[inline(always)]
+    pub fn taken<V: Lanes>(&self, works: &Works<V>, state: &[V::Row], part: usize) -> V {
+        V::load(&state[self.accounts[2]], part) + works[2]
+    }
+
     /// Works of the forces of the step's start.
     #[inline(always)]
     pub fn begin<V: Lanes, K: Kernel>(

@@ -41,6 +41,15 @@ pub fn gentle_step<V: Lanes>(rate: V, otherwise: V) -> V {
     growing.min(shrinking).min(otherwise)
 }
 
+/// The step in which forces of this state may be measured: they act over the mean Δt̄ of the `last` step and the next, and the next is
+/// no longer than the `stable` one. Where the stable step falls at once to a part of the last one, a force that slows a motion
+/// in the stable step would turn it round in Δt̄, and give what it never took.
+#[inline(always)]
+pub fn acting_step<V: Lanes>(stable: V, last: V) -> V {
+    // In this order a NaN stays.
+    ((last + stable) * V::splat(0.5)).max(stable)
+}
+
 /// A neighbour's rate may be this many times smaller than the element's own before viscosity acts in full: see [`jump`].
 const STEEPEST: f64 = 2.0;
 
@@ -67,8 +76,8 @@ pub fn jump<V: Lanes>([last, now]: [V; 2], means: &[[V; 2]]) -> V {
 /// What holds the corners of an element, and what that costs its stable step.
 pub struct Brake<V> {
     volume: V,
-    share: V,
-    inverse_step: V,
+    mass: V,
+    steps: [V; 2],
     start: V,
     inverse: V,
     least_reach: V,
@@ -77,15 +86,14 @@ pub struct Brake<V> {
 }
 
 impl<V: Lanes> Brake<V> {
-    /// Of an element with this volume, mass at a corner, stable step and B_iI B_iI.
+    /// Of an element with this volume, mass at a corner, stable step, last step and B_iI B_iI.
     #[inline(always)]
-    pub fn new([volume, mass, stable_step, b_squared]: [V; 4]) -> Brake<V> {
+    pub fn new([volume, mass, stable_step, last_step, b_squared]: [V; 5]) -> Brake<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let inverse_step = one / stable_step;
         Brake {
             volume,
-            share: mass * inverse_step,
-            inverse_step,
+            mass,
+            steps: [stable_step, last_step],
             start: V::splat(CLOSE) * volume,
             inverse: one / (volume * V::splat(CLOSE)),
             least_reach: b_squared * V::splat(LEAST_REACH),
@@ -94,20 +102,30 @@ impl<V: Lanes> Brake<V> {
         }
     }
 
-    /// Force Λ on the Jacobian of a corner, given its rate and `reach`, the sum of the squares of its derivatives.
+    /// Force Λ on the Jacobian of a corner, given its rate and `reach`, the sum of the squares of its derivatives; and the energy that
+    /// it would give to the motion in the step in which it acts, at most.
     #[inline(always)]
-    pub fn force(&mut self, jacobian: V, rate: V, reach: V) -> V {
+    pub fn force(&mut self, jacobian: V, rate: V, reach: V) -> [V; 2] {
         let zero = V::splat(0.0);
         let missing = (self.start - jacobian).max(zero);
         let weight = (missing * self.inverse).min(V::splat(1.0));
         self.most = weight.max(self.most);
+        let [stable, last] = self.steps;
+        // The next step is at most `stable` over `shorter`, and the forces are measured in steps that are longer by as much.
+        let shorter = V::splat(1.0) + V::splat(SHORTER) * weight;
+        let acting = acting_step(stable, last * shorter);
+        let inverse_step = V::splat(1.0) / acting;
         let brake = rate.min(zero) * V::splat(BRAKE);
-        let back = missing * self.inverse_step * V::splat(BACK);
-        let force = weight * (brake - back) * self.share / reach.max(self.least_reach);
+        let back = missing * inverse_step * V::splat(BACK);
+        let reach = reach.max(self.least_reach);
+        let force = weight * (brake - back) * (self.mass * inverse_step) / reach;
         let room = jacobian.max(self.volume * V::splat(LEAST_ROOM));
         self.closing = (-(rate / room)).max(self.closing);
         // A zero has the sign that it has where no lane came here.
-        force + zero
+        let force = force + zero;
+        let impulse = -force * (acting / shorter);
+        let mean_rate = rate + V::splat(0.5) * impulse * (reach / self.mass);
+        [force, impulse * mean_rate.max(zero)]
     }
 
     /// The stable step with the forces that have been found.
@@ -118,6 +136,13 @@ impl<V: Lanes> Brake<V> {
         // In this order a NaN of the element's own step stays.
         V::select_less(V::splat(0.0), self.most, limit.min(slower), without)
     }
+}
+
+/// The part of forces that would give energy which may act: they give what was `taken` before, and no more.
+#[inline(always)]
+pub fn affordable<V: Lanes>(taken: V, given: V) -> V {
+    // In this order a NaN stays.
+    (taken.max(V::splat(0.0)) / given.max(V::splat(V::TINY))).min(V::splat(1.0))
 }
 
 /// Whether a row has a number below the start of the resistance in this part.

@@ -121,6 +121,12 @@ impl<V: Lanes> Start<V> {
         (self.works[0] + self.works[1]) + self.works[2]
     }
 
+    /// Energy that hourglass resistance and held corners of fluids have taken so far.
+    #[inline(always)]
+    pub fn taken(&self, state: &[V::Row], part: usize) -> V {
+        ROWS.taken(&self.works, state, part)
+    }
+
     /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
     #[inline(always)]
     pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {

@@ -6,13 +6,13 @@ use super::geometry::Corners;
 use super::hourglass::Resistance;
 use crate::lanes::{Lanes, array};
 use crate::mesh::corners::NEIGHBOURS;
-use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
+use crate::solver::elements::fluid::{Brake, SLOWED, affordable, any_close};
 
 /// Q = α (M/64) q̇/Δt, in space: a mode weighs M/64 per unit of its rate, and is slowed by the part α in a stable step Δt of its
-/// element, whatever its shape.
+/// element, whatever its shape. The step is that in which its forces act.
 #[inline(always)]
-pub fn resistance<V: Lanes>(rates: &Resistance<V>, factor: f64, mass: V, stable_step: V) -> Resistance<V> {
-    let viscosity = V::splat(SLOWED * factor / 64.0) * mass / stable_step;
+pub fn resistance<V: Lanes>(rates: &Resistance<V>, factor: f64, mass: V, acting_step: V) -> Resistance<V> {
+    let viscosity = V::splat(SLOWED * factor / 64.0) * mass / acting_step;
     array![i in 3 => array![a in 4 => viscosity * rates[i][a]]]
 }
 
@@ -65,6 +65,15 @@ impl<V: Lanes> Corner<V> {
         dot(&e1, &cross(&e2, &e3))
     }
 
+    /// See [`Brake::force`].
+    #[inline(always)]
+    fn push(&self, brake: &mut Brake<V>) -> [V; 2] {
+        let own = self.own();
+        let reach = (dot(&self.areas[0], &self.areas[0]) + dot(&self.areas[1], &self.areas[1]))
+            + (dot(&self.areas[2], &self.areas[2]) + dot(&own, &own));
+        brake.force(self.jacobian, self.rate, reach)
+    }
+
     /// Derivative by the position of the corner itself, with its sign turned.
     #[inline(always)]
     fn own(&self) -> [V; 3] {
@@ -96,13 +105,14 @@ pub struct Held<V> {
 }
 
 /// Finds the forces Λ on the Jacobians of the corners and keeps them in `rows`, with the least Jacobian over the volume after
-/// them. `b_squared` is B_iI B_iI.
+/// them. `b_squared` is B_iI B_iI, `taken` the energy that hourglass resistance and these forces have taken so far.
 #[inline(always)]
 pub fn hold<V: Lanes>(
     [x, v]: [&[Corners<V>; 3]; 2],
     rows: &mut [V::Row],
     part: usize,
-    [volume, mass, stable_step, b_squared]: [V; 4],
+    [volume, mass, stable_step, last_step, b_squared]: [V; 5],
+    taken: V,
 ) -> Held<V> {
     let zero = V::splat(0.0);
     let mut held = Held { force: [[zero; 8]; 3], power: zero, stable_step };
@@ -116,15 +126,17 @@ pub fn hold<V: Lanes>(
     if !before && !any_close::<V>(&rows[8], part) {
         return held;
     }
-    let mut brake = Brake::new([volume, mass * V::splat(0.125), stable_step, b_squared]);
-    for corner in 0..8 {
-        let c = Corner::of(x, v, corner);
-        let own = c.own();
-        let reach = (dot(&c.areas[0], &c.areas[0]) + dot(&c.areas[1], &c.areas[1]))
-            + (dot(&c.areas[2], &c.areas[2]) + dot(&own, &own));
-        let force = brake.force(c.jacobian, c.rate, reach);
+    let mut brake = Brake::new([volume, mass * V::splat(0.125), stable_step, last_step, b_squared]);
+    let corners: [Corner<V>; 8] = array![corner in 8 => Corner::of(x, v, corner)];
+    let pushes = array![corner in 8 => corners[corner].push(&mut brake)];
+    let given = pushes.iter().fold(zero, |sum, [_, given]| sum + *given);
+    let affordable = affordable(taken, given);
+    for (corner, c) in corners.iter().enumerate() {
+        let [force, given] = pushes[corner];
+        let force = V::select_less(zero, given, force * affordable, force);
         force.store(&mut rows[corner], part);
         held.power = held.power + force * c.rate;
+        let own = c.own();
         for i in 0..3 {
             held.force[i][corner] = held.force[i][corner] - force * own[i];
             for k in 0..3 {

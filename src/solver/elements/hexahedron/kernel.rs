@@ -12,7 +12,7 @@ use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
-use crate::solver::elements::fluid::{gentle_step, jump};
+use crate::solver::elements::fluid::{acting_step, gentle_step, jump};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -198,15 +198,22 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     };
     let mut held = fluid::Held { force: [[zero; 8]; 3], power: zero, stable_step };
     let resistance = if let (true, Some(start)) = (K::FLUID, &start) {
-        let sizes =
-            [gradient.volume192 * V::splat(1.0 / 192.0), light, stable_step, b_squared * V::splat(1.0 / 4608.0)];
+        let sizes = [
+            gradient.volume192 * V::splat(1.0 / 192.0),
+            light,
+            stable_step,
+            time_step,
+            b_squared * V::splat(1.0 / 4608.0),
+        ];
         let rates = exact::rates(&v, &x, &start.flow, gradient.volume192);
         // As strongly as where all of the viscosity acts: a limiter sees no modes.
-        let resistance = fluid::resistance(&rates, control.of_fluids(), light, damped_step(bound, whole));
+        let acting = acting_step(damped_step(bound, whole), time_step);
+        let resistance = fluid::resistance(&rates, control.of_fluids(), light, acting);
         for i in 0..3 {
             store(resistance[i], state, rows::HOURGLASS + 4 * i, part);
         }
-        held = fluid::hold([positions, velocities], &mut state[exact::corner_rows::<K>()], part, sizes);
+        let taken = start.taken(state, part);
+        held = fluid::hold([positions, velocities], &mut state[exact::corner_rows::<K>()], part, sizes, taken);
         let of_modes = exact::power(&resistance, &rates) + held.power;
         start.finish::<K>([stress.xx * start.growth, viscous * start.growth, of_modes], state, part, settings);
         resistance

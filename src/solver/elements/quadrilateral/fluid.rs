@@ -4,13 +4,13 @@
 use super::kernel;
 use super::sections::Corners;
 use crate::lanes::{Lanes, array};
-use crate::solver::elements::fluid::{Brake, SLOWED, any_close};
+use crate::solver::elements::fluid::{Brake, SLOWED, affordable, any_close};
 
 /// Q = α (M/16) q̇/Δt, in space: the mode weighs M/16 per unit of its rate, and is slowed by the part α in a stable step Δt of its
 /// element, whatever its shape. `mass` is four times that of the lightest corner.
 #[inline(always)]
-pub fn resistance<V: Lanes>(rates: &[V; 2], factor: f64, mass: V, stable_step: V) -> [V; 2] {
-    let viscosity = V::splat(SLOWED * factor / 16.0) * mass / stable_step;
+pub fn resistance<V: Lanes>(rates: &[V; 2], factor: f64, mass: V, acting_step: V) -> [V; 2] {
+    let viscosity = V::splat(SLOWED * factor / 16.0) * mass / acting_step;
     [viscosity * rates[0], viscosity * rates[1]]
 }
 
@@ -145,13 +145,14 @@ impl<V: Lanes> Held<V> {
 }
 
 /// Finds the forces Λ on the Jacobians of the corners and keeps them in `rows`, with the least Jacobian over the area after
-/// them. `b_squared` is B_iI B_iI. `weights` are those of the compatible form, if it is that.
+/// them. `b_squared` is B_iI B_iI, `taken` the energy that hourglass resistance and these forces have taken so far. `weights` are those of the compatible form, if it is that.
 #[inline(always)]
 pub fn hold<V: Lanes>(
     [x, v]: [&[Corners<V>; 2]; 2],
     rows: &mut [V::Row],
     part: usize,
-    [area, mass, stable_step, b_squared]: [V; 4],
+    [area, mass, stable_step, last_step, b_squared]: [V; 5],
+    taken: V,
     weights: Option<&(Corners<V>, V)>,
 ) -> Held<V> {
     let mut held = Held::nothing(stable_step);
@@ -167,12 +168,18 @@ pub fn hold<V: Lanes>(
     if !before && !any_close::<V>(&rows[8], part) {
         return held;
     }
-    let mut brake = Brake::new([area, mass * V::splat(0.25), stable_step, b_squared]);
-    for corner in 0..4 {
+    let mut brake = Brake::new([area, mass * V::splat(0.25), stable_step, last_step, b_squared]);
+    let pushes: [[V; 2]; 4] = array![corner in 4 => {
         let c = Corner::of(x, v, corner);
         let own = c.own();
         let reach = dot(&c.normals[0], &c.normals[0]) + dot(&c.normals[1], &c.normals[1]) + dot(&own, &own);
-        let force = brake.force(corners[corner], c.rate, reach);
+        brake.force(corners[corner], c.rate, reach)
+    }];
+    let affordable = affordable(taken, (pushes[0][1] + pushes[1][1]) + (pushes[2][1] + pushes[3][1]));
+    for corner in 0..4 {
+        let [force, given] = pushes[corner];
+        let force = V::select_less(V::splat(0.0), given, force * affordable, force);
+        let c = Corner::of(x, v, corner);
         force.store(&mut rows[corner], part);
         held.power = held.power + force * c.rate;
         c.add(force, corner, &mut held.force);

@@ -11,7 +11,7 @@ use crate::material::{Kernel, Step};
 use crate::model::{BulkViscosity, Hourglass};
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
-use crate::solver::elements::fluid::{gentle_step, jump};
+use crate::solver::elements::fluid::{acting_step, gentle_step, jump};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -237,11 +237,12 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             // What slows the modes of the plane works on weighted ones.
             let rates = if compatible { [dot(&gamma, &v[0]), dot(&gamma, &v[1])] } else { start.flow.hourglass };
             // As strongly as where all of the viscosity acts: a limiter sees no modes.
-            let step = damped_step(bound, whole);
+            let step = acting_step(damped_step(bound, whole), time_step);
             let resistance = fluid::resistance(&rates, hourglass::of_fluids(settings.control), heavy, step);
             store(resistance, own, rows::HOURGLASS, part);
-            let sizes = [operator.area, heavy, stable_step, b_squared];
-            held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes, weights.as_ref());
+            let sizes = [operator.area, heavy, stable_step, time_step, b_squared];
+            let taken = start.taken(&*state, part);
+            held = fluid::hold([&x, &v], &mut state[corner_rows::<K>()], part, sizes, taken, weights.as_ref());
             let of_modes = fluid::power_of_modes(&resistance, &start.flow.hourglass) + held.power;
             let powers = [power_of_stress(&total, &start.flow), viscous * start.growth, of_modes];
             start.finish::<K>(powers, state, part, settings);
