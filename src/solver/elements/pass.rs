@@ -271,6 +271,8 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     let abreast = V::Row::LANES / CHUNK;
     let rows = V::Row::among(&mut group.state, &mut group.single);
     let mut corner_forces: CornerForces = [[Force::default(); MOST_CORNERS]; MOST_LANES];
+    // Outside of the loop: to clear them for every chunk took a twentieth of it.
+    let (mut x, mut v) = ([[V::splat(0.0); N]; 3], [[V::splat(0.0); N]; 3]);
     let (mut smallest, mut smallest_row) = (V::Row::filled(f64::INFINITY), V::Row::filled(f64::INFINITY));
     let mut failed_row = V::Row::filled(f64::INFINITY);
     for (row, connectivity) in group.connectivity.as_chunks::<N>().0.chunks_exact(abreast).enumerate() {
@@ -281,7 +283,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
-            let (x, v) = relative_corners::<V, N>(nodes.rows, connectivity, part, kernel.about_axis(), places);
+            relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
             let material = V::load_double(&group.mass[chunk..], part);
             let moving = group.moving.get(chunk..).filter(|rows| !rows.is_empty());
             let moving = moving.map_or(material, |rows| V::load_double(rows, part));
@@ -358,19 +360,18 @@ fn gathered<V: Lanes, const N: usize>(numbers: &[f64], connectivity: &[[[u32; CH
 }
 
 /// Positions and velocities of the corners, relative to the first corner so that neither a far origin nor a fast
-/// flight costs digits. Of those from `places` on, which are rotations, only the rates are fetched, as they are.
+/// flight costs digits. Of those from `places` on, which are rotations, only the rates are fetched, as they are. What is never fetched
+/// stays as it is, zero.
 #[inline(always)]
-#[allow(clippy::type_complexity)]
 fn relative_corners<V: Lanes, const N: usize>(
     nodes: &[Row],
     connectivity: &[[[u32; CHUNK]; N]],
     part: usize,
-    about_axis: bool,
-    places: usize,
-) -> ([[V; N]; 3], [[V; N]; 3]) {
+    (about_axis, places): (bool, usize),
+    [x, v]: [&mut [[V; N]; 3]; 2],
+) {
     let at = |corner: usize| -> Corner { [&connectivity[0][corner], &connectivity[connectivity.len() - 1][corner]] };
     let zero = V::splat(0.0);
-    let (mut x, mut v) = ([[zero; N]; 3], [[zero; N]; 3]);
     if V::SINGLE {
         // Far from the origin single precision would leave nothing of a difference.
         for corner in 1..places {
@@ -379,7 +380,7 @@ fn relative_corners<V: Lanes, const N: usize>(
                 (x[i][corner], v[i][corner]) = (row[i], row[4 + i]);
             }
         }
-        return (x, v);
+        return;
     }
     let mut first = V::gather(nodes, at(0), part);
     if about_axis {
@@ -398,7 +399,6 @@ fn relative_corners<V: Lanes, const N: usize>(
             v[i][corner] = row[4 + i];
         }
     }
-    (x, v)
 }
 
 fn summarise<R: Numbers>(group: &Group, smallest: &R, smallest_row: &R, failed_row: &R) -> PassOutcome {
