@@ -50,7 +50,7 @@ fn friction(card: &Card) -> Friction {
 fn contact_surface(card: &Card, draft: &mut Draft) {
     if tied::is_fixed(card) {
         let side_sets = tied::sides(card).map(|side| card.integer(side));
-        return draft.model.ties.push(Tie { side_sets, tolerance: tied::TOLERANCE });
+        return draft.model.ties.push(Tie { side_sets, tolerance: tied::default_tolerance() });
     }
     draft.model.contact.surfaces.push(ContactSurface {
         side_sets: [card.integer("first"), card.integer("second")],

@@ -1,6 +1,6 @@
 //! TIED CONTACT: surfaces that are joined though their meshes do not match.
 
-use crate::deck::{Card, Diagnostic, Diagnostics};
+use crate::deck::{Card, Diagnostic, Diagnostics, language};
 use crate::mesh::{Block, Mesh, Shape};
 use crate::model::Analysis;
 use crate::model::problem::{Draft, Problem, Setter};
@@ -14,8 +14,11 @@ pub struct Tie {
     pub tolerance: f64,
 }
 
-/// The tolerance of TIED CONTACT where nothing is said.
-pub(in crate::model) const TOLERANCE: f64 = 0.05;
+/// The tolerance of TIED CONTACT where nothing is said, as the grammar has it.
+pub(in crate::model) fn default_tolerance() -> f64 {
+    let defaults = language().entry("TIED CONTACT").map(|entry| entry.default_card()).unwrap_or_default();
+    defaults.number("tolerance")
+}
 
 /// Whether a CONTACT SURFACE joins instead of letting touch.
 pub(in crate::model) fn is_fixed(card: &Card) -> bool {
