@@ -1,4 +1,4 @@
-//! Constitutive laws: here what a law is, and what it is told and answers; each law is one file in the room [`laws`]. The deck
+//! Constitutive laws: here what a law is, and what it is told and answers; each law is one file in the room `laws`. The deck
 //! parser, the manual, plot names and the solver's dispatch follow from their tables.
 
 use crate::lanes::{Lanes, Matrix3, Sym3};

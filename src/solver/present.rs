@@ -52,7 +52,7 @@ impl Solver {
     }
 
     /// Brings what contact has found beside its forces to the nodes, where it is computed elsewhere; before
-    /// [`Solver::reactions`] and [`Contact::node_values`](contact::Contact::node_values). All ranks call it.
+    /// [`Solver::reactions`] and [`Contact::node_values`](super::contact::Contact::node_values). All ranks call it.
     pub fn complete_contact(&mut self, comm: &mut dyn Communicator) {
         self.refresh();
         if let Some(contact) = &mut self.domain.contact {
@@ -60,7 +60,7 @@ impl Solver {
         }
     }
 
-    /// What HISTORY watches of contact, in the order of the deck; see [`Contact::resultants`](contact::Contact::resultants). All
+    /// What HISTORY watches of contact, in the order of the deck; see [`Contact::resultants`](super::contact::Contact::resultants). All
     /// ranks call it.
     pub fn contact_resultants(&mut self, due: bool, comm: &mut dyn Communicator) -> Vec<[f64; 6]> {
         let time = self.time;

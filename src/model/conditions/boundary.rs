@@ -53,7 +53,7 @@ pub struct PrescribedMotion {
     pub direction: Direction,
     /// Node set number.
     pub node_set: i64,
-    /// Index into [`Model::functions`].
+    /// Index into [`Model::functions`](crate::model::Model::functions).
     pub function: usize,
     /// Factor on the function.
     pub scale: f64,
@@ -79,7 +79,7 @@ pub struct PrescribedForce {
     pub direction: Direction,
     /// Node set number.
     pub node_set: i64,
-    /// Index into [`Model::functions`].
+    /// Index into [`Model::functions`](crate::model::Model::functions).
     pub function: usize,
     /// Factor on the function.
     pub scale: f64,
@@ -101,7 +101,7 @@ pub struct PointMass {
 pub struct Pressure {
     /// Side set number.
     pub side_set: i64,
-    /// Index into [`Model::functions`].
+    /// Index into [`Model::functions`](crate::model::Model::functions).
     pub function: usize,
     /// Factor on the function.
     pub scale: f64,
@@ -112,7 +112,7 @@ pub struct Pressure {
 pub struct Gravity {
     /// Acceleration vector, length/time².
     pub acceleration: [f64; 3],
-    /// Index into [`Model::functions`] of a factor; constant 1 without it.
+    /// Index into [`Model::functions`](crate::model::Model::functions) of a factor; constant 1 without it.
     pub function: Option<usize>,
 }
 
