@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface, boundary::direction,
-    problem::those_there_are, rigid, tied,
+    Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface,
+    conditions::boundary::direction,
+    interactions::{rigid, tied},
+    problem::those_there_are,
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},

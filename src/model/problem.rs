@@ -1,9 +1,11 @@
 //! Cards → model: every command has one setter, listed by family.
 
 use super::{
-    Analysis, BulkViscosity, Contact, DEFAULT_HOURGLASS, Model, PlotRequests, PlotSchedule, Precision, Restarts,
-    StepEstimate, StepModuli, TimeStepControl, boundary, check, contact, control, deletion, function, initial,
-    material, output, restart, rigid, section, tied,
+    Model, check,
+    conditions::{boundary, function, initial},
+    control::{analysis, deletion, output, restart},
+    interactions::{contact, rigid, tied},
+    materials::{material, section},
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -27,7 +29,7 @@ pub(super) type Setter = (&'static str, fn(&Card, &mut Draft));
 /// Every setter there is. Functions come first because loads refer to them; within a family, cards act in the order
 /// of the deck.
 const FAMILIES: &[&[Setter]] = &[
-    control::COMMANDS,
+    analysis::COMMANDS,
     function::COMMANDS,
     material::COMMANDS,
     material::LATER_COMMANDS,
@@ -111,54 +113,6 @@ fn defaults(family: &[Setter], draft: &mut Draft) {
     for (name, set) in family {
         if let Some(entry) = language().entry(name).filter(|e| e.always) {
             set(&entry.default_card(), draft);
-        }
-    }
-}
-
-/// A model that says nothing yet. What is NaN here is required, follows from others, or has a command that always holds.
-impl Default for Model {
-    fn default() -> Model {
-        Model {
-            title: String::new(),
-            analysis: Analysis::default(),
-            termination_time: f64::NAN,
-            output_interval: f64::NAN,
-            step_log: Vec::new(),
-            plot: PlotSchedule { interval: None, start: 0.0, stop: f64::NAN },
-            time_step: TimeStepControl {
-                scale: f64::NAN,
-                softening: f64::NAN,
-                growth: f64::NAN,
-                moduli: StepModuli::default(),
-                longest: f64::INFINITY,
-            },
-            rigid_bodies: Vec::new(),
-            ties: Vec::new(),
-            precision: Precision::default(),
-            step_estimate: StepEstimate::default(),
-            mass_scalings: Vec::new(),
-            bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },
-            hourglass: DEFAULT_HOURGLASS,
-            functions: Vec::new(),
-            materials: Vec::new(),
-            sections: Vec::new(),
-            no_displacements: Vec::new(),
-            prescribed_motions: Vec::new(),
-            point_masses: Vec::new(),
-            prescribed_forces: Vec::new(),
-            pressures: Vec::new(),
-            gravities: Vec::new(),
-            silent_boundaries: Vec::new(),
-            initial_velocities: Vec::new(),
-            rigid_surfaces: Vec::new(),
-            contact: Contact::default(),
-            deaths: Vec::new(),
-            deletions: Vec::new(),
-            plot_requests: PlotRequests::default(),
-            material_points: Vec::new(),
-            histories: Vec::new(),
-            history_interval: None,
-            restarts: Restarts::default(),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What is drawn: a results file's body at a state, coloured by a variable.
 
+mod readings;
+
 use std::path::{Path, PathBuf};
 
 use super::bars::add_tubes;
@@ -7,12 +9,12 @@ use super::choice::{choose_arrows, choose_criteria, choose_field, is_shown, mesh
 use super::field::{Field, Names, Place};
 use super::quarters::quarter;
 use super::revolve::{Turn, revolve};
-use super::scene::{Scene, Values};
+use super::scene::Scene;
 use super::section::{Between, Cutting, Plane};
 use super::selection::{self, Criterion};
 use super::thickness::{Added, thicken};
 use crate::depiction::{Depiction, RigidPlane};
-use crate::exodus::{Results, ResultsError};
+use crate::exodus::Results;
 use crate::mesh::exterior::{SIDES, exterior};
 use crate::mesh::{Block, Dimension, Mesh, Shape};
 use crate::vector::{dot, subtract};
@@ -420,21 +422,6 @@ impl<'a> Subject<'a> {
         planes
     }
 
-    /// The vector at each node and each point made; nothing where no arrows are drawn.
-    fn vectors(&self, made: &[Between], state: Option<usize>) -> Result<Vec<[f64; 3]>, ViewError> {
-        let (Some(names), Some(state)) = (&self.arrows, state) else { return Ok(Vec::new()) };
-        let read = |name: &String| {
-            self.read(Place::Nodes, name, state).map(|mut values| {
-                extend(&mut values, made);
-                values
-            })
-        };
-        let parts = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let count = parts.first().map_or(0, Vec::len);
-        let part = |axis: usize, node: usize| parts.get(axis).map_or(0.0, |part| part[node]);
-        Ok((0..count).map(|node| [0, 1, 2].map(|axis| part(axis, node))).collect())
-    }
-
     /// The surface of some elements; in the plane the elements themselves.
     fn surface_of(&self, elements: &[usize]) -> Vec<Face> {
         if self.mesh.dimension == Dimension::Three {
@@ -457,63 +444,6 @@ impl<'a> Subject<'a> {
         };
         numbers.into_iter().filter_map(face).collect()
     }
-
-    /// Node positions with the displacement, as many times as asked for.
-    fn positions(&self, state: Option<usize>) -> Result<Vec<[f64; 3]>, ViewError> {
-        let mut positions = self.mesh.coordinates.clone();
-        if let (Some(names), Some(state)) = (&self.displacement, state) {
-            for (axis, name) in names.iter().enumerate() {
-                for (position, displacement) in positions.iter_mut().zip(self.read(Place::Nodes, name, state)?) {
-                    position[axis] += self.options.magnify * displacement;
-                }
-            }
-        }
-        Ok(positions)
-    }
-
-    /// A variable's values in a state, as many as there are nodes or elements.
-    fn read(&self, place: Place, name: &str, state: usize) -> Result<Vec<f64>, ViewError> {
-        let (values, expected) = match place {
-            Place::Nodes => (self.results.nodal(name, state)?, self.mesh.coordinates.len()),
-            Place::Elements => (self.results.element(name, state)?, self.mesh.element_count()),
-        };
-        if values.len() == expected {
-            return Ok(values);
-        }
-        let what = format!("{name} has {} values where {expected} belong", values.len());
-        Err(ResultsError::Unusable { path: self.path.clone(), what }.into())
-    }
-
-    /// The values of a field in a state, one per node or element; of a vector its length.
-    fn values_of(&self, field: &Field, state: usize) -> Result<Vec<f64>, ViewError> {
-        let read = |name: &String| self.read(field.place, name, state);
-        let components = field.names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        Ok(match components.as_slice() {
-            [x, y, z] => (0..x.len()).map(|i| dot([x[i], y[i], z[i]], [x[i], y[i], z[i]]).sqrt()).collect(),
-            [x, y] => x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()).collect(),
-            _ => components.into_iter().next().unwrap_or_default(),
-        })
-    }
-
-    fn values(&self, skin: &[Face], made: &[Between], state: Option<usize>) -> Result<Values, ViewError> {
-        let (Some(field), Some(state)) = (&self.field, state) else {
-            let block_of: Vec<usize> = self.mesh.elements().map(|(block, _)| block).collect();
-            return Ok(Values::Blocks(skin.iter().map(|face| block_of[face.element]).collect()));
-        };
-        let mut values = self.values_of(field, state)?;
-        Ok(match field.place {
-            Place::Nodes if field.is_status() => {
-                extend(&mut values, made);
-                // Faces have been divided among their corners.
-                Values::Faces(skin.iter().map(|face| values[face.nodes[0] as usize].round()).collect())
-            }
-            Place::Nodes => {
-                extend(&mut values, made);
-                Values::Nodes(values)
-            }
-            Place::Elements => Values::Faces(skin.iter().map(|face| values[face.element]).collect()),
-        })
-    }
 }
 
 /// The body seen in some mirrors, and the planes that it is cut by before it is.
@@ -529,12 +459,4 @@ pub(super) struct Cut {
     pub(super) skin: Vec<Face>,
     pub(super) made: Vec<Between>,
     pub(super) seams: Vec<[u32; 2]>,
-}
-
-/// Gives the points made their values, between those of their ends.
-fn extend(values: &mut Vec<f64>, made: &[Between]) {
-    for Between { ends: [a, b], part } in made {
-        let (from, to) = (values[*a as usize], values[*b as usize]);
-        values.push(from + part * (to - from));
-    }
 }

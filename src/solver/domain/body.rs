@@ -3,14 +3,14 @@
 //! The canonical order depends on mesh and model only, never on the decomposition. Every sum over elements at a
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
+use super::rotations::Rotations;
 use crate::mesh::{Block, Connectivity, Mesh, Shape};
 use crate::model::Model;
 use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
+use crate::solver::AddedMass;
 use crate::solver::contact::{self, Overlap};
 use crate::solver::elements::{Element, Sample};
-use crate::solver::mass_scaling::AddedMass;
 use crate::solver::rigid::{self, BodyShape};
-use crate::solver::rotations::Rotations;
 use crate::solver::tied::Tied;
 use crate::vector::add;
 use std::sync::Arc;

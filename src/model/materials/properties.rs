@@ -1,13 +1,13 @@
 //! Lines `KEYWORD value` of a group: the properties of a material or of an equation of state.
 
-use super::problem::Draft;
+use crate::model::problem::Draft;
 use crate::{
     deck::{Absent, Agreement, Card, Diagnostic, FieldReader, FieldRule, Kind, Row, Span, Spelled, spelling},
     material::{Entry, Property, Range},
 };
 
 /// The properties that a group may have.
-pub(super) struct Properties {
+pub(in crate::model) struct Properties {
     /// Who has them, e.g. `MATERIAL 3`.
     pub owner: String,
     /// Name of the model.

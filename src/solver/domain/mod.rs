@@ -1,15 +1,20 @@
 //! One rank's part of the problem: its nodes, element blocks, loads and constraints, and how it sums with others.
 
-use super::body::{Body, LoadedFace};
-use super::constraints::{Constraint, Motion};
+pub(super) mod body;
+pub(super) mod constraints;
+mod exchange;
+mod function;
+pub mod nodes;
+mod rotations;
+
+pub use body::{Body, Cut, NoMaterial, centroid};
+pub use rotations::Rotations;
+
 use super::contact::Contact;
 use super::elements::{Element, ElementBlock, NewElement};
 use super::erosion::Erosion;
-use super::exchange::Exchange;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
-use super::nodes::{Nodes, Rates, add, cross, dot, scaled, subtract};
 use super::rigid::RigidBodies;
-use super::rotations::Rotations;
 use super::tied::Ties;
 use crate::comm::Communicator;
 use crate::lanes::Row;
@@ -17,6 +22,10 @@ use crate::material::{Kernel, KernelVisitor, Law};
 use crate::mesh::{Block, Mesh};
 use crate::model::{InitialVelocity, Model, Unknown};
 use crate::partition::Share;
+use body::LoadedFace;
+use constraints::{Constraint, Motion};
+use exchange::Exchange;
+use nodes::{Nodes, Rates, add, cross, dot, scaled, subtract};
 use std::collections::HashMap;
 
 /// Everything a rank owns.

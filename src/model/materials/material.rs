@@ -1,19 +1,27 @@
 //! MATERIAL groups: which law an element block follows, and with which parameters.
 
-use super::{
-    BlockMaterial,
-    problem::{Draft, Setter},
-    properties::Properties,
-};
+use super::properties::Properties;
+use crate::model::problem::{Draft, Setter};
 use crate::{
     deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, Status, language, spelling},
     material::{DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
 };
 
-pub(super) const COMMANDS: &[Setter] = &[("MATERIAL", material), ("EQUATION OF STATE", lonely_equation)];
+/// MATERIAL: the law of one element block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockMaterial {
+    /// The element block's number.
+    pub block: i64,
+    /// Mass density ρ₀, mass/length³.
+    pub density: f64,
+    /// The constitutive law with its parameters.
+    pub law: Law,
+}
+
+pub(in crate::model) const COMMANDS: &[Setter] = &[("MATERIAL", material), ("EQUATION OF STATE", lonely_equation)];
 
 /// What comes when all materials are there.
-pub(super) const LATER_COMMANDS: &[Setter] = &[("DETONATION POINT", detonation_point)];
+pub(in crate::model) const LATER_COMMANDS: &[Setter] = &[("DETONATION POINT", detonation_point)];
 
 fn material(card: &Card, draft: &mut Draft) {
     let block = card.integer("block");
@@ -122,7 +130,7 @@ fn explosive(law: &Law) -> bool {
 }
 
 /// Warns of explosives that nothing lights.
-pub(super) fn report_unlit(draft: &mut Draft) {
+pub(in crate::model) fn report_unlit(draft: &mut Draft) {
     if draft.deck.cards_of("DETONATION POINT").next().is_some() {
         return;
     }
@@ -139,7 +147,7 @@ pub(super) fn report_unlit(draft: &mut Draft) {
 
 /// Refuses a deck in which a MATERIAL made no law although nothing was found wrong with it: its block must not be computed
 /// with anything else.
-pub(super) fn refuse_lawless(draft: &mut Draft) {
+pub(in crate::model) fn refuse_lawless(draft: &mut Draft) {
     if draft.found.has_errors() {
         return;
     }
@@ -166,7 +174,7 @@ fn refused(card: &Card, refusal: &Refusal, draft: &mut Draft) {
 
 /// Looks at the properties of a material whose first line has a mistake, if its model is clear all the same, so that
 /// one reading of the deck shows all that is wrong. What is missing is not told: the group may have lost its END.
-pub(super) fn check_unfinished(draft: &mut Draft) {
+pub(in crate::model) fn check_unfinished(draft: &mut Draft) {
     let deck = draft.deck;
     for card in deck.cards.iter().filter(|card| card.name == "MATERIAL" && !card.complete) {
         let built = MATERIALS.iter().flat_map(|&entry| spellings(entry).map(move |s| (s, entry.name)));

@@ -1,9 +1,9 @@
 //! The few elements that set the step of all: what a little more mass in them would buy.
 
-use super::health::elements;
-use super::stop::ElementPlace;
-use super::{Solver, domain::Domain};
 use crate::comm::{Communicator, ExactSum};
+use crate::solver::health::elements;
+use crate::solver::stop::ElementPlace;
+use crate::solver::{Solver, domain::Domain};
 
 /// What mass scaling of the first state would bring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,12 +53,12 @@ fn of_blocks(own: &[(f64, f64, usize)], wanted: f64, blocks: usize, comm: &mut d
 
 impl Solver {
     /// Lets all elements keep their stable steps in the coming pass, and returns which blocks did so before.
-    pub(super) fn keep_steps(&mut self) -> Vec<bool> {
+    pub(in crate::solver) fn keep_steps(&mut self) -> Vec<bool> {
         self.domain.blocks.iter_mut().map(|block| std::mem::replace(&mut block.keeps_steps, true)).collect()
     }
 
     /// Looks at the steps that the last pass has kept, and forgets those that nobody else wants. All ranks call it.
-    pub(super) fn weigh_steps(&mut self, kept_before: &[bool], comm: &mut dyn Communicator) {
+    pub(in crate::solver) fn weigh_steps(&mut self, kept_before: &[bool], comm: &mut dyn Communicator) {
         let own = kept(&self.domain);
         for (block, kept) in self.domain.blocks.iter_mut().zip(kept_before).filter(|(_, kept)| !**kept) {
             block.keeps_steps = *kept;

@@ -5,11 +5,11 @@
 //! with its nodes from the start, has its part of every initial velocity and of gravity, and takes no part in the law: volumes
 //! and densities are those of the material.
 
-use super::body::Body;
-use super::elements::{ElementBlock, NewElement, PassSettings, Sink};
 use crate::lanes::{CHUNK, Force, InstructionSet, Row};
 use crate::mesh::Mesh;
 use crate::model::{MassScaling, Model, ScaleMass};
+use crate::solver::Body;
+use crate::solver::elements::{ElementBlock, NewElement, PassSettings, Sink};
 
 /// What MASS SCALING has added.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -48,7 +48,7 @@ impl BlockMass {
 
 impl AddedMass {
     /// What a model's commands add to the elements of a body that has been weighed.
-    pub(super) fn of(mesh: &Mesh, model: &Model, body: &Body) -> AddedMass {
+    pub(in crate::solver) fn of(mesh: &Mesh, model: &Model, body: &Body) -> AddedMass {
         let mut found = AddedMass::default();
         if model.mass_scalings.is_empty() {
             return found;
@@ -92,7 +92,7 @@ impl AddedMass {
     }
 
     /// Number of elements that are known: none without the command.
-    pub(super) fn elements(&self) -> usize {
+    pub(in crate::solver) fn elements(&self) -> usize {
         self.elements.len()
     }
 
@@ -102,13 +102,13 @@ impl AddedMass {
     }
 
     /// Of these nodes, or nothing where nothing was added to any.
-    pub(super) fn of_nodes(&self, nodes: &[u32]) -> Vec<f64> {
+    pub(in crate::solver) fn of_nodes(&self, nodes: &[u32]) -> Vec<f64> {
         let known = if self.nodes.is_empty() { &[] } else { nodes };
         known.iter().map(|&node| self.nodes[node as usize]).collect()
     }
 
     /// Adds to one of so many nodes and rotations.
-    pub(super) fn add_to_node(&mut self, node: u32, mass: f64, unknowns: usize) {
+    pub(in crate::solver) fn add_to_node(&mut self, node: u32, mass: f64, unknowns: usize) {
         self.nodes.resize(unknowns, 0.0);
         self.nodes[node as usize] += mass;
     }
@@ -201,7 +201,7 @@ fn steps_of(mesh: &Mesh, model: &Model, body: &Body, batch: &[usize]) -> Vec<f64
         density: material.density,
         law: material.law.clone(),
         element: body.elements[block].clone(),
-        state_names: super::state_names(&material.law),
+        state_names: crate::solver::state_names(&material.law),
         border: group(&[]),
         interior: group(&elements),
         keeps_steps: true,

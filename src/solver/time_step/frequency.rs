@@ -15,11 +15,11 @@
 //! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one: squeezing
 //! and shocks are answered at once.
 
-use super::domain::{ABSENT, Domain};
-use super::elements::{PassSettings, Probe, Sink};
 use crate::comm::{Communicator, ExactSum};
 use crate::lanes::{CHUNK, Force, Row};
 use crate::restart::Archive;
+use crate::solver::domain::{ABSENT, Domain};
+use crate::solver::elements::{PassSettings, Probe, Sink};
 
 /// ε: share of λ that the iterations may miss; the step gives away half of it.
 const MISSED: f64 = 0.1;
@@ -149,7 +149,7 @@ impl GlobalStep {
     }
 
     /// Visits what the next steps need.
-    pub(super) fn visit_state(&mut self, archive: &mut dyn Archive, domain: &Domain) {
+    pub(in crate::solver) fn visit_state(&mut self, archive: &mut dyn Archive, domain: &Domain) {
         let GlobalStep { takes_part: _, found, at, interval, stale, then, estimates } = self;
         archive.number("GLOBALSTEP", found);
         archive.count("GLOBALAT", at);

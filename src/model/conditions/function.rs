@@ -1,12 +1,18 @@
-//! FUNCTION groups.
+//! FUNCTION groups: functions of time that conditions and laws refer to.
 
-use super::{
-    Function,
-    problem::{Draft, Setter},
-};
 use crate::deck::{Card, Diagnostic};
+use crate::model::problem::{Draft, Setter};
 
-pub(super) const COMMANDS: &[Setter] = &[("FUNCTION", function)];
+/// FUNCTION: piecewise linear, constant outside its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Function {
+    /// The function's number.
+    pub id: i64,
+    /// Points `(t, f)` with increasing `t`; at least one.
+    pub points: Vec<(f64, f64)>,
+}
+
+pub(in crate::model) const COMMANDS: &[Setter] = &[("FUNCTION", function)];
 
 fn function(card: &Card, draft: &mut Draft) {
     let id = card.integer("id");
@@ -44,7 +50,7 @@ fn times_increase(card: &Card, draft: &mut Draft) {
 }
 
 /// Warns of functions that nothing refers to.
-pub(super) fn report_unused(draft: &mut Draft) {
+pub(in crate::model) fn report_unused(draft: &mut Draft) {
     let deck = draft.deck;
     for card in deck.cards_of("FUNCTION") {
         let id = card.maybe_integer("id");

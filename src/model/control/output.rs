@@ -1,15 +1,92 @@
 //! When and what to write.
 
-use super::{
-    ElementField, NodalField, PlotSchedule, StepColumns, Watched,
-    problem::{Draft, Setter},
-};
+use super::fields::{ElementField, NodalField};
+use crate::model::problem::{Draft, Setter};
 use crate::{
     deck::{Card, Diagnostic, Item, spelling},
     material::MATERIALS,
 };
 
-pub(super) const COMMANDS: &[Setter] = &[
+/// HISTORY: what is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Watched {
+    /// Every block, as a body.
+    Blocks,
+    /// The block with this number, as a body.
+    Block(i64),
+    /// The node set with this number.
+    NodeSet(i64),
+    /// The node with this number.
+    Node(i64),
+    /// The force of rigid surfaces on the nodes of the side set with this number, and its work.
+    RigidSurface(i64),
+    /// The force of the block with the second number on that with the first, or of all others where there is none, and their
+    /// works.
+    Contact(i64, Option<i64>),
+}
+
+/// PLOT TIME: states are written at the steps nearest to `start`, `start + interval`, … up to `stop`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlotSchedule {
+    /// Interval between states; `None` writes only the first and the last state.
+    pub interval: Option<f64>,
+    /// First time.
+    pub start: f64,
+    /// Last time.
+    pub stop: f64,
+}
+
+/// PLOT NODAL, PLOT ELEMENT, PLOT STATE.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlotRequests {
+    /// Nodal fields, in EXODUS order; DISPLACEMENT is always first.
+    pub nodal: Vec<NodalField>,
+    /// Element fields.
+    pub element: Vec<ElementField>,
+    /// Names of material state variables.
+    pub state: Vec<String>,
+    /// Energies of each block, as global variables.
+    pub block_energies: bool,
+}
+
+/// Groups of columns that STEP LOG can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepColumns {
+    /// None beside PRONTO's own.
+    Pronto,
+    /// The time step and the element that sets it.
+    TimeStep,
+    /// The energy accounts and their balance.
+    Energy,
+    /// The error of the energy balance alone.
+    EnergyError,
+    /// The momentum of the body.
+    Momentum,
+    /// Seconds to the termination time.
+    ToGo,
+}
+
+impl StepColumns {
+    /// All of them.
+    pub const ALL: [StepColumns; 6] =
+        [Self::Pronto, Self::TimeStep, Self::Energy, Self::EnergyError, Self::Momentum, Self::ToGo];
+    /// What a log has when the deck does not say: PRONTO's 132 columns hold it.
+    pub const USUAL: [StepColumns; 3] = [Self::TimeStep, Self::ToGo, Self::EnergyError];
+
+    /// The word that STEP LOG knows.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Pronto => "PRONTO",
+            Self::TimeStep => "TIME STEP",
+            Self::Energy => "ENERGY",
+            Self::EnergyError => "ENERGY ERROR",
+            Self::Momentum => "MOMENTUM",
+            Self::ToGo => "TO GO",
+        }
+    }
+}
+
+pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("OUTPUT TIME", output_time),
     ("STEP LOG", step_log),
     ("PLOT TIME", plot_time),
@@ -123,7 +200,7 @@ fn state_name(item: &Item, draft: &mut Draft) -> Option<String> {
 }
 
 /// Fills in what follows from other commands, and looks at the schedule as a whole.
-pub(super) fn finish(draft: &mut Draft) {
+pub(in crate::model) fn finish(draft: &mut Draft) {
     let end = draft.model.termination_time;
     let plot = &mut draft.model.plot;
     if plot.stop.is_nan() {

@@ -1,31 +1,43 @@
 //! TIED CONTACT: surfaces that are joined though their meshes do not match.
 
-use super::problem::{Draft, Problem, Setter};
-use super::{Analysis, Tie};
-use crate::deck::{Card, Diagnostic, Diagnostics};
+use crate::deck::{Card, Diagnostic, Diagnostics, language};
 use crate::mesh::{Block, Mesh, Shape};
+use crate::model::Analysis;
+use crate::model::problem::{Draft, Problem, Setter};
 
-/// The tolerance of TIED CONTACT where nothing is said.
-pub(super) const TOLERANCE: f64 = 0.05;
+/// TIED CONTACT: the nodes of a surface follow the faces of another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// Numbers of the side sets: of the surface that follows, and of the other.
+    pub side_sets: [i64; 2],
+    /// Largest distance between the two, as a part of the root of a face's area.
+    pub tolerance: f64,
+}
+
+/// The tolerance of TIED CONTACT where nothing is said, as the grammar has it.
+pub(in crate::model) fn default_tolerance() -> f64 {
+    let defaults = language().entry("TIED CONTACT").map(|entry| entry.default_card()).unwrap_or_default();
+    defaults.number("tolerance")
+}
 
 /// Whether a CONTACT SURFACE joins instead of letting touch.
-pub(super) fn is_fixed(card: &Card) -> bool {
+pub(in crate::model) fn is_fixed(card: &Card) -> bool {
     card.text("friction") == "FIXED"
 }
 
 /// The fields of the side sets that follow and that are followed.
-pub(super) fn sides(card: &Card) -> [&'static str; 2] {
+pub(in crate::model) fn sides(card: &Card) -> [&'static str; 2] {
     let other_way = is_fixed(card) && card.number("partition") > 0.5;
     if other_way { ["second", "first"] } else { ["first", "second"] }
 }
 
-pub(super) const COMMANDS: &[Setter] = &[("TIED CONTACT", |card, draft: &mut Draft| {
+pub(in crate::model) const COMMANDS: &[Setter] = &[("TIED CONTACT", |card, draft: &mut Draft| {
     let side_sets = [card.integer("first"), card.integer("second")];
     draft.model.ties.push(Tie { side_sets, tolerance: card.number("tolerance") });
 })];
 
 /// What the deck asks of tied surfaces that they cannot do.
-pub(super) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     let fixed = problem.deck.cards_of("CONTACT SURFACE").filter(|card| is_fixed(card));
     let cards: Vec<&Card> = problem.deck.cards_of("TIED CONTACT").chain(fixed).filter(|card| card.complete).collect();
     let Some(first) = cards.first() else { return };

@@ -2,7 +2,7 @@
 
 use super::*;
 
-#[path = "../../docs/examples/drucker_prager.rs"]
+#[path = "../../../docs/examples/drucker_prager.rs"]
 mod drucker_prager;
 
 use drucker_prager::DruckerPrager;
@@ -14,8 +14,11 @@ laws! { drucker_prager::DruckerPrager }
 
 #[test]
 fn the_page_shows_what_is_built() {
-    let page = include_str!("../../docs/adding-a-material.md");
-    assert!(page.contains(include_str!("../../docs/examples/drucker_prager.rs")), "docs/adding-a-material.md is stale");
+    let page = include_str!("../../../docs/adding-a-material.md");
+    assert!(
+        page.contains(include_str!("../../../docs/examples/drucker_prager.rs")),
+        "docs/adding-a-material.md is stale"
+    );
 }
 
 #[test]

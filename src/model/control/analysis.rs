@@ -1,12 +1,137 @@
-//! Title, times, time step, hourglass control, bulk viscosity.
+//! What is computed and how: kind of analysis, times, time step, precision, hourglass control, bulk viscosity.
 
-use super::{
-    Analysis, BulkViscosity, Hourglass, MassScaling, Precision, ScaleMass, StepEstimate, StepModuli,
-    problem::{Draft, Setter},
-};
 use crate::deck::{Card, Diagnostic, language};
+use crate::mesh::Dimension;
+use crate::model::problem::{Draft, Setter};
 
-pub(super) const COMMANDS: &[Setter] = &[
+/// In how many dimensions bodies are, and what stands for the one that is left out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Analysis {
+    /// Three dimensions.
+    #[default]
+    Solid,
+    /// PLANE STRAIN: no motion and no change along z; a unit of thickness.
+    PlaneStrain,
+    /// AXISYMMETRIC: bodies of revolution about the y axis, all 2π radians of them.
+    Axisymmetric,
+    /// AXISYMMETRIC, COMPATIBLE: the same, with forces weighed by areas.
+    AxisymmetricCompatible,
+}
+
+impl Analysis {
+    /// The dimension of its meshes.
+    pub fn dimension(self) -> Dimension {
+        if self == Analysis::Solid { Dimension::Three } else { Dimension::Two }
+    }
+
+    /// Its name in the log.
+    pub fn name(self) -> &'static str {
+        match self {
+            Analysis::Solid => "3D SOLID",
+            Analysis::PlaneStrain => "PLANE STRAIN",
+            Analysis::Axisymmetric => "AXISYMMETRIC",
+            Analysis::AxisymmetricCompatible => "AXISYMMETRIC, COMPATIBLE",
+        }
+    }
+
+    /// Whether x is the distance from an axis.
+    pub fn about_axis(self) -> bool {
+        matches!(self, Analysis::Axisymmetric | Analysis::AxisymmetricCompatible)
+    }
+}
+
+/// TIME STEP SCALE and its companions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeStepControl {
+    /// Factor on the stable time step, (0, 1] is safe; the default is 1, as in PRONTO: the bound is rigorous.
+    pub scale: f64,
+    /// Strain softening factor of PRONTO, kept for the echo.
+    pub softening: f64,
+    /// Largest ratio of one step to the one before.
+    pub growth: f64,
+    /// Which moduli make the wave speed.
+    pub moduli: StepModuli,
+    /// No step is longer, a time.
+    pub longest: f64,
+}
+
+/// Which moduli the stable step is computed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StepModuli {
+    /// The elastic moduli: a rigorous bound also when a plastic element unloads.
+    #[default]
+    Elastic,
+    /// PRONTO's effective moduli of the last increment: larger steps in plastic flow, no longer a bound.
+    Effective,
+}
+
+/// PRECISION: of the state and the kernels of elements. Nodes, forces on them, energies and time are double in both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits.
+    Single,
+}
+
+/// TIME STEP ESTIMATE: what bounds the time step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StepEstimate {
+    /// The bound of each element alone: rigorous.
+    #[default]
+    Element,
+    /// The largest frequency of the mesh, by iterations every so many steps.
+    Global,
+}
+
+/// MASS SCALING: mass that is added to the elements of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassScaling {
+    /// Number of the block; `None` for all blocks.
+    pub block: Option<i64>,
+    /// How much.
+    pub scale: ScaleMass,
+    /// Largest added mass of a block over the mass of its material.
+    pub limit: f64,
+}
+
+/// How much mass is added to an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScaleMass {
+    /// As much as it needs for a time step of this length, if it needs any.
+    Step(f64),
+    /// Its mass times this factor, which is at least 1, less its mass.
+    Factor(f64),
+}
+
+/// BULK VISCOSITY.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BulkViscosity {
+    /// Linear coefficient b₁.
+    pub linear: f64,
+    /// Quadratic coefficient b₂.
+    pub quadratic: f64,
+}
+
+/// Hourglass control of the one-point hexahedron.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hourglass {
+    /// Flanagan and Belytschko (1981): an elastic stiffness and a viscosity, both dimensionless.
+    FlanaganBelytschko {
+        /// Stiffness coefficient κ.
+        stiffness: f64,
+        /// Viscosity coefficient ε.
+        viscosity: f64,
+    },
+    /// Belytschko and Bindeman (1993): stiffness from an assumed strain field, following plastic flow.
+    AssumedStrain {
+        /// Factor on the assumed strain stiffness; 1 is the theory.
+        factor: f64,
+    },
+}
+
+pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("TITLE", title),
     ("AXISYMMETRIC", axisymmetric),
     ("PLANE STRAIN", |card, draft| analysis(Analysis::PlaneStrain, card, draft)),

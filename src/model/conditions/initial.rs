@@ -1,13 +1,51 @@
 //! Velocities at time zero.
 
-use super::{
-    InitialVelocity,
-    problem::{Draft, Setter},
-};
 use crate::deck::{Card, Diagnostic};
+use crate::model::problem::{Draft, Setter};
 use crate::vector::unit;
 
-pub(super) const COMMANDS: &[Setter] = &[
+/// INITIAL VELOCITY.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum InitialVelocity {
+    /// Every node of an element block.
+    Material {
+        /// Element block number.
+        block: i64,
+        /// Velocity vector.
+        velocity: [f64; 3],
+    },
+    /// Every node of a node set.
+    NodeSet {
+        /// Node set number.
+        node_set: i64,
+        /// Velocity vector.
+        velocity: [f64; 3],
+    },
+    /// Every node of an element block, away from a point or from an axis.
+    Radial {
+        /// Element block number.
+        block: i64,
+        /// Speed, negative towards the point or the axis.
+        speed: f64,
+        /// The point, or a point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis, unit length; `None` for the point alone.
+        axis: Option<[f64; 3]>,
+    },
+    /// Rotation of an element block about an axis, added to the velocity the nodes already have.
+    Angular {
+        /// Element block number.
+        block: i64,
+        /// Angular velocity ω about the axis, radians/time, right-hand rule.
+        omega: f64,
+        /// A point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis, unit length.
+        axis: [f64; 3],
+    },
+}
+
+pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("INITIAL VELOCITY MATERIAL", of_block),
     ("INITIAL VELOCITY NODESET", of_node_set),
     ("INITIAL VELOCITY ANGULAR", angular),

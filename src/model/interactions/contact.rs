@@ -1,15 +1,15 @@
 //! Contact and rigid planes.
 
-use super::{
+use super::interfaces::{
     ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap, ContactSearch, ContactSurface,
-    Death, DeathVariable, ElementField, Friction, RigidSurface, Tie,
-    problem::{Draft, Setter},
-    tied,
+    Friction, RigidSurface,
 };
+use super::tied::{self, Tie};
 use crate::deck::{Card, Diagnostic, spelling};
+use crate::model::problem::{Draft, Setter};
 use crate::vector::unit;
 
-pub(super) const COMMANDS: &[Setter] = &[
+pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("RIGID SURFACE", rigid_surface),
     ("CONTACT MATERIAL", contact_material),
     ("CONTACT SURFACE", contact_surface),
@@ -27,63 +27,7 @@ pub(super) const COMMANDS: &[Setter] = &[
     ("CONTACT OVERLAP", contact_overlap),
     ("CONTACT ENERGY LIMIT", |card, draft| draft.model.contact.control.energy_limit = card.number("fraction")),
     ("CONTACT DECOMPOSITION", contact_decomposition),
-    ("DEATH", death),
 ];
-
-fn death(card: &Card, draft: &mut Draft) {
-    let block = card.integer("block");
-    let name = card.text("variable").to_uppercase();
-    let Some(variable) = death_variable(block, &name, draft) else {
-        let mut known = vec!["VOLUME".to_string(), "TMSTEP".to_string()];
-        known.extend(state_names(block, draft));
-        let fields =
-            ElementField::ALL.iter().filter(|field| !matches!(field, ElementField::Status | ElementField::Rank));
-        known.extend(fields.flat_map(|field| field.components()).map(|name| name.to_string()));
-        let diagnostic = Diagnostic::error(format!("DEATH: there is no variable {} to watch", spelling::cut(&name)))
-            .at(card.place("variable"), "expected a state variable or a component of PLOT ELEMENT");
-        let near = spelling::nearest(&name, known.iter().map(String::as_str));
-        return draft.report(match near {
-            Some(near) => diagnostic.help(format!("did you mean {near}?")),
-            None => diagnostic.help(format!("block {block} has {}", spelling::all(&known))),
-        });
-    };
-    let keeps_nodes = card.text("nodes") == "FREE";
-    if draft.model.deaths.iter().any(|other| other.block == block && other.keeps_nodes != keeps_nodes) {
-        let message = format!("DEATH: nodes of block {block} are to be kept by one command and dropped by another");
-        return draft
-            .report(Diagnostic::error(message).at(card.place("nodes").join(card.record), "the second of them"));
-    }
-    draft.model.deaths.push(Death {
-        block,
-        variable,
-        is_maximum: card.text("bound") == "MAX",
-        value: card.number("value"),
-        keeps_nodes,
-        share: card.number("share"),
-    });
-}
-
-fn state_names(block: i64, draft: &Draft) -> Vec<String> {
-    let material = draft.model.materials.iter().find(|material| material.block == block);
-    material.map_or(Vec::new(), |m| m.law.entry().state.iter().map(|variable| variable.name.to_string()).collect())
-}
-
-fn death_variable(block: i64, name: &str, draft: &Draft) -> Option<DeathVariable> {
-    match name {
-        "VOLUME" => return Some(DeathVariable::Volume),
-        "TMSTEP" => return Some(DeathVariable::TimeStep),
-        _ => (),
-    }
-    let watched = ElementField::ALL.iter().filter(|field| !matches!(field, ElementField::Status | ElementField::Rank));
-    let field = watched.copied().find_map(|field| {
-        let component = field.components().iter().position(|component| *component == name)?;
-        Some(DeathVariable::Field(field, component))
-    });
-    // A material that could not be read has been reported; its variables are not known.
-    let unread = draft.model.materials.iter().all(|material| material.block != block);
-    let of_material = state_names(block, draft).iter().any(|variable| variable == name);
-    field.or((of_material || unread).then(|| DeathVariable::State(name.to_string())))
-}
 
 fn contact_material(card: &Card, draft: &mut Draft) {
     let named: Vec<i64> = card.items("block").iter().filter_map(|item| item.value.integer()).collect();
@@ -106,7 +50,7 @@ fn friction(card: &Card) -> Friction {
 fn contact_surface(card: &Card, draft: &mut Draft) {
     if tied::is_fixed(card) {
         let side_sets = tied::sides(card).map(|side| card.integer(side));
-        return draft.model.ties.push(Tie { side_sets, tolerance: tied::TOLERANCE });
+        return draft.model.ties.push(Tie { side_sets, tolerance: tied::default_tolerance() });
     }
     draft.model.contact.surfaces.push(ContactSurface {
         side_sets: [card.integer("first"), card.integer("second")],

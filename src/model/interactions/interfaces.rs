@@ -1,5 +1,18 @@
 //! What the deck says of contact: what may touch what, and how it is found and enforced.
 
+/// RIGID SURFACE: a fixed plane which the nodes of a side set cannot cross.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidSurface {
+    /// Side set number.
+    pub side_set: i64,
+    /// A point of the plane.
+    pub point: [f64; 3],
+    /// Normal of the plane, unit length, pointing to the side where the body is.
+    pub normal: [f64; 3],
+    /// Coulomb friction coefficient μ.
+    pub friction: f64,
+}
+
 /// Contact between surfaces of the body: what may touch, and how it is enforced.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {

@@ -1,9 +1,9 @@
 //! Restarts: writing them and going on from them.
 
-use super::problem::{Draft, Setter};
 use crate::deck::{Card, Diagnostic};
+use crate::model::problem::{Draft, Setter};
 
-pub(super) const COMMANDS: &[Setter] = &[("WRITE RESTART", write_restart), ("READ RESTART", read_restart)];
+pub(in crate::model) const COMMANDS: &[Setter] = &[("WRITE RESTART", write_restart), ("READ RESTART", read_restart)];
 
 /// What a deck wants of restarts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,7 +39,7 @@ fn read_restart(card: &Card, draft: &mut Draft) {
 }
 
 /// A run must end after the state that it goes on from.
-pub(super) fn finish(draft: &mut Draft) {
+pub(in crate::model) fn finish(draft: &mut Draft) {
     let end = draft.model.termination_time;
     let Some(time) = draft.model.restarts.read.and_then(|read| read.time).filter(|time| *time >= end) else { return };
     let Some(card) = draft.deck.cards_of("READ RESTART").last() else { return };

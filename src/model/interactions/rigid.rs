@@ -1,11 +1,11 @@
 //! RIGID BODY: blocks that move as one.
 
-use super::Analysis;
-use super::problem::{Draft, Problem, Setter};
 use crate::deck::{Card, Diagnostic, Diagnostics};
 use crate::mesh::Mesh;
+use crate::model::Analysis;
+use crate::model::problem::{Draft, Problem, Setter};
 
-pub(super) const COMMANDS: &[Setter] = &[("RIGID BODY", rigid_body)];
+pub(in crate::model) const COMMANDS: &[Setter] = &[("RIGID BODY", rigid_body)];
 
 fn rigid_body(card: &Card, draft: &mut Draft) {
     let mut blocks: Vec<i64> = Vec::new();
@@ -34,7 +34,7 @@ const SENSELESS: [(&str, &str, &str); 6] = [
 ];
 
 /// What the deck asks of rigid bodies that they cannot do.
-pub(super) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     let model = &problem.model;
     let Some(first) = problem.deck.cards_of("RIGID BODY").next() else { return };
     if model.analysis != Analysis::Solid {

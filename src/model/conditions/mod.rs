@@ -1,0 +1,11 @@
+//! Conditions of the body: what is held, driven, loaded, and how it moves at the start.
+
+pub(super) mod boundary;
+pub(super) mod function;
+pub(super) mod initial;
+
+pub use boundary::{
+    Direction, Gravity, MotionKind, NoDisplacement, PointMass, PrescribedForce, PrescribedMotion, Pressure, Unknown,
+};
+pub use function::Function;
+pub use initial::InitialVelocity;
