@@ -3,7 +3,7 @@
 use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
 use super::other_ranks::{Largest, OtherRanks};
-use super::sweep;
+use super::sweep::{self, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
 
 /// Iterations go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks
@@ -76,14 +76,15 @@ impl Enforcer {
         own.wanted = f64::from(u8::from(wanted));
         loop {
             self.scatter(constraints, motion, times, others);
-            let ahead = momentum.next();
+            let pace = momentum.next();
             let Enforcer { instructions, states, responses, .. } = &mut *self;
-            let moved = sweep::correct(*instructions, constraints, states, responses, (times, ahead));
+            let moved = sweep::correct(*instructions, constraints, states, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
             let Largest { residual, wanted, deepest, depth, travel, moved } = others.largest(own);
             if wanted == 0.0 {
                 return None;
             }
+            momentum.watch(moved);
             let mut looser = outcome.looser;
             let by_looser = |factor: f64| residual <= factor * limits.tolerance && moved <= SETTLED * travel;
             for (spared, _) in looser.iter_mut().zip(ended).filter(|(_, ended)| *ended) {
@@ -115,17 +116,35 @@ impl Enforcer {
     }
 }
 
-/// How far the next iteration goes on in the direction of the one before.
-struct Momentum(f64);
+/// An iteration that moves a constraint this many times farther than the first one did is on its way to nowhere.
+const GROWS: f64 = 2.0;
+
+/// How the iterations of a step go on.
+struct Momentum {
+    /// The sequence of Beck and Teboulle (2009).
+    next: f64,
+    /// How far the first iteration moved a constraint, a length.
+    first: Option<f64>,
+    grows: bool,
+}
 
 impl Momentum {
     fn new() -> Momentum {
-        Momentum(1.0)
+        Momentum { next: 1.0, first: None, grows: false }
     }
 
-    fn next(&mut self) -> f64 {
-        let before = self.0;
-        self.0 = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
-        (before - 1.0) / self.0
+    fn next(&mut self) -> Pace {
+        if self.grows {
+            return Pace { ahead: 0.0, cautious: true };
+        }
+        let before = self.next;
+        self.next = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
+        Pace { ahead: (before - 1.0) / self.next, cautious: false }
+    }
+
+    /// Hears how far an iteration moved a constraint, the farthest of all ranks. With friction iterations need not converge: what a
+    /// force along one normal changes along another comes back multiplied by the coefficient.
+    fn watch(&mut self, moved: f64) {
+        self.grows |= moved > GROWS * *self.first.get_or_insert(moved);
     }
 }

@@ -10,6 +10,15 @@ use super::iterations::Times;
 use crate::lanes::{InstructionSet, Vectors, array};
 use crate::vector::{add, dot, scaled, subtract};
 
+/// How an iteration goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pace {
+    /// Part by which forces go further in the direction of their last correction.
+    pub(super) ahead: f64,
+    /// Whether friction goes only half of its way.
+    pub(super) cautious: bool,
+}
+
 /// How far a sweep moved its constraints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Moved {
@@ -76,20 +85,19 @@ fn scatter_to(c: &Constraint, member: usize, force: [f64; 4], sums: &mut [Respon
     *sum = Response { velocity_change: [x, y, z], load };
 }
 
-/// Corrects every constraint that something can move by the responses of its members to all forces, and goes on in the direction
-/// of the last correction by a part `ahead`.
+/// Corrects every constraint that something can move by the responses of its members to all forces, at a pace.
 pub(super) fn correct(
     instructions: InstructionSet,
     constraints: &mut [Constraint],
     states: &mut [ConstraintState],
     responses: &[Response],
-    (times, ahead): (Times, f64),
+    (times, pace): (Times, Pace),
 ) -> Moved {
     match instructions.vectors() {
         // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
         #[cfg(target_arch = "x86_64")]
-        Vectors::Avx2 | Vectors::Avx512 => unsafe { correct_avx2(constraints, states, responses, (times, ahead)) },
-        _ => correct_each(constraints, states, responses, (times, ahead)),
+        Vectors::Avx2 | Vectors::Avx512 => unsafe { correct_avx2(constraints, states, responses, (times, pace)) },
+        _ => correct_each(constraints, states, responses, (times, pace)),
     }
 }
 
@@ -104,7 +112,7 @@ unsafe fn correct_avx2(
     constraints: &mut [Constraint],
     states: &mut [ConstraintState],
     responses: &[Response],
-    how: (Times, f64),
+    how: (Times, Pace),
 ) -> Moved {
     correct_each(constraints, states, responses, how)
 }
@@ -115,14 +123,14 @@ fn correct_each(
     constraints: &mut [Constraint],
     states: &mut [ConstraintState],
     responses: &[Response],
-    (times, ahead): (Times, f64),
+    (times, pace): (Times, Pace),
 ) -> Moved {
     let mut farthest = Moved::default();
     for (c, state) in constraints.iter_mut().zip(states).filter(|(_, state)| state.strength > 0.0) {
         let moved = match c.count {
-            MEMBERS => correct_one::<MEMBERS>(c, state, responses, times, ahead),
-            4 => correct_one::<4>(c, state, responses, times, ahead),
-            _ => correct_one::<1>(c, state, responses, times, ahead),
+            MEMBERS => correct_one::<MEMBERS>(c, state, responses, times, pace),
+            4 => correct_one::<4>(c, state, responses, times, pace),
+            _ => correct_one::<1>(c, state, responses, times, pace),
         };
         farthest.residual = farthest.residual.max(moved / c.size);
         farthest.length = farthest.length.max(moved);
@@ -130,15 +138,15 @@ fn correct_each(
     farthest
 }
 
-/// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction by a
-/// part `ahead`. How far it moves, a length.
+/// Closes the gap of one constraint as if it were alone with its shares of the masses, and goes on in this direction. How far it
+/// moves, a length.
 #[inline(always)]
 fn correct_one<const COUNT: usize>(
     c: &mut Constraint,
     state: &mut ConstraintState,
     responses: &[Response],
     times: Times,
-    ahead: f64,
+    Pace { ahead, cautious }: Pace,
 ) -> f64 {
     let of = |i: usize| responses[c.members[i] as usize].to_array();
     let mut change = [0.0; 4];
@@ -171,7 +179,11 @@ fn correct_one<const COUNT: usize>(
         let wanted = subtract(tried_tangential, scaled(slip, 1.0 / (times.kick * sliding)));
         let (size, most) = (dot(wanted, wanted).sqrt(), c.friction.coefficient(slip) * normal_force);
         state.slid |= size > most && normal_force > 0.0;
-        let tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
+        let mut tangential_force = if size > most { scaled(wanted, most / size) } else { wanted };
+        if cautious {
+            let half = scaled(add(tangential_force, tried_tangential), 0.5);
+            tangential_force = scaled(half, (most / dot(half, half).sqrt()).min(1.0));
+        }
         let turn = subtract(tangential_force, tried_tangential);
         moved = moved.max(dot(turn, turn).sqrt() * times.both * sliding);
         c.carried.tangential_force =
