@@ -149,6 +149,16 @@ pub type Corner<'a> = [&'a [u32; CHUNK]; 2];
 /// Forces on the corners of the elements of a row.
 pub type CornerForces = [[Force; MOST_CORNERS]; MOST_LANES];
 
+/// The rows of nodes at a corner of the elements of a row, one for each of some of its lanes.
+#[inline(always)]
+pub fn rows_at(nodes: &[Row], index: Corner, lanes: std::ops::Range<usize>) -> [Row; MOST_LANES] {
+    let mut found = [Row::default(); MOST_LANES];
+    for lane in lanes {
+        found[lane] = nodes[index[lane / CHUNK][lane % CHUNK] as usize];
+    }
+    found
+}
+
 /// A vector of floating-point lanes. Arithmetic is lane by lane; `COUNT` divides the length of a row, and a row is worked
 /// off in parts of `COUNT` lanes: part `p` covers elements `p·COUNT ..`.
 pub trait Lanes:
@@ -200,10 +210,11 @@ pub trait Lanes:
     /// Fetches the rows named by one part of `index` and turns them: component `c` of the result holds number `c`
     /// of every fetched row.
     fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8];
-    /// The same less the rows named by `origin`, subtracted in double precision before they are rounded to that of the lanes.
+    /// The same less an origin of each element of the row, subtracted in double precision before they are rounded to that of the lanes.
     #[inline(always)]
-    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
-        let (own, first) = (Self::gather(rows, index, part), Self::gather(rows, origin, part));
+    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
+        let in_order = [&[0, 1, 2, 3, 4, 5, 6, 7], &[8, 9, 10, 11, 12, 13, 14, 15]];
+        let (own, first) = (Self::gather(rows, index, part), Self::gather(origins, in_order, part));
         array![c in 8 => own[c] - first[c]]
     }
     /// In single precision: two numbers of eight bits and an exponent each, which [`Lanes::of_halves`] has put into one.

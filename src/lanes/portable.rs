@@ -1,6 +1,6 @@
 //! Lanes on any machine: a single number (for tests and set-up), or two side by side.
 
-use super::{BIAS, Corner, CornerForces, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, Corner, CornerForces, Force, Lanes, MANTISSA_BITS, MOST_LANES, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Two lanes of either precision without a promise of vector instructions; compilers find those that every 64-bit processor has.
@@ -96,9 +96,9 @@ impl<T: Lanes> Lanes for Pair<T> {
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]
-    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
-        let first = T::gather_from(rows, origin, index, 2 * part);
-        let second = T::gather_from(rows, origin, index, 2 * part + 1);
+    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
+        let first = T::gather_from(rows, origins, index, 2 * part);
+        let second = T::gather_from(rows, origins, index, 2 * part + 1);
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]

@@ -110,7 +110,7 @@ fn turn<V: Lanes>((rows, [origin, index]): &(&[Row], [Corner; 2])) -> Turned<V::
     let mut forces = Box::new([[Force([f64::NAN; 4]); 8]; MOST_LANES]);
     for part in 0..V::Row::LANES / V::COUNT {
         let gathered = V::gather(rows, *index, part);
-        let relative = V::gather_from(rows, *origin, *index, part);
+        let relative = V::gather_from(rows, &rows_at(rows, *origin, 0..V::Row::LANES), *index, part);
         for c in 0..8 {
             gathered[c].store(&mut own[c], part);
             relative[c].store(&mut from[c], part);

@@ -4,7 +4,7 @@
 //! from `part · 8` lie inside a row of sixteen; slicing checks it. Four numbers of a node lie inside its row of eight.
 
 use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
-use crate::lanes::{CHUNK, Corner, CornerForces, Lanes, Row, SingleRow};
+use crate::lanes::{CHUNK, Corner, CornerForces, Lanes, MOST_LANES, Row, SingleRow};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -160,9 +160,9 @@ impl Lanes for F32x8 {
         }])
     }
     #[inline(always)]
-    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
+    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
         turned(array![i in 8 => {
-            let (own, first) = (&rows[index[part][i] as usize], &rows[origin[part][i] as usize]);
+            let (own, first) = (&rows[index[part][i] as usize], &origins[CHUNK * part + i]);
             unsafe {
                 let low = _mm256_sub_pd(half(own, 0), half(first, 0));
                 rounded(low, _mm256_sub_pd(half(own, 1), half(first, 1)))

@@ -74,8 +74,8 @@ fn nodes(rows: &[Row], index: &[u32; CHUNK]) -> [__m512d; 8] {
 }
 
 #[inline(always)]
-fn less(rows: &[Row], origin: &[u32; CHUNK], index: &[u32; CHUNK]) -> [__m512d; 8] {
-    array![i in 8 => unsafe { _mm512_sub_pd(whole(&rows[index[i] as usize]), whole(&rows[origin[i] as usize])) }]
+fn less(rows: &[Row], origins: &[Row], index: &[u32; CHUNK]) -> [__m512d; 8] {
+    array![i in 8 => unsafe { _mm512_sub_pd(whole(&rows[index[i] as usize]), whole(&origins[i])) }]
 }
 
 impl Lanes for F32x16 {
@@ -167,8 +167,9 @@ impl Lanes for F32x16 {
         turned([nodes(rows, index[0]), nodes(rows, index[1])])
     }
     #[inline(always)]
-    fn gather_from(rows: &[Row], origin: Corner, index: Corner, _part: usize) -> [Self; 8] {
-        turned([less(rows, origin[0], index[0]), less(rows, origin[1], index[1])])
+    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, _part: usize) -> [Self; 8] {
+        let (first, second) = origins.split_at(CHUNK);
+        turned([less(rows, first, index[0]), less(rows, second, index[1])])
     }
     #[inline(always)]
     fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, _part: usize) {

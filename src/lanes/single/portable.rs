@@ -1,7 +1,7 @@
 //! A single number.
 
 use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
-use crate::lanes::{CHUNK, Corner, CornerForces, Force, Lanes, Numbers, Row, SingleRow};
+use crate::lanes::{CHUNK, Corner, CornerForces, Force, Lanes, MOST_LANES, Numbers, Row, SingleRow};
 
 /// Local node of an element of a row.
 #[inline(always)]
@@ -70,8 +70,8 @@ impl Lanes for f32 {
         rows[node(index, part)].0.map(|x| x as f32)
     }
     #[inline(always)]
-    fn gather_from(rows: &[Row], origin: Corner, index: Corner, part: usize) -> [Self; 8] {
-        let (own, first) = (&rows[node(index, part)], &rows[node(origin, part)]);
+    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
+        let (own, first) = (&rows[node(index, part)], &origins[part]);
         array![c in 8 => (own.0[c] - first.0[c]) as f32]
     }
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::block::Group;
 use crate::lanes::{
     CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Row, Vectors,
-    Widths, prefetch,
+    Widths, array, prefetch, rows_at,
 };
 use crate::model::{BulkViscosity, StepModuli};
 
@@ -279,8 +279,10 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
         let (state, ahead) = rows[row * stride..].split_at_mut(stride);
-        // Two chunks ahead: nearer comes too late, and farther, or nodes as well, gained less wherever it was measured.
-        prefetch(ahead.get(stride..2 * stride).unwrap_or_default());
+        // Two chunks ahead, which in single precision is a row: nearer comes too late, and farther, or nodes as well, gained less wherever
+        // it was measured.
+        let first = if V::SINGLE { 0 } else { stride };
+        prefetch(ahead.get(first..first + stride).unwrap_or_default());
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
             relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
@@ -333,13 +335,12 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
 #[inline(always)]
 fn balance<const N: usize>(forces: &mut CornerForces) {
     for corners in forces {
-        let mut sum = [0.0; 3];
+        // The fourth number, which is no force, is summed along: four numbers are a register.
+        let mut sum = [0.0; 4];
         for corner in &corners[1..N] {
-            for (sum, force) in sum.iter_mut().zip(corner.0) {
-                *sum += force;
-            }
+            sum = array![i in 4 => sum[i] + corner.0[i]];
         }
-        let [x, y, z] = sum.map(|sum| 0.0 - sum);
+        let [x, y, z, _] = array![i in 4 => 0.0 - sum[i]];
         corners[0] = Force([x, y, z, corners[0].0[3]]);
     }
 }
@@ -374,8 +375,9 @@ fn relative_corners<V: Lanes, const N: usize>(
     let zero = V::splat(0.0);
     if V::SINGLE {
         // Far from the origin single precision would leave nothing of a difference.
+        let origins = rows_at(nodes, at(0), part * V::COUNT..(part + 1) * V::COUNT);
         for corner in 1..places {
-            let row = V::gather_from(nodes, at(0), at(corner), part);
+            let row = V::gather_from(nodes, &origins, at(corner), part);
             for i in 0..3 {
                 (x[i][corner], v[i][corner]) = (row[i], row[4 + i]);
             }
