@@ -110,6 +110,8 @@ pub struct Contact {
     block_ids: Vec<i64>,
     /// Number of searches so far.
     searches: u64,
+    /// Step of the last search.
+    searched_at: u64,
     /// Number of steps so far.
     age: u64,
     /// Slave nodes and pairs of the last search, of all ranks.
@@ -197,9 +199,14 @@ impl Contact {
     fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
         self.contact_nodes.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
-        let reshaped = self.reshape(nodes, comm);
-        if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
-            self.search(comm);
+        let folded = self.reshape(nodes, comm);
+        if !self.layout.interfaces.is_empty() {
+            let expired = self.expired(comm);
+            match &self.remote {
+                _ if !expired && folded.is_empty() => (),
+                None if !expired && self.carried.is_none() => self.search_folded(&folded),
+                _ => self.search(comm),
+            }
         }
         comm.enter(Traffic::ContactMotion);
         let Contact { contact_nodes, problem, remote, .. } = self;
@@ -250,7 +257,9 @@ impl Contact {
         let Contact { layout, contact_nodes, problem, remote, carried, search, plane_nodes, .. } = self;
         let depth = self.reach.depth;
         self.searches += 1;
-        contact_nodes.renew(self.reach.steps, self.reach.least);
+        self.reach.learn(self.age.saturating_sub(self.searched_at));
+        self.searched_at = self.age;
+        contact_nodes.renew(self.reach.steps, self.reach.least_now());
         if let Some(remote) = remote {
             let history = carried.take().unwrap_or_else(|| problem.history());
             *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
@@ -273,6 +282,15 @@ impl Contact {
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);
         }
+    }
+
+    /// Finds the pairs of edges that have another shape now; all else stays as the last search has found it.
+    fn search_folded(&mut self, folded: &[u32]) {
+        let Contact { layout, contact_nodes, problem, search, .. } = self;
+        let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
+        let found = neighbourhood::crossings_of(&mut **search, &edges, folded, layout);
+        problem.renew_pairs(found, folded);
+        contact_nodes.motion.count(problem.locator.moving().iter().copied());
     }
 
     fn enforce(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {

@@ -46,9 +46,37 @@ pub struct Reach {
     pub steps: f64,
     /// Smallest reach, a length.
     pub least: f64,
+    /// Multiple of the smallest reach that nodes get now, see [`Reach::learn`].
+    pub room: f64,
     /// How far a face looks beyond its corners in a step, as a part of half its element: a little, for points that have
     /// just left it; all of it, to find points that are behind it at the start. Searches look as far as all of it.
     pub depth: f64,
+}
+
+/// A search that has not lasted so many steps was too narrow.
+const SHORT: u64 = 20;
+
+/// A search that has lasted so many was wide enough.
+const LONG: u64 = 60;
+
+/// Largest multiple of the smallest reach: wider boxes have so many candidates that fewer searches gain nothing.
+const WIDEST: f64 = 4.0;
+
+impl Reach {
+    /// Hears how many steps the last search has lasted. Where bodies are just struck, nodes leave their boxes all the time, since
+    /// these were made for nodes at rest: then the next ones have more room. Candidates more or less change no result.
+    pub fn learn(&mut self, lasted: u64) {
+        if lasted < SHORT {
+            self.room = WIDEST.min(2.0 * self.room);
+        } else if lasted > LONG {
+            self.room = f64::max(1.0, 0.5 * self.room);
+        }
+    }
+
+    /// Smallest reach of the next search, a length.
+    pub fn least_now(&self) -> f64 {
+        self.room * self.least
+    }
 }
 
 /// The candidates of the last search, and which of them are near in a step.
@@ -76,6 +104,8 @@ pub struct Locator {
     moving: Vec<u32>,
     /// Whether no step has been made yet.
     fresh: bool,
+    /// Whether points have joined `moving` since the paths of the step were found.
+    joined: bool,
     capture_boxes: CaptureBoxes,
 }
 
@@ -131,9 +161,9 @@ impl CaptureBoxes {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
-            let swept = |point: u32| &motion.swept_boxes[point as usize];
+            let swept = |point: u32| motion.swept_box(point);
             *bounds = SweptBox::joined(
-                [swept(a), swept(b), swept(c), swept(d)],
+                [&swept(a), &swept(b), &swept(c), &swept(d)],
                 (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,
             );
             *step = self.step;
@@ -162,18 +192,27 @@ impl Locator {
             first: found.first,
             candidates: found.candidates,
             pairs_due: vec![0.0; found.pairs.len()],
-            sharp_pairs: (0..)
-                .zip(&found.pairs)
-                .filter_map(|(place, [a, b])| {
-                    // Surfaces have no depth to sink into: their edges look every step.
-                    let [a, b] = [a, b].map(|edge| &edges[*edge as usize]);
-                    (b.stands_out() || a.is_of_surface(faces)).then_some(place)
-                })
-                .collect(),
+            sharp_pairs: sharp(&found.pairs, faces, edges),
             edge_pairs: found.pairs,
             fresh: true,
             ..Default::default()
         }
+    }
+
+    /// The pairs of some edges, ascending, are replaced by those that have been found, ascending. Points sleep on.
+    pub fn renew_pairs(&mut self, found: Vec<[u32; 2]>, some: &[u32], faces: &Faces, edges: &[Edge]) {
+        self.edge_pairs.retain(|pair| pair.iter().all(|edge| some.binary_search(edge).is_err()));
+        let ends = found.iter().flatten().flat_map(|&edge| edges[edge as usize].ends);
+        self.moving.extend(ends);
+        self.moving.sort_unstable();
+        self.moving.dedup();
+        self.edge_pairs.extend(found);
+        self.edge_pairs.sort_unstable();
+        self.sharp_pairs = sharp(&self.edge_pairs, faces, edges);
+        // How long the pairs may wait is found when they are looked at next.
+        self.pairs_due.clear();
+        self.pairs_due.resize(self.edge_pairs.len(), 0.0);
+        self.joined = true;
     }
 
     /// Begins a step.
@@ -181,8 +220,12 @@ impl Locator {
         self.capture_boxes.next_step(faces.len());
         // On one rank what counts in the longest path is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
-        let first = std::mem::replace(&mut self.fresh, false);
-        self.last_path = if first { self.longest_path(motion) } else { motion.longest_path() };
+        let first = std::mem::take(&mut self.fresh);
+        let joined = std::mem::take(&mut self.joined);
+        self.last_path = if first { 0.0 } else { motion.longest_path() };
+        if first || joined {
+            self.last_path = self.longest_path(motion).max(self.last_path);
+        }
         self.travelled += self.last_path;
     }
 
@@ -236,20 +279,25 @@ impl Locator {
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = motion.swept_boxes[self.slave_nodes[i] as usize];
+        let own = motion.swept_box(self.slave_nodes[i]);
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
-        let capture_boxes = &mut self.capture_boxes;
-        let mut look = |candidate: &Candidate| {
-            let swept = capture_boxes.of(candidate.face, faces, motion, self.depth);
+        // No closure: it would be compiled apart, without the vector instructions of the caller.
+        let mut next = 64;
+        loop {
+            let place = if awake != 0 {
+                let place = awake.trailing_zeros() as usize;
+                awake &= awake - 1;
+                place
+            } else {
+                next += 1;
+                next - 1
+            };
+            let Some(candidate) = candidates.get(place) else { break };
+            let swept = self.capture_boxes.of(candidate.face, faces, motion, self.depth);
             if f64::from(own.distance(&swept)) <= reach || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
-        };
-        while awake != 0 {
-            look(&candidates[awake.trailing_zeros() as usize]);
-            awake &= awake - 1;
         }
-        candidates.iter().skip(64).for_each(look);
     }
 
     /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
@@ -311,7 +359,7 @@ impl Locator {
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
-        let own = motion.swept_boxes[point as usize];
+        let own = motion.swept_box(point);
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.last_path, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
@@ -347,6 +395,13 @@ impl Locator {
     pub fn counts(&self) -> [usize; 2] {
         [self.slave_nodes.len(), self.candidates.len()]
     }
+}
+
+/// Places of the pairs whose edges both stand out, or of which one belongs to a surface: surfaces have no depth to sink into, and
+/// their edges look every step.
+fn sharp(pairs: &[[u32; 2]], faces: &Faces, edges: &[Edge]) -> Vec<u32> {
+    let is_sharp = |[a, b]: &[u32; 2]| edges[*b as usize].stands_out() || edges[*a as usize].is_of_surface(faces);
+    (0..).zip(pairs).filter_map(|(place, pair)| is_sharp(pair).then_some(place)).collect()
 }
 
 /// Distance along the normal of a face between a point and where it would matter to the face, over the whole step: in
