@@ -14,6 +14,7 @@ pub mod files;
 pub mod lanes;
 pub mod material;
 pub mod means;
+pub mod memory;
 pub mod mesh;
 pub mod mesher;
 pub mod model;

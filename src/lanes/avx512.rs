@@ -34,6 +34,33 @@ impl Neg for F64x8 {
     }
 }
 
+/// Numbers 0 to 3 or 4 to 7 of a row.
+#[inline(always)]
+fn half(row: &Row, half: usize) -> __m256d {
+    unsafe { _mm256_load_pd(row.0[half * 4..half * 4 + 4].as_ptr()) }
+}
+
+/// Eight 4-vectors transposed.
+#[inline(always)]
+fn transpose(r: [__m256d; 8]) -> [F64x8; 4] {
+    const EVEN: i32 = 0b10_00_10_00;
+    const ODD: i32 = 0b11_01_11_01;
+    unsafe {
+        let (a, b) = (_mm512_castpd256_pd512(r[0]), _mm512_castpd256_pd512(r[1]));
+        let (c, d) = (_mm512_castpd256_pd512(r[4]), _mm512_castpd256_pd512(r[5]));
+        let (a, b) = (_mm512_insertf64x4::<1>(a, r[2]), _mm512_insertf64x4::<1>(b, r[3]));
+        let (c, d) = (_mm512_insertf64x4::<1>(c, r[6]), _mm512_insertf64x4::<1>(d, r[7]));
+        let (l0, h0) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+        let (l1, h1) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+        [
+            F64x8(_mm512_shuffle_f64x2::<EVEN>(l0, l1)),
+            F64x8(_mm512_shuffle_f64x2::<EVEN>(h0, h1)),
+            F64x8(_mm512_shuffle_f64x2::<ODD>(l0, l1)),
+            F64x8(_mm512_shuffle_f64x2::<ODD>(h0, h1)),
+        ]
+    }
+}
+
 impl Lanes for F64x8 {
     type Row = Row;
     const SINGLE: bool = false;
@@ -96,33 +123,14 @@ impl Lanes for F64x8 {
         F64x8(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(shifted.0))) })
     }
 
-    /// Eight rows, one per lane, transposed in registers: 8 loads and 24 shuffles.
+    /// Eight rows, one per lane, transposed in registers. Each register is loaded in two halves, of elements two apart: so 16 shuffles
+    /// of pairs are enough where whole rows would need 24, and those for what nobody asks for are left out.
     #[inline(always)]
     fn gather(rows: &[Row], [index, _]: Corner, _part: usize) -> [Self; 8] {
-        let row = |i: usize| unsafe { _mm512_load_pd(rows[index[i] as usize].0.as_ptr()) };
-        let r: [__m512d; 8] = [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)];
-        unsafe {
-            let (l0, l1) = (_mm512_unpacklo_pd(r[0], r[1]), _mm512_unpacklo_pd(r[2], r[3]));
-            let (l2, l3) = (_mm512_unpacklo_pd(r[4], r[5]), _mm512_unpacklo_pd(r[6], r[7]));
-            let (h0, h1) = (_mm512_unpackhi_pd(r[0], r[1]), _mm512_unpackhi_pd(r[2], r[3]));
-            let (h2, h3) = (_mm512_unpackhi_pd(r[4], r[5]), _mm512_unpackhi_pd(r[6], r[7]));
-            const EVEN: i32 = 0b10_00_10_00;
-            const ODD: i32 = 0b11_01_11_01;
-            let (a0, a1) = (_mm512_shuffle_f64x2::<EVEN>(l0, l1), _mm512_shuffle_f64x2::<EVEN>(l2, l3));
-            let (b0, b1) = (_mm512_shuffle_f64x2::<ODD>(l0, l1), _mm512_shuffle_f64x2::<ODD>(l2, l3));
-            let (c0, c1) = (_mm512_shuffle_f64x2::<EVEN>(h0, h1), _mm512_shuffle_f64x2::<EVEN>(h2, h3));
-            let (d0, d1) = (_mm512_shuffle_f64x2::<ODD>(h0, h1), _mm512_shuffle_f64x2::<ODD>(h2, h3));
-            [
-                F64x8(_mm512_shuffle_f64x2::<EVEN>(a0, a1)),
-                F64x8(_mm512_shuffle_f64x2::<EVEN>(c0, c1)),
-                F64x8(_mm512_shuffle_f64x2::<EVEN>(b0, b1)),
-                F64x8(_mm512_shuffle_f64x2::<EVEN>(d0, d1)),
-                F64x8(_mm512_shuffle_f64x2::<ODD>(a0, a1)),
-                F64x8(_mm512_shuffle_f64x2::<ODD>(c0, c1)),
-                F64x8(_mm512_shuffle_f64x2::<ODD>(b0, b1)),
-                F64x8(_mm512_shuffle_f64x2::<ODD>(d0, d1)),
-            ]
-        }
+        let r: [&Row; 8] = array![i in 8 => &rows[index[i] as usize]];
+        let [x, y, z, m] = transpose(array![i in 8 => half(r[i], 0)]);
+        let [vx, vy, vz, inverse] = transpose(array![i in 8 => half(r[i], 1)]);
+        [x, y, z, m, vx, vy, vz, inverse]
     }
 
     #[inline(always)]

@@ -17,8 +17,9 @@ use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::rigid::RigidBodies;
 use super::tied::Ties;
 use crate::comm::Communicator;
-use crate::lanes::Row;
+use crate::lanes::{Force, Row};
 use crate::material::{Kernel, KernelVisitor, Law};
+use crate::memory;
 use crate::mesh::{Block, Mesh};
 use crate::model::{InitialVelocity, Model, Unknown};
 use crate::partition::Share;
@@ -356,9 +357,11 @@ fn nodes(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Nodes {
         let inverse = body.tied.inverse_mass(file, &body.node_mass).unwrap_or(1.0 / m);
         Row([x, y, z, m, 0.0, 0.0, 0.0, inverse])
     };
+    let mut rows = memory::reserved(share.nodes.len());
+    rows.extend(share.nodes.iter().map(row));
     Nodes {
-        rows: share.nodes.iter().map(row).collect(),
-        forces: vec![Default::default(); share.nodes.len()],
+        rows,
+        forces: memory::repeated(Force::default(), share.nodes.len()),
         initial: share
             .nodes
             .iter()

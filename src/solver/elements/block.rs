@@ -4,6 +4,7 @@ use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
+use crate::memory::repeated;
 use crate::model::Precision;
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;
@@ -101,8 +102,8 @@ impl Group {
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
             mass: vec![Row::default(); chunks],
             moving: Vec::new(),
-            state: vec![Row::default(); store(Precision::Double)],
-            single: vec![SingleRow::default(); store(Precision::Single)],
+            state: repeated(Row::default(), store(Precision::Double)),
+            single: repeated(SingleRow::default(), store(Precision::Single)),
             stride,
             gone: Vec::new(),
             steps: Vec::new(),

@@ -279,10 +279,10 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
         let (state, ahead) = rows[row * stride..].split_at_mut(stride);
-        // Two chunks ahead, which in single precision is a row: nearer comes too late, and farther, or nodes as well, gained less wherever
-        // it was measured.
-        let first = if V::SINGLE { 0 } else { stride };
-        prefetch(ahead.get(first..first + stride).unwrap_or_default());
+        // A share before and one after the kernel of each part: all of it at once would fill the queue of what the first cache waits for,
+        // and hold up the loads of this row.
+        let next = ahead.get(..stride).unwrap_or_default();
+        let shares = 2 * V::Row::LANES / V::COUNT;
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
             relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
@@ -291,7 +291,9 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             let moving = moving.map_or(material, |rows| V::load_double(rows, part));
             let rates =
                 if S::NEIGHBOURS { gathered::<V, N>(nodes.rates, connectivity, part) } else { [V::splat(0.0); N] };
+            prefetch(share(next, 2 * part, shares));
             let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
+            prefetch(share(next, 2 * part + 1, shares));
             for corner in 0..N {
                 let [x, y, z] = &outcome.force;
                 V::spread([x[corner], y[corner], z[corner], outcome.rate], &mut corner_forces, corner, part);
@@ -329,6 +331,12 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         merge.border_before(u32::MAX);
     }
     summarise(group, &smallest, &smallest_row, &failed_row)
+}
+
+/// One of some nearly equal shares of rows.
+#[inline(always)]
+fn share<R>(rows: &[R], place: usize, shares: usize) -> &[R] {
+    rows.get(rows.len() * place / shares..rows.len() * (place + 1) / shares).unwrap_or_default()
 }
 
 /// Makes the forces of each element add up to nothing again, which they have been rounded away from: momentum is kept.
