@@ -10,6 +10,7 @@ mod exact;
 pub mod fields;
 mod fluid;
 mod formulation;
+mod held;
 pub mod hexahedron;
 mod pass;
 pub mod quadrilateral;
