@@ -1,7 +1,5 @@
 //! Storage of one element block on one rank: chunks of eight elements, each quantity a row of eight numbers.
 
-use super::held::Rooms;
-use super::hexahedron::corners::are_sound;
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
@@ -62,8 +60,6 @@ pub struct Group {
     /// The largest stable step of each element in the last pass, one row per chunk; empty unless somebody wants to know,
     /// and before the first pass.
     pub steps: Vec<Row>,
-    /// How far corners may move before one is held, in elements that hold them.
-    pub rooms: Rooms,
 }
 
 /// An element as a group takes it in.
@@ -110,7 +106,6 @@ impl Group {
             stride,
             gone: Vec::new(),
             steps: Vec::new(),
-            rooms: rooms(elements, corners, [rows, lanes]),
         };
         let mut numbers = vec![0.0; stride];
         for slot in 0..chunks * CHUNK {
@@ -267,16 +262,6 @@ impl Group {
     pub fn moving_mass(&self, i: usize) -> f64 {
         self.moving.get(i / CHUNK).map_or(self.element_mass(i), |row| row.0[i % CHUNK])
     }
-}
-
-/// Of elements that may hold their corners.
-fn rooms(elements: &[NewElement], corners: usize, [rows, lanes]: [usize; 2]) -> Rooms {
-    let unsound = |element: &NewElement| {
-        let nodes = element.nodes.first_chunk().filter(|_| corners == 8);
-        nodes.zip(element.corners.first_chunk()).is_some_and(|(nodes, corners)| !are_sound(nodes, corners))
-    };
-    let all = (0..rows * lanes).filter_map(|slot| Some((slot, elements.get(slot).or(elements.last())?)));
-    Rooms::new(rows, lanes, all.filter(|(_, element)| unsound(element)).map(|(slot, _)| slot))
 }
 
 impl ElementBlock {

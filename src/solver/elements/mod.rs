@@ -10,7 +10,6 @@ mod exact;
 pub mod fields;
 mod fluid;
 mod formulation;
-mod held;
 pub mod hexahedron;
 mod pass;
 pub mod quadrilateral;

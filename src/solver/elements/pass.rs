@@ -1,7 +1,6 @@
 //! One pass over the elements of a block, compiled for every kind of element, law and instruction set.
 
 use super::block::Group;
-use super::held::{Asked, Holding, Rooms, squared_speed};
 use crate::lanes::{
     CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Row, Vectors,
     Widths, array, prefetch, rows_at,
@@ -84,12 +83,6 @@ pub trait StepKernel<const N: usize> {
     #[inline(always)]
     fn about_axis(&self) -> bool {
         false
-    }
-
-    /// What holds the corners of its elements, if anything does.
-    #[inline(always)]
-    fn holding(&self) -> Option<Holding> {
-        None
     }
 
     /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities by direction and corner,
@@ -282,8 +275,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     let (mut x, mut v) = ([[V::splat(0.0); N]; 3], [[V::splat(0.0); N]; 3]);
     let (mut smallest, mut smallest_row) = (V::Row::filled(f64::INFINITY), V::Row::filled(f64::INFINITY));
     let mut failed_row = V::Row::filled(f64::INFINITY);
-    let holding = kernel.holding();
-    let per_unit = holding.map_or(0.0, |holding| Rooms::per_unit(holding.steps[0]));
     for (row, connectivity) in group.connectivity.as_chunks::<N>().0.chunks_exact(abreast).enumerate() {
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
@@ -292,7 +283,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         // it was measured.
         let first = if V::SINGLE { 0 } else { stride };
         prefetch(ahead.get(first..first + stride).unwrap_or_default());
-        let (mut stirred, mut speeds, mut own_steps) = (false, V::Row::default(), V::Row::default());
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
             relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
@@ -301,11 +291,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             let moving = moving.map_or(material, |rows| V::load_double(rows, part));
             let rates =
                 if S::NEIGHBOURS { gathered::<V, N>(nodes.rates, connectivity, part) } else { [V::splat(0.0); N] };
-            if holding.is_some() {
-                let squared = squared_speed(&v);
-                stirred |= V::any_less(V::splat(group.rooms.quiet(row, per_unit)), squared);
-                squared.store(&mut speeds, part);
-            }
             let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
             for corner in 0..N {
                 let [x, y, z] = &outcome.force;
@@ -319,41 +304,11 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             if let Some(rows) = &mut steps {
                 step.store_double(rows, part);
             }
-            if holding.is_some() {
-                step.store(&mut own_steps, part);
-            }
             let failed = V::load(&failed_row, part);
             V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_row, part);
         }
         if V::SINGLE && S::BALANCED {
             balance::<N>(&mut corner_forces);
-        }
-        if let Some(holding) = &holding {
-            if !stirred {
-                group.rooms.unmeasured(row);
-            } else if group.rooms.is_used_up(row, &speeds, holding.steps[0]) {
-                let corners = lanes_of(connectivity);
-                let masses = masses_of(&group.mass[chunk..][..abreast], group.moving.get(chunk..chunk + abreast));
-                let asked = Asked {
-                    row,
-                    nodes: &corners[..V::Row::LANES],
-                    masses: &masses[..V::Row::LANES],
-                    steps: &mut own_steps,
-                    state,
-                    forces: &mut corner_forces,
-                };
-                let changed = holding.hold(&mut group.rooms, nodes.rows, asked);
-                for lane in (0..V::Row::LANES).filter(|lane| changed >> lane & 1 == 1) {
-                    let step = own_steps.number(lane);
-                    if step < smallest.number(lane) {
-                        smallest.set(lane, step);
-                        smallest_row.set(lane, row as f64);
-                    }
-                    if let Some(rows) = &mut steps {
-                        rows[lane / CHUNK].0[lane % CHUNK] = step;
-                    }
-                }
-            }
         }
         for (next, connectivity) in connectivity.iter().enumerate() {
             let first = (chunk + next) * CHUNK;
@@ -374,25 +329,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         merge.border_before(u32::MAX);
     }
     summarise(group, &smallest, &smallest_row, &failed_row)
-}
-
-/// The corners of each element of a row.
-fn lanes_of<const N: usize>(connectivity: &[[[u32; CHUNK]; N]]) -> [[u32; MOST_CORNERS]; MOST_LANES] {
-    let mut corners = [[0; MOST_CORNERS]; MOST_LANES];
-    for (lane, own) in corners.iter_mut().take(connectivity.len() * CHUNK).enumerate() {
-        own.iter_mut().zip(&connectivity[lane / CHUNK]).for_each(|(to, from)| *to = from[lane % CHUNK]);
-    }
-    corners
-}
-
-/// Mass of the material of each element of a row, and what its corners have to move.
-fn masses_of(material: &[Row], moving: Option<&[Row]>) -> [[f64; 2]; MOST_LANES] {
-    let moving = moving.unwrap_or(material);
-    let mut masses = [[0.0; 2]; MOST_LANES];
-    for (lane, own) in masses.iter_mut().take(material.len() * CHUNK).enumerate() {
-        *own = [material, moving].map(|rows| rows[lane / CHUNK].0[lane % CHUNK]);
-    }
-    masses
 }
 
 /// Makes the forces of each element add up to nothing again, which they have been rounded away from: momentum is kept.

@@ -97,7 +97,6 @@ impl Group {
             connectivity: _,
             gone: _,
             steps: _,
-            rooms: _,
         } = self;
         let (Some(&last), lanes) = (places.last(), mass.len() * CHUNK) else { return };
         // Lanes that fill up the last chunk copy its last element.

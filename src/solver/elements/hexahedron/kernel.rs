@@ -13,7 +13,6 @@ use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
 use crate::solver::elements::fluid::{acting_step, gentle_step, jump};
-use crate::solver::elements::held::Holding;
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -44,18 +43,6 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// What holds corners, given the number of the law's rows.
-    fn holding(&self, law_rows: usize) -> Holding {
-        let account = rows::HOURGLASS_ENERGY;
-        Holding {
-            density: self.density,
-            modulus: self.dilatational,
-            least_share: self.least_share,
-            steps: [self.time_step, self.kick],
-            account: [account, rows::LAW + law_rows + carried::ENERGIES + HOURGLASS_WORK],
-        }
-    }
-
     /// The step that is booked.
     pub fn steps(&self) -> Steps {
         Steps { time_step: self.time_step, kick: self.kick }
@@ -79,12 +66,6 @@ pub struct Physics<'a, K, H> {
 
 impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
     const NEIGHBOURS: bool = K::FLUID;
-
-    /// Of laws whose stress follows the strain alone: these resist a volume that goes to nothing with a finite energy.
-    #[inline(always)]
-    fn holding(&self) -> Option<Holding> {
-        K::HYPOELASTIC.then(|| self.settings.holding(K::STATE.len()))
-    }
 
     #[inline(always)]
     fn step<V: Lanes>(

@@ -1,7 +1,6 @@
 //! The eight-node hexahedron with one point of integration (Flanagan and Belytschko 1981), also as wedge or pyramid.
 
 mod carried;
-pub(super) mod corners;
 mod exact;
 mod fluid;
 pub mod geometry;
