@@ -1,8 +1,8 @@
 //! Large arrays that every step walks over, in memory that is translated in large pages.
 
 /// An array of so many equal numbers. Where it is large, the system is asked to back it with large pages (2 MB instead of 4 kB on
-/// x86-64), before it is touched: a step walks over several pages of state for every microsecond, and with small ones a twelfth of
-/// its time goes into finding them (`docs/performance.md`).
+/// x86-64), before it is touched: a step walks over several pages of state for every microsecond, and with small ones a fifteenth of
+/// its time can go into finding them (`docs/performance.md`).
 pub fn repeated<T: Clone>(value: T, count: usize) -> Vec<T> {
     let mut numbers = reserved(count);
     numbers.resize(count, value);
