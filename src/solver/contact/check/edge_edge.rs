@@ -164,8 +164,8 @@ impl EdgeCheck<'_> {
         let margins = pair.map(|edge| self.reaches[edge as usize]);
         let distance = self.distance(pair);
         let bounds = |edge: u32, margin: f64| {
-            let [a, b] = self.edges[edge as usize].ends.map(|end| self.motion.swept_box(end));
-            SweptBox::joined([&a, &b, &a, &b], margin as f32)
+            let [a, b] = self.edges[edge as usize].ends.map(|end| &self.motion.swept_boxes[end as usize]);
+            SweptBox::joined([a, b, a, b], margin as f32)
         };
         f64::from(bounds(pair[0], margins[0].max(margins[1]) + distance).distance(&bounds(pair[1], 0.0)))
     }

@@ -39,6 +39,8 @@ impl PointMotion {
 #[derive(Debug, Clone, Default)]
 pub struct NodeMotion {
     motion: Vec<PointMotion>,
+    /// Box around the path over that step, seen from the origin.
+    pub swept_boxes: Vec<SweptBox>,
     /// Velocity over the step before, length per time.
     before: Vec<[f64; 3]>,
     /// 1/m along each axis, m the mass of the node; 0 where a constraint says how the node moves.
@@ -50,7 +52,7 @@ pub struct NodeMotion {
     /// Length of the step, a time: how long paths take.
     drift: f64,
     /// Whether a node counts in the longest path: all bits or none.
-    counts: Vec<i8>,
+    counts: Vec<u64>,
     longest: Longest,
     instructions: InstructionSet,
 }
@@ -65,10 +67,10 @@ struct Longest {
 
 impl Longest {
     #[inline(always)]
-    fn take(&mut self, [before, start, end]: [Four; 3], counts: i8) {
+    fn take(&mut self, [before, start, end]: [Four; 3], counts: u64) {
         for i in 0..4 {
             let length = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
-            let length = f64::from_bits(length.to_bits() & i64::from(counts) as u64);
+            let length = f64::from_bits(length.to_bits() & counts);
             self.poison[i] += 0.0 * length;
             self.lengths[i] = larger(length, self.lengths[i]);
         }
@@ -96,6 +98,7 @@ impl NodeMotion {
         NodeMotion {
             origin,
             motion: vec![PointMotion::default(); count],
+            swept_boxes: vec![SweptBox::EVERYTHING; count],
             before: vec![[0.0; 3]; count],
             inverse_mass: vec![[0.0; 3]; count],
             counts: vec![0; count],
@@ -136,7 +139,7 @@ impl NodeMotion {
         let motion = PointMotion { start: four(start), velocity: four(velocity) };
         let end = motion.end(self.drift);
         self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
-        self.motion[point] = motion;
+        (self.motion[point], self.swept_boxes[point]) = (motion, motion.box_to(end, four(self.origin)));
     }
 
     /// Gives a node the motion of another in the same step, but for the velocity before it.
@@ -144,7 +147,7 @@ impl NodeMotion {
     pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
         self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
-        self.motion[point] = motion;
+        (self.motion[point], self.swept_boxes[point]) = (motion, others.swept_boxes[other]);
     }
 
     /// Sets the motion of all nodes: position, velocity over the coming step; that over the step before is for
@@ -174,12 +177,13 @@ impl NodeMotion {
     fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four)>, search_boxes: &[SweptBox]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
         let (mut longest, mut outside) = (self.longest, Outside::default());
-        let places = self.motion.iter_mut().zip(&self.counts).zip(search_boxes);
-        for (((before, &counts), search_box), (start, velocity)) in places.zip(motions) {
+        let places = self.motion.iter_mut().zip(&mut self.swept_boxes).zip(&self.counts).zip(search_boxes);
+        for ((((before, swept), &counts), search_box), (start, velocity)) in places.zip(motions) {
             let motion = PointMotion { start, velocity };
             let end = motion.end(drift);
             longest.take([before.start, start, end], counts);
-            outside.take(&motion.box_to(end, origin), search_box);
+            *swept = motion.box_to(end, origin);
+            outside.take(swept, search_box);
             *before = motion;
         }
         self.longest = longest;
@@ -189,7 +193,7 @@ impl NodeMotion {
     /// Chooses the nodes that count in the longest path.
     pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
         self.counts.fill(0);
-        chosen.for_each(|point| self.counts[point as usize] = -1);
+        chosen.for_each(|point| self.counts[point as usize] = u64::MAX);
     }
 
     /// The farthest that a node which counts has gone in the last step or will go in this one, along an axis: a length.
@@ -215,13 +219,6 @@ impl NodeMotion {
     #[inline(always)]
     pub fn end_four(&self, point: u32) -> Four {
         self.motion[point as usize].end(self.drift)
-    }
-
-    /// Box around a node's path over the step, seen from the origin. It is not kept: few nodes are asked for theirs.
-    #[inline(always)]
-    pub fn swept_box(&self, point: u32) -> SweptBox {
-        let motion = &self.motion[point as usize];
-        motion.box_to(motion.end(self.drift), four(self.origin))
     }
 
     /// Velocity over the coming step as it would be without contact.

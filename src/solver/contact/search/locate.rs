@@ -161,9 +161,9 @@ impl CaptureBoxes {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
-            let swept = |point: u32| motion.swept_box(point);
+            let swept = |point: u32| &motion.swept_boxes[point as usize];
             *bounds = SweptBox::joined(
-                [&swept(a), &swept(b), &swept(c), &swept(d)],
+                [swept(a), swept(b), swept(c), swept(d)],
                 (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,
             );
             *step = self.step;
@@ -279,7 +279,7 @@ impl Locator {
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = motion.swept_box(self.slave_nodes[i]);
+        let own = motion.swept_boxes[self.slave_nodes[i] as usize];
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
         // No closure: it would be compiled apart, without the vector instructions of the caller.
         let mut next = 64;
@@ -359,7 +359,7 @@ impl Locator {
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
-        let own = motion.swept_box(point);
+        let own = motion.swept_boxes[point as usize];
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.last_path, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
