@@ -126,20 +126,14 @@ impl Numbers for SingleRow {
 /// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
 #[inline(always)]
 pub fn prefetch<R: Numbers>(rows: &[R]) {
-    rows.iter().for_each(prefetch_one);
-}
-
-/// Asks the memory for the line of the cache in which something begins.
-#[inline(always)]
-pub fn prefetch_one<T>(of: &T) {
     #[cfg(target_arch = "x86_64")]
-    {
+    for row in rows {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(of).cast()) }
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(row).cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = of;
+    let _ = rows;
 }
 
 /// What an element adds to a node, `[x, y, z, s]`: a force, and a number of its own that neighbours are to hear of (0 where there is

@@ -4,7 +4,6 @@ use super::geometry::motion::{NodeMotion, larger};
 use super::geometry::swept_box::SweptBox;
 use super::layout::{ABSENT, inverse};
 use super::node_result::NodeResult;
-use crate::lanes;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
@@ -22,9 +21,6 @@ pub struct ContactNode {
 /// Room of a contact node's box on all sides, as a part of half the path that the box is made for: at full
 /// speed a node turns little.
 const SIDE: f64 = 0.25;
-
-/// How many contact nodes ahead memory is asked for their rows, which lie anywhere.
-const AHEAD: usize = 12;
 
 /// Contact nodes of this rank, in the order of their numbers in the layout.
 #[derive(Debug, Clone, Default)]
@@ -117,16 +113,12 @@ impl ContactNodes {
     pub fn predict(&mut self, nodes: &Nodes, step: &StepTimes) {
         self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
         self.motion.begin(step.drift);
-        let motion = |(i, contact_node): (usize, &ContactNode)| {
-            if let Some(ahead) = self.list.get(i + AHEAD) {
-                lanes::prefetch_one(&nodes.rows[ahead.node as usize]);
-                lanes::prefetch_one(&nodes.forces[ahead.node as usize]);
-            }
+        let motion = |contact_node: &ContactNode| {
             let (row, force) = (&nodes.rows[contact_node.node as usize].0, &nodes.forces[contact_node.node as usize].0);
             let velocity = std::array::from_fn(|i| row[4 + i] + step.kick * (force[i] * row[7]));
             ([row[0], row[1], row[2], row[3]], velocity)
         };
-        let leaves = self.motion.set_all(self.list.iter().enumerate().map(motion), &self.search_boxes);
+        let leaves = self.motion.set_all(self.list.iter().map(motion), &self.search_boxes);
         self.expired = leaves || !self.searched;
     }
 
