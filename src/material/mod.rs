@@ -139,6 +139,9 @@ pub const CORNERS: [&str; 9] =
 /// Stored by laws with [`Kernel::FLUID`] before these: the rate at which the volume grew in the last step, over it, 1/time.
 pub const VOLUME_RATE: &str = "VOLRATE";
 
+/// Stored by laws with [`Kernel::FLUID`] before that: the part of bulk viscosity that acts, between 0 and 1.
+pub const ACTING: &str = "VISCACTS";
+
 /// A law as the element kernel sees it: one material point per lane, in a frame that turns with the material.
 ///
 /// An implementation is compiled into the element loop of its own, so nothing here costs a call.

@@ -2,7 +2,7 @@
 
 use super::constraints::StepTimes;
 use super::elements::{PassOutcome, Sink};
-use super::{Domain, Section, Solver, loads};
+use super::{Domain, Section, Solver, heat, loads};
 use crate::comm::Communicator;
 
 impl Solver {
@@ -24,18 +24,34 @@ impl Solver {
         self.domain.exchange.finish(comm, &mut self.domain.nodes.forces);
         self.domain.nodes.keep_rates();
         self.clock.stop(Section::Communication);
+        self.artificial_heat();
+        self.clock.stop(Section::Assembly);
         self.local = found;
+    }
+
+    /// Energy that goes over in shocks in the step that has led here; the next pressures know of it.
+    fn artificial_heat(&mut self) {
+        let Domain { heat, blocks, nodes, exchange, .. } = &mut self.domain;
+        if let Some(heat) = heat {
+            heat.exchange(blocks, nodes, self.time_step, &exchange.weights);
+        }
     }
 
     fn border_elements(&mut self) -> PassOutcome {
         let mut found = PassOutcome::NOTHING;
         let Domain { blocks, nodes, exchange, .. } = &mut self.domain;
         let mut slots = &mut exchange.slots[..];
+        let mut weighed = &mut exchange.weighed[..];
         for block in blocks {
             let (own, rest) = slots.split_at_mut(block.border.force_count());
             found = found.and(block.run(&nodes.rows, &nodes.rates.means, Sink::Apart(own), &self.pass));
             block.border.forget_forces_of_gone(own);
             slots = rest;
+            if !weighed.is_empty() {
+                let (own, rest) = weighed.split_at_mut(block.border.force_count());
+                heat::tell(block, own);
+                weighed = rest;
+            }
         }
         found
     }

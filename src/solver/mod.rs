@@ -10,6 +10,7 @@ pub mod elements;
 mod erosion;
 mod fit;
 mod forces;
+mod heat;
 mod health;
 pub mod loads;
 mod present;

@@ -3,7 +3,7 @@
 use super::equation_of_state::{DetonationPoint, EquationOfState};
 use super::property::STRESS;
 use super::{
-    CORNERS, END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start,
+    ACTING, CORNERS, END_POWER, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, Start,
     StateVariable, Step, Stiffness, VOLUME_RATE,
 };
 use crate::lanes::{Lanes, Matrix3, Sym3};
@@ -75,13 +75,13 @@ impl Hydrodynamic {
 /// What all fluids store.
 const FLUID: &[&str] = {
     let [a, b, c, d, e, f, g, h, least] = CORNERS;
-    &[VOLUME_RATE, a, b, c, d, e, f, g, h, least, END_POWER]
+    &[ACTING, VOLUME_RATE, a, b, c, d, e, f, g, h, least, END_POWER]
 };
 
 /// What explosives store.
 const EXPLOSIVE: &[&str] = {
     let [a, b, c, d, e, f, g, h, least] = CORNERS;
-    &["LIGHTING", "BURNRATE", "BURN", VOLUME_RATE, a, b, c, d, e, f, g, h, least, END_POWER]
+    &["LIGHTING", "BURNRATE", "BURN", ACTING, VOLUME_RATE, a, b, c, d, e, f, g, h, least, END_POWER]
 };
 
 /// What fluids share.

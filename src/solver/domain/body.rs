@@ -91,6 +91,11 @@ pub struct Cut {
 }
 
 impl Body {
+    /// Whether the elements of a block are of a fluid. Those of rigid bodies do not move of their own accord, and say nothing.
+    pub fn is_fluid(&self, model: &Model, block: usize) -> bool {
+        self.block_body[block].is_none() && model.materials[self.block_material[block]].law.is_fluid()
+    }
+
     /// Cuts the body for so many ranks by recursive coordinate bisection of the elements' centroids.
     pub fn cut(&self, ranks: usize) -> Cut {
         let centroids: Vec<_> = self.element_nodes.iter().map(|nodes| self.centroid(nodes)).collect();

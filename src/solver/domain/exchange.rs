@@ -7,24 +7,28 @@ use crate::comm::{Communicator, Peer};
 use crate::lanes::Force;
 use crate::mesh::Connectivity;
 use crate::partition::{LocalGroup, Share, Source};
+use crate::solver::heat::Weighed;
 
 /// Buffers and plan of the exchange.
 pub struct Exchange {
     /// Contributions kept apart, to be subtracted from the nodes: one per corner of the border elements in canonical order,
     /// then one per corner of the loaded faces.
     pub slots: Vec<Force>,
+    /// What corners of fluids weigh for artificial heat, in the same order; empty where there are none.
+    pub weighed: Vec<Weighed>,
+    /// Sums of that at the nodes that ranks share.
+    pub weights: Vec<(u32, Weighed)>,
     /// Place of the first corner of the first loaded face among them.
     pub first_face: usize,
     peers: Vec<Peer>,
-    /// Whether the fourth numbers travel, too: they say something where there are fluids.
-    rates: bool,
     /// The share's plan of messages and sums, its slots numbered as in `slots`.
     plan: Share,
 }
 
 impl Exchange {
-    /// From a rank's share of the body: its elements and its loaded faces. With `rates` the fourth numbers travel, too.
-    pub fn new(share: &Share, rates: bool) -> Exchange {
+    /// From a rank's share of the body: its elements and its loaded faces. With `fluids` the fourth numbers travel, too, and what
+    /// corners weigh.
+    pub fn new(share: &Share, fluids: bool) -> Exchange {
         let compact = CompactSlots::new(share);
         let faces: usize = share.groups[1..].iter().map(|faces| faces.nodes.nodes().len()).sum();
         let mut plan = Share { groups: Vec::new(), nodes: Vec::new(), owned: Vec::new(), ..share.clone() };
@@ -38,9 +42,10 @@ impl Exchange {
         }
         Exchange {
             slots: vec![Force::default(); compact.kept as usize + faces],
+            weighed: vec![[0.0; 2]; if fluids { compact.kept as usize + faces } else { 0 }],
+            weights: Vec::new(),
             first_face: compact.kept as usize,
-            peers: share.peers(if rates { 4 } else { 3 }),
-            rates,
+            peers: share.peers(if fluids { 6 } else { 3 }),
             plan,
         }
     }
@@ -50,13 +55,13 @@ impl Exchange {
         if self.peers.is_empty() {
             return;
         }
-        let own = |slot: u32| negative(&self.slots[slot as usize]);
-        if self.rates {
-            self.plan.pack(&mut self.peers, own);
+        let Exchange { slots, weighed, peers, plan, .. } = self;
+        if weighed.is_empty() {
+            plan.pack(peers, |slot| force_alone(&slots[slot as usize]));
         } else {
-            self.plan.pack(&mut self.peers, |slot| without_rate(own(slot)));
+            plan.pack(peers, |slot| all(&slots[slot as usize], &weighed[slot as usize]));
         }
-        comm.start_exchange(&mut self.peers);
+        comm.start_exchange(peers);
     }
 
     /// Waits for the others' contributions and replaces the sums at shared nodes.
@@ -65,23 +70,31 @@ impl Exchange {
             return;
         }
         comm.finish_exchange(&mut self.peers);
-        let own = |slot: u32| negative(&self.slots[slot as usize]);
-        if self.rates {
-            self.plan.sum(&self.peers, own, |node, sum| forces[node as usize] = Force(sum));
+        let Exchange { slots, weighed, weights, peers, plan, .. } = self;
+        if weighed.is_empty() {
+            let own = |slot: u32| force_alone(&slots[slot as usize]);
+            plan.sum(peers, own, |node, [x, y, z]| forces[node as usize] = Force([x, y, z, 0.0]));
         } else {
-            let own = |slot: u32| without_rate(own(slot));
-            self.plan.sum(&self.peers, own, |node, [x, y, z]| forces[node as usize] = Force([x, y, z, 0.0]));
+            weights.clear();
+            let own = |slot: u32| all(&slots[slot as usize], &weighed[slot as usize]);
+            plan.sum(peers, own, |node, [x, y, z, rate, weight, energy]| {
+                forces[node as usize] = Force([x, y, z, rate]);
+                weights.push((node, [weight, energy]));
+            });
         }
     }
 }
 
 /// What subtracting a contribution adds: the same bits as the subtraction itself.
-fn negative(force: &Force) -> [f64; 4] {
-    force.0.map(|number| -number)
+fn force_alone(force: &Force) -> [f64; 3] {
+    let [x, y, z, _] = force.0;
+    [-x, -y, -z]
 }
 
-fn without_rate([x, y, z, _]: [f64; 4]) -> [f64; 3] {
-    [x, y, z]
+/// The same with the fourth number, and what the corner weighs.
+fn all(force: &Force, [weight, energy]: &Weighed) -> [f64; 6] {
+    let [x, y, z, rate] = force.0;
+    [-x, -y, -z, -rate, *weight, *energy]
 }
 
 /// Numbers of the slots that are really kept: those of border elements and of loaded faces.

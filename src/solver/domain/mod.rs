@@ -13,6 +13,7 @@ pub use rotations::Rotations;
 use super::contact::Contact;
 use super::elements::{Element, ElementBlock, NewElement};
 use super::erosion::Erosion;
+use super::heat::Heat;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
 use super::rigid::RigidBodies;
 use super::tied::Ties;
@@ -71,6 +72,8 @@ pub struct Domain {
     pub added_mass: Vec<f64>,
     /// What it has added to the whole body; `None` without it.
     pub mass_added: Option<f64>,
+    /// Artificial heat, where there are fluids.
+    pub heat: Option<Heat>,
     /// Sums over nodes shared with other ranks.
     pub exchange: Exchange,
 }
@@ -163,6 +166,7 @@ impl Domain {
             erosion: None,
             added_mass: body.added_mass.of_nodes(&share.nodes),
             mass_added: (!model.mass_scalings.is_empty()).then(|| body.added_mass.total()),
+            heat: Heat::new(mesh, model, body, share),
             exchange: Exchange::new(share, model.has_fluids()),
         };
         domain.erosion = Erosion::new(mesh, model, body, &mut domain.nodes, &local);
@@ -377,10 +381,7 @@ fn rates(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Rates {
     if !model.has_fluids() {
         return Rates::default();
     }
-    // Elements of rigid bodies do not move of their own accord, and say nothing.
-    let is_fluid =
-        |block: usize| body.block_body[block].is_none() && model.materials[body.block_material[block]].law.is_fluid();
-    let fluids: Vec<bool> = (0..body.block_material.len()).map(is_fluid).collect();
+    let fluids: Vec<bool> = (0..body.block_material.len()).map(|block| body.is_fluid(model, block)).collect();
     let mut corners = vec![0u32; mesh.coordinates.len()];
     for (nodes, &block) in body.element_nodes.iter().zip(&*body.element_block) {
         if fluids[block as usize] {

@@ -3,7 +3,7 @@
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
-use crate::material::{END_POWER, Law};
+use crate::material::{ACTING, END_POWER, Law};
 use crate::model::Precision;
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;
@@ -311,6 +311,28 @@ impl ElementBlock {
     pub fn end_power(&self) -> Option<usize> {
         let last = self.state_names.len().checked_sub(1)?;
         (self.state_names[last] == END_POWER).then_some(self.first_of_law(0) + last)
+    }
+
+    /// Place among the stored numbers of the part of bulk viscosity that acts, in blocks that keep it.
+    pub fn acting(&self) -> Option<usize> {
+        Some(self.first_of_law(0) + self.state_names.iter().position(|name| *name == ACTING)?)
+    }
+
+    /// The border or the interior.
+    pub fn at(&self, border: bool) -> &Group {
+        if border { &self.border } else { &self.interior }
+    }
+
+    /// Gives energy to the `i`-th element of the border or the interior: the account of bulk viscosity has it.
+    pub fn heat(&mut self, border: bool, i: usize, energy: f64) {
+        let Some(row) = self.element.entry().energies.viscous else { return };
+        let behind = self.element.carried_of_viscosity();
+        let behind = behind.map(|carried| self.first_of_law(0) + self.state_names.len() + carried);
+        let group = if border { &mut self.border } else { &mut self.interior };
+        let Some(behind) = behind else { return group.set_value(i, row, group.value(i, row) + energy) };
+        let total = group.value(i, row) + (group.value(i, behind) + energy);
+        group.set_value(i, row, total);
+        group.set_value(i, behind, total - group.value(i, row));
     }
 
     /// Lets one group answer a probe; nodes have displacements for velocities.

@@ -53,6 +53,11 @@ impl AccountRows {
         self.of_corners::<K>().start - 1
     }
 
+    /// Row of the part of bulk viscosity that acts, of fluids.
+    pub fn of_acting<K: Kernel>(&self) -> usize {
+        self.of_rate::<K>() - 1
+    }
+
     fn end_power<K: Kernel>(&self) -> usize {
         self.law + K::STATE.len() - 1
     }

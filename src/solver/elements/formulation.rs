@@ -129,6 +129,11 @@ pub trait Formulation: Sized {
         &[]
     }
 
+    /// Place among [`Formulation::carried`] of what the energy of bulk viscosity has lost.
+    fn carried_of_viscosity(&self) -> Option<usize> {
+        None
+    }
+
     /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner; behind
     /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length². Called
     /// once for every element of the block on every rank, so that bounds over the block can be found here.

@@ -66,6 +66,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.carried(),)+ }
             }
 
+            /// See [`Formulation::carried_of_viscosity`].
+            pub fn carried_of_viscosity(&self) -> Option<usize> {
+                match self { $(Element::$element(own) => own.carried_of_viscosity(),)+ }
+            }
+
             /// See [`Formulation::weigh`].
             pub fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
                 match self { $(Element::$element(own) => own.weigh(element, density, shares),)+ }

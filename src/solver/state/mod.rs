@@ -104,6 +104,7 @@ impl Domain {
             layered: _,
             added_mass: _,
             mass_added: _,
+            heat: _,
             exchange: _,
         } = self;
         rigid.iter_mut().for_each(|rigid| rigid.visit_state(archive, nodes));

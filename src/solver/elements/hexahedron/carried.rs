@@ -25,6 +25,8 @@ const STRAIN: usize = 5;
 const HOURGLASS: usize = 8;
 /// Where those of the energies are, in the order of the energies.
 pub const ENERGIES: usize = 14;
+/// Where that of bulk viscosity is.
+pub const VISCOUS: usize = ENERGIES + 2;
 
 /// Largest part of the stress that an addition loses, in units of its last digit, and some for those of the law.
 const LOST: f64 = 4.0 * f32::EPSILON as f64;

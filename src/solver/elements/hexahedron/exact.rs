@@ -18,7 +18,7 @@ use crate::solver::nodes::Nodes;
 const ROWS: AccountRows = AccountRows {
     accounts: [rows::INTERNAL_ENERGY, rows::VISCOUS_ENERGY, rows::HOURGLASS_ENERGY],
     law: rows::LAW,
-    carried: [carried::ENERGIES, carried::ENERGIES + 2, carried::ENERGIES + 1],
+    carried: [carried::ENERGIES, carried::VISCOUS, carried::ENERGIES + 1],
 };
 
 /// Rows of the forces on corners, of fluids.
@@ -29,6 +29,11 @@ pub fn corner_rows<K: Kernel>() -> std::ops::Range<usize> {
 /// Row of the rate of the volume in the last pass, of fluids.
 pub fn rate_row<K: Kernel>() -> usize {
     ROWS.of_rate::<K>()
+}
+
+/// Row of the part of bulk viscosity that acts, of fluids.
+pub fn acting_row<K: Kernel>() -> usize {
+    ROWS.of_acting::<K>()
 }
 
 /// What is known of a step's work before the law has found its stress.

@@ -174,8 +174,10 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let mut damping = whole;
     if K::FLUID {
         let row = &mut state[exact::rate_row::<K>()];
-        damping = whole * jump([V::load(row, part), rate], &fluid::across(&given.rates));
+        let acts = jump([V::load(row, part), rate], &fluid::across(&given.rates));
         rate.store(row, part);
+        acts.store(&mut state[exact::acting_row::<K>()], part);
+        damping = whole * acts;
     }
     let viscous = damping * modulus * bound * rate;
     let last = V::load(&state[rows::VISCOUS_STRESS], part);

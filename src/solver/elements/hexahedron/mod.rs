@@ -129,6 +129,10 @@ impl Formulation for Hexahedron {
         }
     }
 
+    fn carried_of_viscosity(&self) -> Option<usize> {
+        (self.precision == Precision::Single).then_some(carried::VISCOUS)
+    }
+
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         weigh(element, density, shares, &mut self.least_share)
     }

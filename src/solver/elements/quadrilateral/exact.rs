@@ -29,6 +29,11 @@ pub fn rate_row<K: Kernel>() -> usize {
     ROWS.of_rate::<K>()
 }
 
+/// Row of the part of bulk viscosity that acts, of fluids.
+pub fn acting_row<K: Kernel>() -> usize {
+    ROWS.of_acting::<K>()
+}
+
 /// What is known of a step's work before the law has found its stress.
 pub struct Start<V> {
     /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is

@@ -1,6 +1,6 @@
 //! The four-node quadrilateral with one integration point: one step of one part of a chunk.
 
-use super::exact::{Start, corner_rows, power_of_stress, rate_row};
+use super::exact::{Start, acting_row, corner_rows, power_of_stress, rate_row};
 use super::fluid;
 use super::hourglass;
 use super::kinematics::{self, Flat, Motion};
@@ -218,8 +218,12 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
             let row = &mut law_state[rate_row::<K>() - rows::LAW];
             let acts = jump([V::load(row, part), rate], &fluid::across(&given.rates));
             // Elements along the axis of Galerkin's form need all of it: without, they are squeezed flat behind a shock.
-            damping = if compatible || !about_axis { whole * acts } else { whole };
+            let limited = compatible || !about_axis;
+            damping = if limited { whole * acts } else { whole };
             rate.store(row, part);
+            // Where all of it always acts there is no artificial heat, either.
+            let acts = if limited { acts } else { zero };
+            acts.store(&mut law_state[acting_row::<K>() - rows::LAW], part);
         }
         let viscous = damping * modulus * bound * rate;
         let last = V::load(&own[rows::VISCOUS_STRESS], part);
