@@ -65,7 +65,6 @@ impl Contact {
             resultants: Resultants::new(model.histories.iter().filter_map(subject)),
             block_ids: mesh.blocks.iter().map(|block| block.id).collect(),
             searches: 0,
-            searched_at: 0,
             age: 0,
             counts: [0; 2],
             pairings: Pairings::new(mesh, model, body),
@@ -154,7 +153,7 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     let mean = mean_size(layout);
     // A reach of one step at least: the search must hold for the step it is made for.
     let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
-    Reach { steps: control.reach.max(1.0), least, room: 1.0, depth: node_face::KEEP }
+    Reach { steps: control.reach.max(1.0), least, depth: node_face::KEEP }
 }
 
 /// How far the iterations go. All ranks must make the same number of them. With surfaces every rank sees all constraints and

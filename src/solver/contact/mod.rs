@@ -110,8 +110,6 @@ pub struct Contact {
     block_ids: Vec<i64>,
     /// Number of searches so far.
     searches: u64,
-    /// Step of the last search.
-    searched_at: u64,
     /// Number of steps so far.
     age: u64,
     /// Slave nodes and pairs of the last search, of all ranks.
@@ -257,9 +255,7 @@ impl Contact {
         let Contact { layout, contact_nodes, problem, remote, carried, search, plane_nodes, .. } = self;
         let depth = self.reach.depth;
         self.searches += 1;
-        self.reach.learn(self.age.saturating_sub(self.searched_at));
-        self.searched_at = self.age;
-        contact_nodes.renew(self.reach.steps, self.reach.least_now());
+        contact_nodes.renew(self.reach.steps, self.reach.least);
         if let Some(remote) = remote {
             let history = carried.take().unwrap_or_else(|| problem.history());
             *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);

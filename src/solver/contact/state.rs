@@ -56,9 +56,7 @@ impl Contact {
             // Made anew by `take_up`, from the surface as it is.
             layout: _,
             remote: _,
-            // Of the last search: results do not depend on when searches are made, nor on how far they look.
-            searched_at: _,
-            reach: _,
+            // Of the last search.
             counts: _,
             search: _,
             // Of the problem.
@@ -67,6 +65,7 @@ impl Contact {
             held: _,
             elements: _,
             thicknesses: _,
+            reach: _,
             planes: _,
             mean_size: _,
             limits: _,

@@ -46,37 +46,9 @@ pub struct Reach {
     pub steps: f64,
     /// Smallest reach, a length.
     pub least: f64,
-    /// Multiple of the smallest reach that nodes get now, see [`Reach::learn`].
-    pub room: f64,
     /// How far a face looks beyond its corners in a step, as a part of half its element: a little, for points that have
     /// just left it; all of it, to find points that are behind it at the start. Searches look as far as all of it.
     pub depth: f64,
-}
-
-/// A search that has not lasted so many steps was too narrow.
-const SHORT: u64 = 20;
-
-/// A search that has lasted so many was wide enough.
-const LONG: u64 = 60;
-
-/// Largest multiple of the smallest reach: wider boxes have so many candidates that fewer searches gain nothing.
-const WIDEST: f64 = 4.0;
-
-impl Reach {
-    /// Hears how many steps the last search has lasted. Where bodies are just struck, nodes leave their boxes all the time, since
-    /// these were made for nodes at rest: then the next ones have more room. Candidates more or less change no result.
-    pub fn learn(&mut self, lasted: u64) {
-        if lasted < SHORT {
-            self.room = WIDEST.min(2.0 * self.room);
-        } else if lasted > LONG {
-            self.room = f64::max(1.0, 0.5 * self.room);
-        }
-    }
-
-    /// Smallest reach of the next search, a length.
-    pub fn least_now(&self) -> f64 {
-        self.room * self.least
-    }
 }
 
 /// The candidates of the last search, and which of them are near in a step.
