@@ -197,14 +197,9 @@ impl Contact {
     fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
         self.contact_nodes.predict(nodes, step);
         comm.enter(Traffic::ContactSearch);
-        let folded = self.reshape(nodes, comm);
-        if !self.layout.interfaces.is_empty() {
-            let expired = self.expired(comm);
-            match &self.remote {
-                _ if !expired && folded.is_empty() => (),
-                None if !expired && self.carried.is_none() => self.search_folded(&folded),
-                _ => self.search(comm),
-            }
+        let reshaped = self.reshape(nodes, comm);
+        if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
+            self.search(comm);
         }
         comm.enter(Traffic::ContactMotion);
         let Contact { contact_nodes, problem, remote, .. } = self;
@@ -278,15 +273,6 @@ impl Contact {
         if self.remote.is_some() {
             comm.all_sum(&mut self.counts);
         }
-    }
-
-    /// Finds the pairs of edges that have another shape now; all else stays as the last search has found it.
-    fn search_folded(&mut self, folded: &[u32]) {
-        let Contact { layout, contact_nodes, problem, search, .. } = self;
-        let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
-        let found = neighbourhood::crossings_of(&mut **search, &edges, folded, layout);
-        problem.renew_pairs(found, folded);
-        contact_nodes.motion.count(problem.locator.moving().iter().copied());
     }
 
     fn enforce(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {

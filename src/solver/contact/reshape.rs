@@ -25,15 +25,15 @@ const SHAPES: u32 = 3;
 const THINNINGS: u32 = THINNEST as u32 + 1;
 
 impl Contact {
-    /// Counts the step, and when it is time looks which edges stand out now and how thick elements are. The edges that have
-    /// changed, ascending, for which all ranks must search; on many ranks history is on its way then. All ranks call it, with the
-    /// present positions in the contact nodes.
-    pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<u32> {
+    /// Counts the step, and when it is time looks which edges stand out now and how thick elements are. Whether edges have
+    /// changed, so that all ranks must search; on many ranks history is on its way then. All ranks call it, with the present
+    /// positions in the contact nodes.
+    pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
         if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
-            return Vec::new();
+            return false;
         }
-        let folded = if self.layout.edges.is_empty() { Vec::new() } else { self.fold(comm) };
+        let folded = !self.layout.edges.is_empty() && self.fold(comm);
         self.thin(nodes, comm);
         folded
     }
@@ -77,27 +77,25 @@ impl Contact {
         }
     }
 
-    /// Gives edges the shapes that they have now. Those that have changed, ascending.
-    fn fold(&mut self, comm: &mut dyn Communicator) -> Vec<u32> {
+    /// Gives edges the shapes that they have now. Whether any has changed.
+    fn fold(&mut self, comm: &mut dyn Communicator) -> bool {
         let mut changed = self.changes(comm);
         self.with_others(&mut changed, comm);
-        for change in &changed {
-            self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
+        if changed.is_empty() {
+            return false;
         }
-        let mut folded: Vec<u32> = changed.into_iter().map(|change| change / SHAPES).collect();
-        folded.sort_unstable();
-        if folded.is_empty() {
-            return folded;
+        for change in changed {
+            self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
         }
         if self.remote.is_none() && self.carried.is_none() {
             self.problem.fold(&self.layout.edges);
-            return folded;
+            return true;
         }
         let mut history = self.carried.take().unwrap_or_else(|| self.problem.history());
         history.edges =
             history.edges.into_iter().filter_map(|past| edge_edge::in_order(past, &self.layout.edges)).collect();
         self.carried = Some(history);
-        folded
+        true
     }
 
     /// Edges whose first face is here and that have another shape now, with the code of it: edge x [`SHAPES`] + code.

@@ -190,14 +190,6 @@ impl LocalProblem {
         self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
     }
 
-    /// The pairs of some edges of the layout, ascending, are replaced by those that a search has found.
-    pub fn renew_pairs(&mut self, found: Vec<[u32; 2]>, some: &[u32]) {
-        let here = |edge: u32| place(&self.numbering.edges, edge);
-        let some: Vec<u32> = some.iter().map(|&edge| here(edge)).collect();
-        let found = found.into_iter().map(|pair| pair.map(here)).collect();
-        self.locator.renew_pairs(found, &some, &self.faces, &self.edges);
-    }
-
     /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.
     pub fn release_faces(&mut self) {
         self.faces = Arc::default();

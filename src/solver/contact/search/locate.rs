@@ -76,8 +76,6 @@ pub struct Locator {
     moving: Vec<u32>,
     /// Whether no step has been made yet.
     fresh: bool,
-    /// Whether points have joined `moving` since the paths of the step were found.
-    joined: bool,
     capture_boxes: CaptureBoxes,
 }
 
@@ -164,27 +162,18 @@ impl Locator {
             first: found.first,
             candidates: found.candidates,
             pairs_due: vec![0.0; found.pairs.len()],
-            sharp_pairs: sharp(&found.pairs, faces, edges),
+            sharp_pairs: (0..)
+                .zip(&found.pairs)
+                .filter_map(|(place, [a, b])| {
+                    // Surfaces have no depth to sink into: their edges look every step.
+                    let [a, b] = [a, b].map(|edge| &edges[*edge as usize]);
+                    (b.stands_out() || a.is_of_surface(faces)).then_some(place)
+                })
+                .collect(),
             edge_pairs: found.pairs,
             fresh: true,
             ..Default::default()
         }
-    }
-
-    /// The pairs of some edges, ascending, are replaced by those that have been found, ascending. Points sleep on.
-    pub fn renew_pairs(&mut self, found: Vec<[u32; 2]>, some: &[u32], faces: &Faces, edges: &[Edge]) {
-        self.edge_pairs.retain(|pair| pair.iter().all(|edge| some.binary_search(edge).is_err()));
-        let ends = found.iter().flatten().flat_map(|&edge| edges[edge as usize].ends);
-        self.moving.extend(ends);
-        self.moving.sort_unstable();
-        self.moving.dedup();
-        self.edge_pairs.extend(found);
-        self.edge_pairs.sort_unstable();
-        self.sharp_pairs = sharp(&self.edge_pairs, faces, edges);
-        // How long the pairs may wait is found when they are looked at next.
-        self.pairs_due.clear();
-        self.pairs_due.resize(self.edge_pairs.len(), 0.0);
-        self.joined = true;
     }
 
     /// Begins a step.
@@ -192,12 +181,8 @@ impl Locator {
         self.capture_boxes.next_step(faces.len());
         // On one rank what counts in the longest path is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
-        let first = std::mem::take(&mut self.fresh);
-        let joined = std::mem::take(&mut self.joined);
-        self.last_path = if first { 0.0 } else { motion.longest_path() };
-        if first || joined {
-            self.last_path = self.longest_path(motion).max(self.last_path);
-        }
+        let first = std::mem::replace(&mut self.fresh, false);
+        self.last_path = if first { self.longest_path(motion) } else { motion.longest_path() };
         self.travelled += self.last_path;
     }
 
@@ -253,23 +238,18 @@ impl Locator {
         }
         let own = motion.swept_boxes[self.slave_nodes[i] as usize];
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
-        // No closure: it would be compiled apart, without the vector instructions of the caller.
-        let mut next = 64;
-        loop {
-            let place = if awake != 0 {
-                let place = awake.trailing_zeros() as usize;
-                awake &= awake - 1;
-                place
-            } else {
-                next += 1;
-                next - 1
-            };
-            let Some(candidate) = candidates.get(place) else { break };
-            let swept = self.capture_boxes.of(candidate.face, faces, motion, self.depth);
+        let capture_boxes = &mut self.capture_boxes;
+        let mut look = |candidate: &Candidate| {
+            let swept = capture_boxes.of(candidate.face, faces, motion, self.depth);
             if f64::from(own.distance(&swept)) <= reach || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
+        };
+        while awake != 0 {
+            look(&candidates[awake.trailing_zeros() as usize]);
+            awake &= awake - 1;
         }
+        candidates.iter().skip(64).for_each(look);
     }
 
     /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
@@ -367,13 +347,6 @@ impl Locator {
     pub fn counts(&self) -> [usize; 2] {
         [self.slave_nodes.len(), self.candidates.len()]
     }
-}
-
-/// Places of the pairs whose edges both stand out, or of which one belongs to a surface: surfaces have no depth to sink into, and
-/// their edges look every step.
-fn sharp(pairs: &[[u32; 2]], faces: &Faces, edges: &[Edge]) -> Vec<u32> {
-    let is_sharp = |[a, b]: &[u32; 2]| edges[*b as usize].stands_out() || edges[*a as usize].is_of_surface(faces);
-    (0..).zip(pairs).filter_map(|(place, pair)| is_sharp(pair).then_some(place)).collect()
 }
 
 /// Distance along the normal of a face between a point and where it would matter to the face, over the whole step: in

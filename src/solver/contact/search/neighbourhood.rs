@@ -88,7 +88,7 @@ pub fn find(
 ) -> SearchResult {
     let candidates: Vec<(Vec<u32>, Candidates)> =
         (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
-    let mut found = SearchResult { pairs: crossings(search, edges, [&mine, &|_| true], layout), ..Default::default() };
+    let mut found = SearchResult { pairs: crossings(search, edges, mine, layout), ..Default::default() };
     for (place, &point) in points.ids.iter().enumerate() {
         let begin = found.candidates.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
@@ -153,35 +153,17 @@ fn keep_first(near: &mut Vec<Candidate>, begin: usize) {
     near.truncate(kept);
 }
 
-/// The crossings of some of these edges, ascending, with all of them.
-pub fn crossings_of(search: &mut dyn Search, edges: &Boxes, some: &[u32], layout: &Layout) -> Vec<[u32; 2]> {
-    let is_one = |edge: u32| some.binary_search(&edge).is_ok();
-    let mut pairs = crossings(search, edges, [&is_one, &|_| true], layout);
-    pairs.extend(crossings(search, edges, [&|edge| !is_one(edge), &is_one], layout));
-    pairs.sort_unstable();
-    pairs
-}
-
-/// Pairs of edges that may cross, ascending: the first one of those that `ask`, the second of those that `answer`.
-fn crossings(
-    search: &mut dyn Search,
-    edges: &Boxes,
-    [ask, answer]: [&dyn Fn(u32) -> bool; 2],
-    layout: &Layout,
-) -> Vec<[u32; 2]> {
+fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool, layout: &Layout) -> Vec<[u32; 2]> {
     if edges.ids.is_empty() {
         return Vec::new();
     }
     let stands_out = |edge: u32| layout.edges[edge as usize].stands_out();
-    let chosen = |choice: &dyn Fn(u32) -> bool| -> Vec<Box3> {
-        let boxes = edges.ids.iter().zip(&edges.boxes);
-        boxes.map(|(&edge, of)| if choice(edge) { *of } else { Box3::empty() }).collect()
-    };
-    let own = chosen(&|edge| ask(edge) && stands_out(edge));
-    let others = chosen(answer);
+    let asks = |edge: u32| mine(edge) && stands_out(edge);
+    let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if asks(edge) { *of } else { Box3::empty() });
+    let own: Vec<Box3> = own.collect();
     let selves: Vec<[u32; 4]> = (0..own.len() as u32).map(|edge| [edge; 4]).collect();
     let mut found = Candidates::default();
-    search.find(&own, &others, &selves, &mut found);
+    search.find(&own, &edges.boxes, &selves, &mut found);
     let mut pairs = Vec::new();
     for (place, &first) in edges.ids.iter().enumerate() {
         let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);

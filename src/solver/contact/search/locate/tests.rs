@@ -10,8 +10,6 @@ use crate::model::{Model, examine};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::Contact;
-use crate::solver::contact::geometry::edges::Shape;
-use crate::solver::contact::search::neighbourhood;
 use crate::solver::nodes::{Nodes, add, cross, dot, scaled, subtract};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -377,41 +375,4 @@ fn sleep_loses_no_contact() {
     let [faces, edges, asleep] = seen.0.map(|sum| sum.get() / u64::from(cases));
     println!("in each scene {faces} constraints of faces, {edges} of edges, {asleep} candidates asleep over all steps");
     assert!(faces > 0 && asleep > 0, "scenes without contact or without sleep show nothing");
-}
-
-/// Gives some edges other shapes and looks for their pairs alone: that a whole search in the same boxes finds no others.
-fn folds_as_a_whole_search(scene: &Scene, flips: &[(usize, u32)], found: &Cell<u64>) -> Result<(), TestCaseError> {
-    let stage = scene.stage();
-    let nodes = stage.nodes();
-    let mut contact = stage.contact(&nodes);
-    contact.bring_motion(&nodes, &STEP, &mut Serial);
-    contact.bring_forces(&mut Serial);
-    let count = contact.layout.edges.len();
-    let mut folded: Vec<u32> = flips.iter().map(|(edge, _)| (edge % count) as u32).collect();
-    for (edge, (_, code)) in folded.iter().zip(flips) {
-        contact.layout.edges[*edge as usize].shape = Shape::from_code(*code);
-    }
-    folded.sort_unstable();
-    folded.dedup();
-    contact.problem.fold(&contact.layout.edges);
-    contact.search_folded(&folded);
-    let Contact { layout, contact_nodes, problem, search, .. } = &mut contact;
-    let edges = neighbourhood::edge_boxes(0..count as u32, layout, contact_nodes);
-    let none = neighbourhood::Boxes::default();
-    let whole = neighbourhood::find(&mut **search, [&none, &none, &edges], |_| true, layout);
-    prop_assert_eq!(problem.locator.edge_pairs(), whole.pairs);
-    found.set(found.get() + problem.locator.edge_pairs().len() as u64);
-    Ok(())
-}
-
-#[test]
-fn edges_that_fold_meet_what_a_whole_search_finds() {
-    let found = Cell::new(0);
-    let flips = prop::collection::vec((any::<usize>(), 0u32..3), 1..40);
-    let mut runner = TestRunner::new(Config { cases: SCENES, failure_persistence: None, ..Config::default() });
-    let play = |(scene, flips): (Scene, Vec<(usize, u32)>)| folds_as_a_whole_search(&scene, &flips, &found);
-    if let Err(failure) = runner.run(&(scene(), flips), play) {
-        panic!("{failure}");
-    }
-    assert!(found.get() > u64::from(SCENES), "scenes without pairs show nothing");
 }
