@@ -40,7 +40,8 @@ pub struct Tally {
     pub left: f64,
     /// Deepest penetration that motion has made, as a part of the face's size.
     pub deepest: f64,
-    /// Deepest penetration in motions of a step, the farthest of those so far; without dimension.
+    /// Deepest penetration of more than a ten-thousandth of a face in motions of a step, the farthest of those so far; without
+    /// dimension.
     pub motions: f64,
     /// Farthest motion of a contact along its normal in a step so far, a length.
     pub farthest: f64,

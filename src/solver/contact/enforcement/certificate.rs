@@ -22,13 +22,17 @@ const FARTHEST: f64 = 2.0;
 /// A ray shortened by less than this is not shortened: round-off of its sums.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
+/// Part of what a lift has cost in one step that the next one expects it to cost at least. Forces that are granted less of it cost less:
+/// what is granted grows by so much a step until it meets what can be paid.
+const REMEMBERED: f64 = 0.7;
+
 /// What earlier losses allow contact to give back, and the sums of its work. The same on every rank.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bank {
     /// Energy that may be given back, at least 0.
     pub balance: f64,
     /// Energy that the last step's forces would have given back, had all been granted: by bringing to rest what rises, and by
-    /// lifting.
+    /// lifting, of which earlier steps are remembered.
     pub asked: [f64; 2],
     /// Work of all contact forces so far.
     pub work: f64,
@@ -170,7 +174,7 @@ impl Terms {
         let asked = [0.5 * kick * self.rest, 0.5 * kick * self.lift];
         let rest = granted[0].min(paid(asked[0], bank.balance));
         let lift = granted[1].min(paid(asked[1], bank.balance - rest * asked[0]));
-        let claim = rest * asked[0] + lift * asked[1];
+        let (claim, is_cut) = (rest * asked[0] + lift * asked[1], rest < granted[0] || lift < granted[1]);
         let ray = self.ray([rest, lift]);
         // Longer forces claim more.
         let ray = if ray * claim > bank.balance { ray.min(1.0) } else { ray };
@@ -182,7 +186,10 @@ impl Terms {
         bank.growth += kick * ray * self.growth;
         bank.gain += (normal + friction - bank.balance).max(0.0);
         bank.balance = (bank.balance - (normal + friction.max(0.0) - landing)).max(0.0);
-        bank.asked = asked.map(|asked| ray * asked);
+        // Forces that were sought for a lift which cannot be paid may come to nothing. What it would have cost is known all the same:
+        // a bank that was asked for nothing would grant all of it in the next step, and the forces would come to nothing again.
+        let length = if is_cut { ray.max(1.0) } else { ray };
+        bank.asked = [ray * asked[0], (length * asked[1]).max(REMEMBERED * bank.asked[1])];
         ray
     }
 }
@@ -232,4 +239,28 @@ pub fn penetration_after(before: f64, gap: f64, after: f64, drift: f64) -> f64 {
 /// Part of a velocity in the plane of a normal.
 pub fn tangential(v: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
     subtract(v, scaled(normal, dot(v, normal)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forces that were sought for a lift the bank cannot pay press where nothing needs them, and have no ray without it.
+    #[test]
+    fn a_lift_that_was_too_dear_is_not_granted_again_at_once() {
+        let terms = Terms { least: -1.0, lift: 100.0, normal_change: 90.0, ..Default::default() };
+        let mut bank = Bank { balance: 0.1, ..Default::default() };
+        let granted = bank.granted();
+        assert_eq!((granted, terms.settle(granted, 1.0, &mut bank)), ([1.0; 2], 0.0));
+        let [_, mut lift] = bank.granted();
+        assert!(lift < 0.01, "{lift}");
+        // Nothing is asked for any more: it is granted again by and by.
+        for _ in 0..30 {
+            Terms::default().settle(bank.granted(), 1.0, &mut bank);
+            let [_, next] = bank.granted();
+            assert!(next > lift || next == 1.0, "{lift} {next}");
+            lift = next;
+        }
+        assert_eq!(lift, 1.0);
+    }
 }

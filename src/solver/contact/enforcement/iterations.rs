@@ -10,6 +10,9 @@ use crate::solver::contact::geometry::motion::NodeMotion;
 /// in while loads are small can be lifted only at the price of the loads that come.
 const SETTLED: f64 = 0.002;
 
+/// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
+const NOTICED: f64 = 1e-4;
+
 /// How far the iterations go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -28,7 +31,7 @@ pub struct Outcome {
     pub residual: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
     pub deepest: f64,
-    /// The deepest one as a length.
+    /// The deepest one as a length, of those that are more than a ten-thousandth of the face's size; else 0.
     pub depth: f64,
     /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
@@ -106,9 +109,10 @@ impl Enforcer {
             // A node above a plane is no contact until it reaches it.
             let is_contact = state.active || !matches!(c.origin, Origin::Plane(_));
             let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
+            let depth = if penetration > NOTICED * c.size { penetration } else { 0.0 };
             Largest {
                 deepest: (penetration / c.size).max(all.deepest),
-                depth: penetration.max(all.depth),
+                depth: depth.max(all.depth),
                 travel: travel.max(all.travel),
                 ..all
             }

@@ -13,7 +13,7 @@ pub struct Largest {
     pub wanted: f64,
     /// Deepest penetration that motion had made before the step, as a part of the face's size.
     pub deepest: f64,
-    /// The deepest one as a length.
+    /// The deepest one as a length, of those that are more than a ten-thousandth of the face's size; else 0.
     pub depth: f64,
     /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
