@@ -139,6 +139,20 @@ mod tests {
             let distance = f64::from(SweptBox::around(a, a).distance(&SweptBox::around(b, b)));
             prop_assert!(distance > 0.0 && distance <= gap && distance > gap - 2e-5);
         }
+
+        #[test]
+        fn what_is_apart_has_a_distance(
+            a in prop::array::uniform3(-1.0..1.0), b in prop::array::uniform3(-1.0..1.0),
+            c in prop::array::uniform3(-1.0..1.0), axis in 0usize..4,
+        ) {
+            let mut end = c;
+            // An axis along which there is no number.
+            if axis < 3 {
+                end[axis] = f64::NAN;
+            }
+            let (one, other) = (SweptBox::around(a, b), SweptBox::around(c, end));
+            prop_assert_eq!(one.is_apart(&other.exchanged()), one.distance(&other) > 0.0);
+        }
     }
 
     #[test]
