@@ -11,6 +11,10 @@ const OUTWARDS: f32 = 4e-7;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweptBox([f32; 8]);
 
+/// A box with its two halves exchanged, for [`SweptBox::is_apart`].
+#[derive(Debug, Clone, Copy)]
+pub struct Exchanged([f32; 8]);
+
 /// The smaller of two numbers, without a say for those that are none: half the instructions of `f32::min`.
 #[inline(always)]
 fn smaller(a: f32, b: f32) -> f32 {
@@ -53,6 +57,22 @@ impl SweptBox {
     pub fn corners(&self) -> [[f64; 3]; 2] {
         let b = self.0.map(f64::from);
         [[b[0], b[1], b[2]], [-b[4], -b[5], -b[6]]]
+    }
+
+    /// Itself, to be asked whether many others are apart from it.
+    #[inline(always)]
+    pub fn exchanged(&self) -> Exchanged {
+        Exchanged(std::array::from_fn(|i| self.0[(i + 4) % 8]))
+    }
+
+    /// Whether the [`SweptBox::distance`] to another box is above zero.
+    #[inline(always)]
+    pub fn is_apart(&self, other: &Exchanged) -> bool {
+        let mut apart = false;
+        for i in 0..8 {
+            apart |= self.0[i] + other.0[i] > 0.0;
+        }
+        apart
     }
 
     /// How far two boxes are apart along the axis where they are farthest; not above zero where they have a point in
@@ -118,6 +138,20 @@ mod tests {
             b[axis] += gap;
             let distance = f64::from(SweptBox::around(a, a).distance(&SweptBox::around(b, b)));
             prop_assert!(distance > 0.0 && distance <= gap && distance > gap - 2e-5);
+        }
+
+        #[test]
+        fn what_is_apart_has_a_distance(
+            a in prop::array::uniform3(-1.0..1.0), b in prop::array::uniform3(-1.0..1.0),
+            c in prop::array::uniform3(-1.0..1.0), axis in 0usize..4,
+        ) {
+            let mut end = c;
+            // An axis along which there is no number.
+            if axis < 3 {
+                end[axis] = f64::NAN;
+            }
+            let (one, other) = (SweptBox::around(a, b), SweptBox::around(c, end));
+            prop_assert_eq!(one.is_apart(&other.exchanged()), one.distance(&other) > 0.0);
         }
     }
 

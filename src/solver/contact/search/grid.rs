@@ -1,57 +1,92 @@
 //! The search by grids: of a pair, the smaller box is put into cells of the larger one's size, and the larger one looks
 //! through the cells around it.
 
-use super::sizes::{CLASSES, Sizes, present};
+use super::sizes::{CLASSES, Sizes, members};
 use super::{Box3, Candidates, Search, lowest_start};
-use crate::solver::contact::geometry::swept_box::SweptBox;
+use crate::lanes::{InstructionSet, Vectors};
+use crate::solver::contact::geometry::swept_box::{Exchanged, SweptBox};
 
 /// Edge of a cell in typical sizes of the class that looks through it.
 const CELL: f64 = 0.7;
+/// How many times more boxes than another list has one is the many of.
+const FEW: usize = 4;
 /// Cells are numbered within this bound, which keeps numbers in 32 bits; the outermost cells have no end.
 const OUTERMOST: f64 = (1 << 30) as f64;
 
 /// One grid for each class of sizes that occurs, so that neither a huge face nor a fast node slows the others down. Faces
 /// look for nodes of smaller classes, and nodes for faces of the same or smaller classes; nearly always nodes are small,
 /// faces are alike, and one grid is enough.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Grid {
     sizes: Sizes,
     node_classes: Vec<u8>,
     face_classes: Vec<u8>,
     cells: Cells,
+    instructions: InstructionSet,
+}
+
+impl Default for Grid {
+    fn default() -> Grid {
+        Grid {
+            sizes: Sizes::default(),
+            node_classes: Vec::new(),
+            face_classes: Vec::new(),
+            cells: Cells::default(),
+            instructions: InstructionSet::detect(),
+        }
+    }
 }
 
 impl Search for Grid {
     fn find(&mut self, nodes: &[Box3], faces: &[Box3], connectivity: &[[u32; 4]], found: &mut Candidates) {
-        let Grid { sizes, node_classes, face_classes, cells } = self;
-        found.clear();
-        sizes.measure(faces);
-        sizes.classes(nodes, node_classes);
-        sizes.classes(faces, face_classes);
-        let (of_nodes, of_faces) = (present(node_classes), present(face_classes));
-        for class in 0..CLASSES {
-            // The last class has boxes of any size, for which there is one cell.
-            let edge = if class + 1 < CLASSES { CELL * sizes.typical(class) } else { f64::INFINITY };
-            let smaller = &of_nodes[..class as usize];
-            if of_faces[class as usize] && smaller.contains(&true) {
-                cells.fill(nodes, edge, |node| node_classes[node] < class);
-                for (face, of) in (0..).zip(faces).filter(|(face, _)| face_classes[*face as usize] == class) {
-                    cells.visit(of, nodes, |node| found.push(node, face, &connectivity[face as usize]));
-                }
-            }
-            let smaller = &of_faces[..=class as usize];
-            if of_nodes[class as usize] && smaller.contains(&true) {
-                cells.fill(faces, edge, |face| face_classes[face] <= class);
-                for (node, of) in (0..).zip(nodes).filter(|(node, _)| node_classes[*node as usize] == class) {
-                    cells.visit(of, faces, |face| found.push(node, face, &connectivity[face as usize]));
-                }
-            }
+        match self.instructions.vectors() {
+            // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.find_avx2(nodes, faces, connectivity, found) },
+            _ => self.find_pairs(nodes, faces, connectivity, found),
         }
-        found.sort_by_node(nodes.len());
     }
 
     fn name(&self) -> &'static str {
         "grid"
+    }
+}
+
+impl Grid {
+    /// The same with a box to a register. `unsafe` for a third of the instructions of a search (docs/performance.md).
+    ///
+    /// # Safety
+    ///
+    /// The processor must have AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    unsafe fn find_avx2(&mut self, nodes: &[Box3], faces: &[Box3], connectivity: &[[u32; 4]], found: &mut Candidates) {
+        self.find_pairs(nodes, faces, connectivity, found)
+    }
+
+    // Inlined, as what it calls, so that it is compiled for the instructions of its caller.
+    #[inline(always)]
+    fn find_pairs(&mut self, nodes: &[Box3], faces: &[Box3], connectivity: &[[u32; 4]], found: &mut Candidates) {
+        let Grid { sizes, node_classes, face_classes, cells, .. } = self;
+        found.clear();
+        sizes.measure(faces);
+        sizes.classes(nodes, node_classes);
+        sizes.classes(faces, face_classes);
+        let (of_nodes, of_faces) = (members(node_classes), members(face_classes));
+        for class in 0..CLASSES {
+            // The last class has boxes of any size, for which there is one cell.
+            let edge = if class + 1 < CLASSES { CELL * sizes.typical(class) } else { f64::INFINITY };
+            let larger = |face: usize| face_classes[face] == class;
+            let smaller = |node: usize| node_classes[node] < class;
+            let mut push = |node: u32, face: u32| found.push(node, face, &connectivity[face as usize]);
+            let (many, few) = (of_faces[class as usize], of_nodes[..class as usize].iter().sum());
+            cells.join((faces, many, larger), (nodes, few, smaller), edge, |face, node| push(node, face));
+            let larger = |node: usize| node_classes[node] == class;
+            let smaller = |face: usize| face_classes[face] <= class;
+            let (many, few) = (of_nodes[class as usize], of_faces[..=class as usize].iter().sum());
+            cells.join((nodes, many, larger), (faces, few, smaller), edge, push);
+        }
+        found.sort_by_node(nodes.len());
     }
 }
 
@@ -65,7 +100,7 @@ struct Cells {
     members: Vec<u32>,
     bounds: Vec<SweptBox>,
     rows: Vec<[i32; 2]>,
-    /// Members of a run that may overlap.
+    /// Members of the cells around a box that may overlap it, and how many those are.
     hits: Vec<u32>,
     /// The chosen boxes and their buckets, as they came.
     chosen: Vec<(u32, u32)>,
@@ -80,6 +115,33 @@ struct Cells {
 }
 
 impl Cells {
+    /// Finds all pairs of a larger and a smaller box, each a list with so many boxes chosen. The larger ones look through the smaller
+    /// ones' cells, but where they are many for a few: a few look through the cells of many, which are not smaller.
+    #[inline(always)]
+    fn join(
+        &mut self,
+        (large, larger, is_larger): (&[Box3], usize, impl Fn(usize) -> bool),
+        (small, smaller, is_smaller): (&[Box3], usize, impl Fn(usize) -> bool),
+        edge: f64,
+        mut pair: impl FnMut(u32, u32),
+    ) {
+        if larger == 0 || smaller == 0 {
+            return;
+        }
+        if FEW * smaller < larger {
+            self.fill(large, edge, is_larger);
+            for (index, of) in (0..).zip(small).filter(|(index, _)| is_smaller(*index as usize)) {
+                self.visit(of, large, |other| pair(other, index));
+            }
+        } else {
+            self.fill(small, edge, is_smaller);
+            for (index, of) in (0..).zip(large).filter(|(index, _)| is_larger(*index as usize)) {
+                self.visit(of, small, |other| pair(index, other));
+            }
+        }
+    }
+
+    #[inline(always)]
     fn fill(&mut self, boxes: &[Box3], edge: f64, chosen: impl Fn(usize) -> bool) {
         self.inverse = 1.0 / edge;
         self.size_table(boxes.len());
@@ -128,42 +190,45 @@ impl Cells {
     }
 
     /// Visits each of `boxes` that overlaps `of`, once.
+    #[inline(always)]
     fn visit(&mut self, of: &Box3, boxes: &[Box3], mut visit: impl FnMut(u32)) {
         let first = [0, 1, 2].map(|axis| cell(self.inverse, lowest_start(of.low[axis], self.extent[axis])));
         let last = of.high.map(|x| cell(self.inverse, x));
-        let mut visit_exactly = |member: u32| {
-            if boxes[member as usize].overlaps(of) {
-                visit(member);
-            }
-        };
-        let bounds = SweptBox::around(of.low, of.high);
+        let bounds = SweptBox::around(of.low, of.high).exchanged();
         let more = ((last[0] - first[0]) as u32).min(self.mask);
+        let mut hits = 0;
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
                 let from = self.row(y, z).wrapping_add(first[0] as u32) & self.mask;
                 let to = from + more;
-                self.visit_run(from, to.min(self.mask), [y, z], &bounds, &mut visit_exactly);
+                hits = self.look_through(from, to.min(self.mask), [y, z], &bounds, hits);
                 if to > self.mask {
-                    self.visit_run(0, to - self.mask - 1, [y, z], &bounds, &mut visit_exactly);
+                    hits = self.look_through(0, to - self.mask - 1, [y, z], &bounds, hits);
                 }
+            }
+        }
+        for &member in &self.hits[..hits] {
+            if boxes[member as usize].overlaps(of) {
+                visit(member);
             }
         }
     }
 
-    /// Visits the boxes that may overlap `of` in buckets `from` to `to`, but for those of other rows in the same buckets.
-    fn visit_run(&mut self, from: u32, to: u32, row: [i32; 2], of: &SweptBox, visit: &mut impl FnMut(u32)) {
+    /// Adds to so many hits the boxes that may overlap another in buckets `from` to `to`, but for those of other rows in the same
+    /// buckets. How many hits there are then.
+    #[inline(always)]
+    fn look_through(&mut self, from: u32, to: u32, row: [i32; 2], other: &Exchanged, mut hits: usize) -> usize {
         let run = self.starts[from as usize] as usize..self.starts[to as usize + 1] as usize;
-        if self.hits.len() < run.len() {
-            self.hits.resize(run.len(), 0);
+        if self.hits.len() < hits + run.len() {
+            self.hits.resize(2 * (hits + run.len()), 0);
         }
         // Every second box overlaps, so a branch would be foretold wrongly every second time.
-        let mut count = 0;
         let boxes = self.bounds[run.clone()].iter().zip(&self.rows[run.clone()]);
         for (member, (one, at)) in self.members[run].iter().zip(boxes) {
-            self.hits[count] = *member;
-            count += usize::from((one.distance(of) <= 0.0) & (at[0] == row[0]) & (at[1] == row[1]));
+            self.hits[hits] = *member;
+            hits += usize::from(!one.is_apart(other) & (at[0] == row[0]) & (at[1] == row[1]));
         }
-        self.hits[..count].iter().for_each(|member| visit(*member));
+        hits
     }
 }
 

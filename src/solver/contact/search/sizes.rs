@@ -57,9 +57,14 @@ impl Sizes {
     }
 }
 
+/// How many boxes are in each of the classes.
+pub fn members(classes: &[u8]) -> [usize; CLASSES as usize] {
+    let mut members = [0; CLASSES as usize];
+    classes.iter().filter(|class| **class < CLASSES).for_each(|class| members[*class as usize] += 1);
+    members
+}
+
 /// Whether some box is in each of the classes.
 pub fn present(classes: &[u8]) -> [bool; CLASSES as usize] {
-    let mut present = [false; CLASSES as usize];
-    classes.iter().filter(|class| **class < CLASSES).for_each(|class| present[*class as usize] = true);
-    present
+    members(classes).map(|members| members > 0)
 }
