@@ -40,6 +40,8 @@ struct Found {
     gap: f64,
     /// Why the scene cannot be.
     refusal: Option<String>,
+    /// Whether it stops, and without contact as well.
+    stops_anyhow: bool,
     /// Positions at the end.
     positions: Vec<[f64; 3]>,
 }
@@ -115,7 +117,7 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
         std::fs::write(folder.join(format!("{seed}.i")), &deck).expect("a folder that can be written");
     }
     let mesh = recipe(&text);
-    let found = run(&mesh, &model(&deck, &mesh));
+    let mut found = run(&mesh, &model(&deck, &mesh));
     let what = format!(
         "seed {seed}, {kind}, {} steps: given {:.2e}, gain {:.2e}, work {:.2e}, deepest {:.2e} of a face, {:.2} motions, {} capped",
         found.steps, found.given, found.gain, found.work, found.deepest[0], found.deepest[1], found.capped
@@ -133,6 +135,10 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
             deck.lines().filter(|line| !line.starts_with("CONTACT")).map(|l| format!("{l}\n")).collect();
         if run(&mesh, &model(&alone, &mesh)).stop.is_none() {
             return Err(Wrong::Crushed(format!("{what}: stopped, but not without contact: {stop}")));
+        }
+        found.stops_anyhow = true;
+        if print {
+            println!("seed {seed} stops also without contact: {stop}");
         }
     }
     // Bars touch with their nodes only, and few passes settle nothing.
@@ -156,14 +162,20 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, may_be_crushed:
     });
     let print = asked.is_some();
     let seeds = asked.unwrap_or(seeds);
-    let (mut giving, mut crushed) = (Vec::new(), Vec::new());
-    for wrong in seeds.clone().filter_map(|seed| try_seed(scene(seed), seed, print).err()) {
-        match wrong {
-            Wrong::Energy(what) => giving.push(what),
-            Wrong::Crushed(what) | Wrong::Through(what) => crushed.push(what),
+    let (mut giving, mut crushed, mut anyhow) = (Vec::new(), Vec::new(), 0);
+    for seed in seeds.clone() {
+        match try_seed(scene(seed), seed, print) {
+            Ok(found) => anyhow += usize::from(found.stops_anyhow),
+            Err(Wrong::Energy(what)) => giving.push(what),
+            Err(Wrong::Crushed(what) | Wrong::Through(what)) => crushed.push(what),
         }
     }
-    println!("of {} scenes {} give energy, {} are crushed", seeds.end - seeds.start, giving.len(), crushed.len());
+    println!(
+        "of {} scenes {} give energy, {} are crushed, {anyhow} stop also without contact",
+        seeds.end - seeds.start,
+        giving.len(),
+        crushed.len()
+    );
     crushed.iter().for_each(|what| println!("{what}"));
     assert!(giving.is_empty(), "{}", giving.join("\n"));
     assert!(crushed.len() <= may_be_crushed, "{}", crushed.join("\n"));
@@ -221,6 +233,5 @@ fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
-    // Found: 5. Elements that hourglass and invert where bodies are driven into each other faster than sound, see docs/verification.md.
-    try_all(300..5000, scene, 5);
+    try_all(300..5000, scene, 0);
 }

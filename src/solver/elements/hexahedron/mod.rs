@@ -1,5 +1,7 @@
 //! The eight-node hexahedron with one point of integration (Flanagan and Belytschko 1981), also as wedge or pyramid.
 
+mod barrier;
+mod bounded;
 mod carried;
 mod exact;
 mod fluid;
