@@ -74,6 +74,13 @@ pub fn stress_and_modulus<V: Lanes>(volume192: V, initial192: V, dilatational: V
     [scale * first, scale * second * u]
 }
 
+/// The stiffness of the barrier: φ″ V, a modulus along B, and |φ′| times the largest eigenvalue that ∂B/∂x can have, in all directions.
+#[inline(always)]
+pub fn stiffness<V: Lanes>(x: &[Modes<V>; 3], operator: &Gradient<V>, initial192: V, dilatational: V) -> [V; 2] {
+    let [stress, modulus] = stress_and_modulus(operator.volume192, initial192, dilatational);
+    [modulus, (V::splat(0.0) - stress) * largest_curvature(x)]
+}
+
 /// Positions and motion of elements, and what they are made of.
 pub struct Solid<'a, V> {
     /// Modes of positions and velocities.
@@ -97,19 +104,18 @@ impl<V: Lanes> Solid<'_, V> {
         let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
         let operator_before = gradient(&before);
         let [then, _] = stress_and_modulus(operator_before.volume192, initial192, dilatational);
-        let [stress, modulus] = stress_and_modulus(operator.volume192, initial192, dilatational);
+        let [stress, _] = stress_and_modulus(operator.volume192, initial192, dilatational);
+        let [along, all] = stiffness(x, operator, initial192, dilatational);
         let rates = [growth(v, &operator_before), growth(v, operator)];
         let work = V::splat(0.5 * steps.kick) * then * rates[0] + V::splat(0.5 * steps.time_step) * stress * rates[1];
         let volume = operator.volume192 * V::splat(1.0 / 192.0);
-        // φ″ B:B, and |φ′| times the largest eigenvalue that ∂B/∂x can have.
-        let of_slope = modulus * square4608 * V::splat(1.0 / 4608.0) / volume;
         let near = V::select_less(operator.volume192, initial192 * V::splat(NEAR), V::splat(1.0), zero);
         let closing = (zero - rates[1]) * near;
         let longest = volume * V::splat(LARGEST_CLOSING) / closing;
         Barrier {
             stress,
             work,
-            stiffness: of_slope + (zero - stress) * largest_curvature(x),
+            stiffness: along * square4608 * V::splat(1.0 / 4608.0) / volume + all,
             closing_step: V::select_less(zero, closing, longest, V::splat(f64::MAX)),
         }
     }
