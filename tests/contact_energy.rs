@@ -43,6 +43,8 @@ struct Found {
     gap: f64,
     /// Why the scene cannot be.
     refusal: Option<String>,
+    /// Whether it stops, and without contact as well.
+    stops_anyhow: bool,
     /// Positions at the end.
     positions: Vec<[f64; 3]>,
     /// All this in a line.
@@ -139,6 +141,10 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
         if run(&mesh, &model(&alone, &mesh)).stop.is_none() {
             return Err(Wrong::Crushed(format!("{what}: stopped, but not without contact: {stop}")));
         }
+        found.stops_anyhow = true;
+        if print {
+            println!("seed {seed} stops also without contact: {stop}");
+        }
     }
     // Bars touch with their nodes only, and few passes settle nothing.
     let settles = !deck.contains("CONTACT PASSES, 1\n") && !deck.contains("CONTACT PASSES, 3\n");
@@ -170,17 +176,23 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
     });
     let print = asked.is_some();
     let seeds = asked.unwrap_or(seeds);
-    let (mut giving, mut crushed, mut deep) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut giving, mut crushed, mut deep, mut anyhow) = (Vec::new(), Vec::new(), Vec::new(), 0);
     for seed in seeds.clone() {
         match try_seed(scene(seed), seed, print) {
-            Ok(found) if found.deepest[1] > DEEPEST => deep.push(found.what),
-            Ok(_) => (),
+            Ok(found) => {
+                anyhow += usize::from(found.stops_anyhow);
+                if found.deepest[1] > DEEPEST {
+                    deep.push(found.what);
+                }
+            }
             Err(Wrong::Energy(what)) => giving.push(what),
             Err(Wrong::Crushed(what) | Wrong::Through(what)) => crushed.push(what),
         }
     }
-    let count = seeds.end - seeds.start;
-    println!("of {count} scenes {} give energy, {} are crushed, {} deep", giving.len(), crushed.len(), deep.len());
+    let (count, [energy, stop, sink]) = (seeds.end - seeds.start, [&giving, &crushed, &deep].map(Vec::len));
+    println!(
+        "of {count} scenes {energy} give energy, {stop} are crushed, {sink} deep, {anyhow} stop also without contact"
+    );
     crushed.iter().chain(&deep).for_each(|what| println!("{what}"));
     assert!(giving.is_empty(), "{}", giving.join("\n"));
     assert!(crushed.len() <= allowed.crushed, "crushed:\n{}", crushed.join("\n"));
@@ -239,7 +251,6 @@ fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
-    // Found: 5. Elements that hourglass and invert where bodies are driven into each other faster than sound, see docs/verification.md.
     // Deep: 4289, whose corners have turned inside out.
-    try_all(300..5000, scene, Allowed { crushed: 5, deep: 1 });
+    try_all(300..5000, scene, Allowed { crushed: 0, deep: 1 });
 }

@@ -316,7 +316,7 @@ impl ElementBlock {
 
     /// Lets one group answer a probe; nodes have displacements for velocities.
     pub fn probe(&mut self, probe: Probe, nodes: &[Row], sink: Sink, settings: &PassSettings) {
-        let ElementBlock { element, law, border, interior, .. } = self;
+        let ElementBlock { element, law, density, border, interior, .. } = self;
         // The steps of the elements are not to be overwritten.
         let kept = [&mut *border, &mut *interior].map(|group| std::mem::take(&mut group.steps));
         let pass = Pass {
@@ -327,7 +327,7 @@ impl ElementBlock {
             sink,
             instructions: settings.instructions,
         };
-        element.probe(probe, pass, law, settings);
+        element.probe(probe, pass, (law, *density), settings);
         [border.steps, interior.steps] = kept;
     }
 

@@ -87,7 +87,7 @@ macro_rules! elements {
             }
 
             /// See [`Formulation::probe`].
-            pub fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
+            pub fn probe(&self, probe: Probe, pass: Pass, law: (&Law, f64), settings: &PassSettings) {
                 match self { $(Element::$element(own) => own.probe(probe, pass, law, settings),)+ }
             }
 

@@ -170,7 +170,7 @@ impl Formulation for EightPoints {
         law.accept(HasConstantStiffness)
     }
 
-    fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
+    fn probe(&self, probe: Probe, pass: Pass, (law, _): (&Law, f64), settings: &PassSettings) {
         pass.over(&Vibration {
             probe,
             moduli: law.moduli(),
@@ -178,6 +178,7 @@ impl Formulation for EightPoints {
             least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
+            density: None,
         });
     }
 

@@ -79,7 +79,7 @@ pub fn dot<V: Lanes>(a: &Modes<V>, g: &[V; 6]) -> V {
 
 /// Sum of six squares. A function, not a closure: those are not always inlined, and then know no vector instructions.
 #[inline(always)]
-fn square<V: Lanes>(g: &[V; 6]) -> V {
+pub fn square<V: Lanes>(g: &[V; 6]) -> V {
     (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) + (g[3] * g[3] + g[4] * g[4] + g[5] * g[5])
 }
 

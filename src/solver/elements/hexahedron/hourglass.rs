@@ -44,6 +44,8 @@ pub trait Control: Copy + Send + Sync {
     }
     /// Part of the viscosity by which a fluid's modes are resisted, at most 1.
     fn of_fluids(&self) -> f64;
+    /// A bound of the stiffness of a mode whose base vector is as long as that of a parallelepiped, over B:B/V: a modulus.
+    fn largest_modulus<V: Lanes>(&self, dilatational: V, mu: V) -> V;
     /// Largest stable time step with hourglass control, given the one without, `stiffness_measure`, mass and μ.
     fn stable_step<V: Lanes>(&self, without: V, stiffness_measure: V, mass: V, mu: V) -> V;
 }
@@ -76,6 +78,12 @@ impl Control for FlanaganBelytschko {
     /// The whole of it at the default κ = 0.05; κ and ε count alike.
     fn of_fluids(&self) -> f64 {
         ((self.stiffness + self.viscosity) / USUAL_STIFFNESS).min(1.0)
+    }
+
+    /// k |γ|² = 8 κμB:B/(4V)
+    #[inline(always)]
+    fn largest_modulus<V: Lanes>(&self, _dilatational: V, mu: V) -> V {
+        V::splat(2.0 * self.stiffness) * mu
     }
 
     /// A mode has stiffness k = κμB:B/(4V), damping c and mass M/64 per unit of its rate; with the damping force
@@ -153,6 +161,12 @@ impl Control for AssumedStrain {
         self.factor.min(1.0)
     }
 
+    /// See [`Control::stable_step`]: no more than the element's own.
+    #[inline(always)]
+    fn largest_modulus<V: Lanes>(&self, dilatational: V, _mu: V) -> V {
+        V::splat(self.factor) * dilatational
+    }
+
     /// On a parallelepiped, whatever ν and however the frame lies, the floor under [`State::lengths`] keeps the
     /// stiffness below the one that the element's own step allows for; a factor above 1 is paid for in the step.
     #[inline(always)]
@@ -196,6 +210,14 @@ impl Control for Either {
         match self {
             Either::FlanaganBelytschko(control) => control.of_fluids(),
             Either::AssumedStrain(control) => control.of_fluids(),
+        }
+    }
+
+    #[inline(always)]
+    fn largest_modulus<V: Lanes>(&self, dilatational: V, mu: V) -> V {
+        match self {
+            Either::FlanaganBelytschko(control) => control.largest_modulus(dilatational, mu),
+            Either::AssumedStrain(control) => control.largest_modulus(dilatational, mu),
         }
     }
 

@@ -1,5 +1,7 @@
 //! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
 
+use super::barrier::{self, Solid};
+use super::bounded;
 use super::carried;
 use super::exact::{self, Start};
 use super::fluid;
@@ -187,7 +189,12 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
     let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
-    let hourglass_state = hourglass::State {
+    let bounded = if !K::FLUID && bounded::any(&x, &gradient) {
+        bounded::bounded([&x, &v], &gradient, b_squared, time_step)
+    } else {
+        None
+    };
+    let mut hourglass_state = hourglass::State {
         lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [light; 3] },
         stiffness_measure,
         mass: light,
@@ -196,6 +203,10 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         returned: response.returned,
         time_step,
     };
+    if let Some(bounded) = &bounded {
+        hourglass_state.mu = mu * bounded.factor;
+        hourglass_state.mass = light * bounded.factor;
+    }
     let mut held = fluid::Held { force: [[zero; 8]; 3], power: zero, stable_step };
     let resistance = if let (true, Some(start)) = (K::FLUID, &start) {
         let sizes = [
@@ -218,10 +229,26 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         start.finish::<K>([stress.xx * start.growth, viscous * start.growth, of_modes], state, part, settings);
         resistance
     } else {
-        resist::<V, K, H>(control, &hourglass_rate, [&r_middle, &r], state, part, &hourglass_state)
+        let kept = bounded.as_ref().map(|bounded| bounded.kept);
+        resist::<V, K, H>(control, &hourglass_rate, [&r_middle, &r], state, part, (&hourglass_state, kept))
     };
-    let stable_step =
-        if K::FLUID { held.stable_step } else { control.stable_step(stable_step, stiffness_measure, light, mu) };
+    let stable_step = match &bounded {
+        _ if K::FLUID => held.stable_step,
+        None => control.stable_step(stable_step, stiffness_measure, light, mu),
+        Some(bounded) => bounded.stable_step::<H>(control, stable_step, [stiffness_measure, light, mu, modulus]),
+    };
+    let initial192 = V::splat(192.0 / settings.density) * given.material;
+    let mut viscous = viscous;
+    let mut stable_step = stable_step;
+    if K::HYPOELASTIC && barrier::any(gradient.volume192, initial192) {
+        let dilatational = V::splat(settings.dilatational);
+        let operator = &gradient;
+        let solid = Solid { motion: [&x, &v], operator, square4608: b_squared, initial192, dilatational };
+        let barrier = solid.held(settings.steps());
+        viscous = viscous + barrier.stress;
+        stable_step = barrier.stable_step(stable_step, light);
+        book::<V, K>(barrier.work, INTERNAL, state, part);
+    }
     let stable_step = match &start {
         Some(start) => gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
         None => stable_step,
@@ -290,16 +317,20 @@ fn resist<V: Lanes, K: Kernel, H: hourglass::Control>(
     [middle, r]: [&Matrix3<V>; 2],
     own: &mut [V::Row],
     part: usize,
-    state: &hourglass::State<V>,
+    (state, kept): (&hourglass::State<V>, Option<V>),
 ) -> Resistance<V> {
     let local: Resistance<V> = array![i in 3 => array![a in 4 => {
         middle[0][i] * rate[0][a] + middle[1][i] * rate[1][a] + middle[2][i] * rate[2][a]
     }]];
     let old: Resistance<V> = array![i in 3 => array![a in 4 => V::load(&own[rows::HOURGLASS + 4 * i + a], part)]];
+    let start = match kept {
+        Some(kept) => array![i in 3 => array![a in 4 => old[i][a] * kept]],
+        None => old,
+    };
     let [q, total] = if V::SINGLE {
-        carried::resist::<V, K, H>(control, &local, &old, own, part, state)
+        carried::resist::<V, K, H>(control, &local, &start, own, part, state)
     } else {
-        let mut q = old;
+        let mut q = start;
         let total = control.resist(&local, &mut q, state);
         [q, total]
     };

@@ -1,5 +1,7 @@
 //! The eight-node hexahedron with one point of integration (Flanagan and Belytschko 1981), also as wedge or pyramid.
 
+mod barrier;
+mod bounded;
 mod carried;
 mod exact;
 mod fluid;
@@ -162,7 +164,7 @@ impl Formulation for Hexahedron {
         !viscous && law.accept(HasConstantStiffness)
     }
 
-    fn probe(&self, probe: Probe, pass: Pass, law: &Law, settings: &PassSettings) {
+    fn probe(&self, probe: Probe, pass: Pass, (law, density): (&Law, f64), settings: &PassSettings) {
         let vibration = Vibration {
             probe,
             moduli: law.moduli(),
@@ -170,6 +172,7 @@ impl Formulation for Hexahedron {
             least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
+            density: law.accept(IsHypoelastic).then_some(density),
         };
         over(self.precision, pass, &vibration);
     }
@@ -304,6 +307,15 @@ impl KernelVisitor for HasConstantStiffness {
     type Output = bool;
     fn visit<K: Kernel>(self, _: K) -> bool {
         !K::STIFFNESS && !K::VOLUME && !K::EQUATION
+    }
+}
+
+/// Whether the stress of a law follows the strain alone, so that a barrier holds the volume.
+struct IsHypoelastic;
+impl KernelVisitor for IsHypoelastic {
+    type Output = bool;
+    fn visit<K: Kernel>(self, _: K) -> bool {
+        K::HYPOELASTIC
     }
 }
 

@@ -5,6 +5,7 @@
 //! step Δt is stable for K and a damping C ≤ e Δt̂ K together if it is for K/s². (It is if 4 M/Δt² ≥ K + 2 C/Δt, which 1 + 2e/s = 1/s²
 //! makes so for every Δt ≥ Δt̂ s.) Nothing of the state changes.
 
+use super::barrier::{self, stiffness};
 use super::geometry::{self, Corners, dot, gradient, modes};
 use super::hourglass::{self, Control, Either, Resistance};
 use super::kernel::{corner_forces, hourglass_rates, lengths};
@@ -29,6 +30,8 @@ pub struct Vibration {
     pub viscosity: BulkViscosity,
     /// Where to look.
     pub rows: FrameRows,
+    /// Density at the start, of laws with a barrier of the volume.
+    pub density: Option<f64>,
 }
 
 /// Where the elements of a kind store what is looked at.
@@ -101,7 +104,18 @@ impl StepKernel<8> for Vibration {
         let damping = self.damping(V::load(&state[self.rows.viscous_stress], part) / modulus);
         let part_left = (one + damping * damping).sqrt() - damping;
         let factor = one / (part_left * part_left);
-        let force = corner_forces(&stress, &resistance, &x, &operator.g24, inverse);
+        let held = self.density.map(|density| given.material * V::splat(192.0 / density));
+        let held = held.filter(|&initial192| barrier::any(operator.volume192, initial192));
+        let held = held.map(|initial192| stiffness(&x, &operator, initial192, modulus));
+        let stress = held.map_or(stress, |[along, _]| stress.add_diagonal(along * strain.trace()));
+        let mut force = corner_forces(&stress, &resistance, &x, &operator.g24, inverse);
+        if let Some([_, all]) = held {
+            // All that is no translation.
+            for i in 0..3 {
+                let moved = geometry::corners(&array![k in 7 => u[i][k] * V::splat(0.125)]);
+                force[i] = array![n in 8 => force[i][n] + all * moved[n]];
+            }
+        }
         Outcome { force: array![i in 3 => array![n in 8 => force[i][n] * factor]], stable_step: one, rate: zero }
     }
 }

@@ -6,6 +6,7 @@
 mod assumed_strain;
 mod bits;
 mod collapsed;
+mod crushed;
 mod energy;
 mod extremes;
 mod fluid;
