@@ -48,6 +48,8 @@ impl Search for Grid {
             }
         }
         found.sort_by_node(nodes.len());
+        // Between searches the memory of the cells is better used by others.
+        *cells = Cells::default();
     }
 
     fn name(&self) -> &'static str {
