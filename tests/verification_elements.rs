@@ -33,7 +33,7 @@ fn cube(n: usize) -> Mesh {
         node_ids: (1..=side.pow(3) as i64).collect(),
         element_ids: (1..=n.pow(3) as i64).collect(),
         blocks: vec![Block::hexahedra_of(1, connectivity)],
-        coordinates: coordinates.into(),
+        coordinates,
         ..Mesh::default()
     }
 }

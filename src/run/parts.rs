@@ -5,10 +5,13 @@ use crate::solver::Body;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// What one rank is made of.
+type Part = (Arc<Body>, Share);
+
 /// The body and the shares of some ranks. Each rank takes its own; when all have let go of the body, its memory is free.
 pub struct Parts {
     first: usize,
-    left: Mutex<Vec<Option<(Arc<Body>, Share)>>>,
+    left: Mutex<Vec<Option<Part>>>,
 }
 
 impl Parts {
@@ -26,7 +29,7 @@ impl Parts {
     }
 
     /// What a rank of this process is made of; each takes it once.
-    pub(super) fn take(&self, rank: usize) -> (Arc<Body>, Share) {
+    pub(super) fn take(&self, rank: usize) -> Part {
         let mut left = self.left.lock().unwrap_or_else(PoisonError::into_inner);
         left[rank - self.first].take().expect("a rank is made once")
     }
