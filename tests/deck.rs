@@ -40,7 +40,7 @@ fn two_blocks() -> Mesh {
         side_sets: vec![side_set(100, vec![(0, 4)]), side_set(200, vec![(3, 5)])],
         node_ids: (1..=20).collect(),
         element_ids: (1..=4).collect(),
-        coordinates,
+        coordinates: coordinates.into(),
         ..Mesh::default()
     }
 }

@@ -13,7 +13,7 @@ fn cube() -> Mesh {
     let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
     Mesh {
         title: "A cube".to_owned(),
-        coordinates: corners.map(|corner| corner.map(f64::from)).to_vec(),
+        coordinates: corners.map(|corner| corner.map(f64::from)).to_vec().into(),
         node_ids: (11..=18).collect(),
         element_ids: vec![5],
         blocks: vec![Block::hexahedra_of(1, [[0, 1, 2, 3, 4, 5, 6, 7]])],

@@ -253,7 +253,7 @@ fn noh(n: usize) -> Noh {
         solver.advance();
     }
     let totals = solver.totals(&mut Serial);
-    let mut positions = mesh.coordinates.clone();
+    let mut positions = mesh.coordinates.to_vec();
     for (here, &file) in solver.domain.nodes.file.iter().enumerate() {
         positions[file as usize] = solver.domain.nodes.position(here as u32);
     }

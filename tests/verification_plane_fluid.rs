@@ -171,7 +171,7 @@ fn rays(through: usize, around: usize) -> Mesh {
         side_sets: vec![SideSet { id: 3, sides: rim, ..SideSet::default() }],
         node_ids: (1..=coordinates.len() as i64).collect(),
         element_ids: (1..=(through * around) as i64).collect(),
-        coordinates,
+        coordinates: coordinates.into(),
         blocks,
         ..Mesh::default()
     }

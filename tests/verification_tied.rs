@@ -63,7 +63,7 @@ fn patch(first: usize, second: usize, perturbed: bool, gradient: [[f64; 3]; 3], 
             let _ = solver.prepare(Request::Continue, comm);
             let nodes = &mut solver.domain.nodes;
             for node in 0..nodes.len() {
-                let x = nodes.initial[node];
+                let x = nodes.initial(node as u32);
                 let v = gradient.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2]);
                 nodes.rows[node].0[4..7].copy_from_slice(&v);
                 nodes.forces[node] = Default::default();
@@ -77,7 +77,7 @@ fn patch(first: usize, second: usize, perturbed: bool, gradient: [[f64; 3]; 3], 
         let mut astray = 0.0f64;
         let mut force = 0.0f64;
         for node in 0..nodes.len() as u32 {
-            let x = nodes.initial[node as usize];
+            let x = nodes.initial(node);
             let expected: [f64; 3] =
                 std::array::from_fn(|i| x[i] + solver.time * (0..3).map(|j| gradient[i][j] * x[j]).sum::<f64>());
             astray = (0..3).fold(astray, |worst, i| worst.max((nodes.position(node)[i] - expected[i]).abs()));

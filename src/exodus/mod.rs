@@ -28,6 +28,6 @@ pub use probe::{probe_with, try_out};
 pub use read::{read_mesh, read_mesh_together};
 pub use restart::{Restart, RestartHeader, read_restart, restart_number, write_restart};
 pub use results::Results;
-pub use results_writer::{ResultsHeader, ResultsWriter};
+pub use results_writer::{ResultsHeader, ResultsWriter, StateWriter};
 pub use slabs::Together;
 pub use write::{names_in_writing, write_mesh};

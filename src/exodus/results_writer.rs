@@ -4,6 +4,7 @@
 //! they are written there directly: first the state's data, then the number of states in the header. A run that is
 //! killed between the two leaves a file that lists only whole states, and a file that is still growing may be opened.
 
+use std::cell::Cell;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -43,7 +44,7 @@ pub struct ResultsWriter {
     path: PathBuf,
     file: File,
     layout: Layout,
-    states: u64,
+    states: Cell<u64>,
     globals: usize,
     nodal: (usize, usize),
     element: (usize, usize),
@@ -93,7 +94,7 @@ impl ResultsWriter {
             file: OpenOptions::new().write(true).open(path).map_err(ResultsError::io("write", path))?,
             path: path.to_owned(),
             layout,
-            states: 0,
+            states: Cell::new(0),
             globals: header.global.len(),
             nodal: (header.nodal.len(), mesh.coordinates.len()),
             element: (header.element.len(), mesh.element_count()),
@@ -102,7 +103,7 @@ impl ResultsWriter {
 
     /// Number of states written so far.
     pub fn states(&self) -> usize {
-        self.states as usize
+        self.states.get() as usize
     }
 
     /// Waits until all that was written is on the disk, where it outlives a power failure.
@@ -125,32 +126,38 @@ impl ResultsWriter {
         nodal: &[Vec<f64>],
         element: &[Vec<f64>],
     ) -> Result<(), ResultsError> {
-        self.expect("the list of globals", globals.len(), self.globals)?;
-        self.expect_arrays("nodal", nodal, self.nodal)?;
-        self.expect_arrays("element", element, self.element)?;
-        self.append(time, globals, nodal, element).map_err(ResultsError::io("write", &self.path))?;
-        self.states += 1;
-        Ok(())
+        self.expect("the list of nodal variables", nodal.len(), self.nodal.0)?;
+        self.expect("the list of element variables", element.len(), self.element.0)?;
+        let mut state = self.begin_state(time, globals)?;
+        nodal.iter().chain(element).try_for_each(|values| state.put(values))?;
+        state.finish()
     }
 
-    /// The record's data in the order in which the variables were defined, then the number of records.
-    fn append(&mut self, time: f64, globals: &[f64], nodal: &[Vec<f64>], element: &[Vec<f64>]) -> io::Result<()> {
+    /// Begins a state whose arrays come one after the other.
+    ///
+    /// # Errors
+    /// As [`ResultsWriter::write_state`].
+    pub fn begin_state(&mut self, time: f64, globals: &[f64]) -> Result<StateWriter<'_>, ResultsError> {
+        self.expect("the list of globals", globals.len(), self.globals)?;
+        let failed = ResultsError::io("write", &self.path);
         let first = self.layout.record_variables.first().map_or(self.layout.promised, |v| v.begin);
-        self.file.seek(SeekFrom::Start(first + self.states * self.layout.record_size))?;
+        let begun = (&self.file).seek(SeekFrom::Start(first + self.states.get() * self.layout.record_size));
         let mut record = BufWriter::with_capacity(1 << 20, &self.file);
-        put(&mut record, &[time])?;
-        put(&mut record, globals)?;
-        for values in nodal.iter().chain(element) {
-            put(&mut record, values)?;
-        }
-        record.flush()?;
-        drop(record);
-        let count = self.states + 1;
-        self.file.seek(SeekFrom::Start(RECORD_COUNT))?;
+        let begun = begun.and_then(|_| put(&mut record, &[time])).and_then(|()| put(&mut record, globals));
+        begun.map_err(failed)?;
+        Ok(StateWriter { record, writer: self, put: 0 })
+    }
+
+    /// Puts the number of states up by one, in the header of the file too.
+    fn count_state(&self) -> io::Result<()> {
+        let (count, mut file) = (self.states.get() + 1, &self.file);
+        file.seek(SeekFrom::Start(RECORD_COUNT))?;
         match self.layout.version {
-            5 => self.file.write_all(&count.to_be_bytes()),
-            _ => self.file.write_all(&(count as u32).to_be_bytes()),
+            5 => file.write_all(&count.to_be_bytes())?,
+            _ => file.write_all(&(count as u32).to_be_bytes())?,
         }
+        self.states.set(count);
+        Ok(())
     }
 
     fn expect(&self, what: &str, got: usize, expected: usize) -> Result<(), ResultsError> {
@@ -159,10 +166,39 @@ impl ResultsWriter {
         }
         Err(ResultsError::Shape { path: self.path.clone(), what: what.into(), got, expected })
     }
+}
 
-    fn expect_arrays(&self, kind: &str, arrays: &[Vec<f64>], shape: (usize, usize)) -> Result<(), ResultsError> {
-        self.expect(&format!("the list of {kind} variables"), arrays.len(), shape.0)?;
-        arrays.iter().try_for_each(|array| self.expect(&format!("an array of {kind} values"), array.len(), shape.1))
+/// A state that is being written, array by array. One that is not finished does not count.
+#[derive(Debug)]
+pub struct StateWriter<'a> {
+    record: BufWriter<&'a File>,
+    writer: &'a ResultsWriter,
+    /// Number of arrays so far.
+    put: usize,
+}
+
+impl StateWriter<'_> {
+    /// The values of the next variable: the nodal variables of the header come first, then those of the elements.
+    ///
+    /// # Errors
+    /// When the array has the wrong length, or the file cannot be written.
+    pub fn put(&mut self, values: &[f64]) -> Result<(), ResultsError> {
+        let (nodal, element) = (self.writer.nodal, self.writer.element);
+        let (kind, length) = if self.put < nodal.0 { ("nodal", nodal.1) } else { ("element", element.1) };
+        self.writer.expect(&format!("an array of {kind} values"), values.len(), length)?;
+        self.put += 1;
+        put(&mut self.record, values).map_err(ResultsError::io("write", &self.writer.path))
+    }
+
+    /// Ends the state: from now on the file lists it.
+    ///
+    /// # Errors
+    /// When variables are missing, or the file cannot be written.
+    pub fn finish(mut self) -> Result<(), ResultsError> {
+        let writer = self.writer;
+        writer.expect("the list of variables", self.put, writer.nodal.0 + writer.element.0)?;
+        let flushed = self.record.flush();
+        flushed.and_then(|()| writer.count_state()).map_err(ResultsError::io("write", &writer.path))
     }
 }
 

@@ -220,7 +220,8 @@ mod tests {
     /// A column of flat elements under one good one, and a node that no element uses.
     fn column() -> Mesh {
         let layer = |z: f64| UNIT_CUBE[..4].iter().map(move |p| [p[0], p[1], z]);
-        let coordinates: Vec<[f64; 3]> = (0..7).flat_map(|k| layer(f64::from(k / 6))).chain([[5.0; 3]]).collect();
+        let coordinates: crate::mesh::Coordinates =
+            (0..7).flat_map(|k| layer(f64::from(k / 6))).chain([[5.0; 3]]).collect();
         let element = |k: u32| std::array::from_fn(|corner| 4 * k + corner as u32);
         Mesh {
             node_ids: (1..=29).collect(),

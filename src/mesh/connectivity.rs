@@ -29,6 +29,11 @@ impl Connectivity {
         Connectivity { runs: vec![Run { shape, corners: shape.corners(), first: 0, start: 0 }], nodes, len }
     }
 
+    /// An empty list with room for so many corners of all elements.
+    pub fn with_room_for(corners: usize) -> Connectivity {
+        Connectivity { nodes: Vec::with_capacity(corners), ..Connectivity::default() }
+    }
+
     /// Adds an element with its nodes, of which there must be at least one: as many as its shape has corners, or more where
     /// other unknowns than positions are numbered behind them.
     pub fn push(&mut self, shape: Shape, nodes: impl IntoIterator<Item = u32>) {

@@ -4,6 +4,7 @@
 //! to a triangle then matches whichever corner it repeats.
 
 use super::Shape;
+use std::ops::Range;
 
 /// A face has the number `SIDES` × the place of its element + its side.
 pub const SIDES: usize = 6;
@@ -53,12 +54,12 @@ pub fn across<'a>(
 ) -> Vec<u32> {
     let count = elements.clone().count();
     let mut across = vec![NONE; SIDES * count];
-    for same in sorted(elements, node_count, wanted).chunk_by(|a, b| a.0 == b.0) {
+    matched(elements, node_count, wanted, |same| {
         for (i, &(_, face)) in same.iter().enumerate() {
             // Three elements at a face are no body; the face is inside all the same.
             across[face as usize] = if same.len() == 1 { EXTERIOR } else { same[(i + 1) % same.len()].1 };
         }
-    }
+    });
     across
 }
 
@@ -68,46 +69,78 @@ pub fn exterior<'a>(
     node_count: usize,
     wanted: impl Fn(u32) -> bool,
 ) -> Vec<u32> {
-    let across = across(elements, node_count, wanted);
-    (0..across.len() as u32).filter(|&face| across[face as usize] == EXTERIOR).collect()
+    let mut outside = Vec::new();
+    matched(elements, node_count, wanted, |same| {
+        if let [(_, face)] = same {
+            outside.push(*face);
+        }
+    });
+    outside.sort_unstable();
+    outside
 }
 
 /// A face to be matched: its key, with the dimension of its element so that solids match solids only, and its number.
 type Keyed = (([u32; 4], u8), u32);
 
-/// All faces sorted by their keys and numbers. They are first put together by their lowest node: equal ones are then among a
+/// Into so many parts lists of faces are divided, so that not all are held at once, unless they are short.
+const PARTS: usize = 8;
+
+/// The length of a short list.
+const SHORT: usize = 1 << 16;
+
+/// Hands out the faces that are the same, by ascending keys. They are put together by their lowest node: equal ones are then among a
 /// handful, so that neither a hash table nor a sort of all is needed.
-fn sorted<'a>(
+fn matched<'a>(
     elements: impl Iterator<Item = (Shape, &'a [u32])> + Clone,
     node_count: usize,
     wanted: impl Fn(u32) -> bool,
-) -> Vec<Keyed> {
-    let keyed = || {
-        elements.clone().zip(0u32..).flat_map(|((shape, nodes), element)| {
+    mut take: impl FnMut(&[Keyed]),
+) {
+    // Faces whose lowest node is one of these.
+    let keys = |of: Range<usize>| {
+        let (wanted, among, lowest) = (&wanted, of.clone(), of);
+        let near = elements
+            .clone()
+            .zip(0u32..)
+            .filter(move |((_, nodes), _)| nodes.iter().any(|&node| among.contains(&(node as usize))));
+        let all = near.flat_map(|((shape, nodes), element)| {
             faces(shape, nodes).map(move |(side, nodes)| (shape, nodes, element * SIDES as u32 + u32::from(side)))
-        })
+        });
+        let keyed =
+            all.filter(|(_, nodes, _)| nodes.iter().all(|&node| wanted(node))).filter_map(|(shape, nodes, number)| {
+                // The two faces of a surface element have the same nodes, and are not across from each other.
+                let kind = if shape.is_solid() { 0 } else { 1 + number as usize % SIDES };
+                Some(((key_of(shape, nodes)?, kind as u8), number))
+            });
+        keyed.filter(move |((nodes, _), _)| lowest.contains(&(nodes[0] as usize)))
     };
-    let keys = || {
-        keyed().filter(|(_, nodes, _)| nodes.iter().all(|&node| wanted(node))).filter_map(|(shape, nodes, number)| {
-            // The two faces of a surface element have the same nodes, and are not across from each other.
-            let kind = if shape.is_solid() { 0 } else { 1 + number as usize % SIDES };
-            Some(((key_of(shape, nodes)?, kind as u8), number))
-        })
-    };
-    let mut starts = vec![0usize; node_count + 1];
-    keys().for_each(|((nodes, _), _)| starts[nodes[0] as usize + 1] += 1);
-    for node in 0..node_count {
-        starts[node + 1] += starts[node];
+    let mut counts = vec![0u32; node_count];
+    keys(0..node_count).for_each(|((nodes, _), _)| counts[nodes[0] as usize] += 1);
+    let total: usize = counts.iter().map(|&count| count as usize).sum();
+    let most = (total / PARTS).max(SHORT);
+    let mut list: Vec<Keyed> = Vec::new();
+    let mut begin = 0;
+    while begin < node_count {
+        let (mut end, mut length) = (begin, 0);
+        // Where the faces of a node go next, and when all are there, where they end.
+        let mut next = Vec::new();
+        while end < node_count && (end == begin || length + counts[end] as usize <= most) {
+            next.push(length);
+            length += counts[end] as usize;
+            end += 1;
+        }
+        list.clear();
+        list.resize(length, Keyed::default());
+        for face in keys(begin..end) {
+            let place = &mut next[face.0.0[0] as usize - begin];
+            list[*place] = face;
+            *place += 1;
+        }
+        let starts = std::iter::once(0).chain(next.iter().copied());
+        starts.zip(&next).for_each(|(start, &end)| list[start..end].sort_unstable());
+        list.chunk_by(|a, b| a.0 == b.0).for_each(&mut take);
+        begin = end;
     }
-    let mut next = starts.clone();
-    let mut sorted: Vec<Keyed> = vec![(([0; 4], 0), 0); starts[node_count]];
-    for face in keys() {
-        let place = &mut next[face.0.0[0] as usize];
-        sorted[*place] = face;
-        *place += 1;
-    }
-    starts.windows(2).for_each(|ends| sorted[ends[0]..ends[1]].sort_unstable());
-    sorted
 }
 
 #[cfg(test)]

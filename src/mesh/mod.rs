@@ -6,6 +6,7 @@
 
 pub mod check;
 mod connectivity;
+mod coordinates;
 pub mod corners;
 pub mod exterior;
 pub mod hexahedron;
@@ -17,6 +18,7 @@ pub mod refine;
 mod shape;
 
 pub use connectivity::Connectivity;
+pub use coordinates::Coordinates;
 pub use hexahedron::{HEX_SIDES, UNIT_CUBE};
 pub use kind::Kind;
 pub use part::{Part, Places};
@@ -42,6 +44,11 @@ impl Dimension {
     }
 }
 
+/// Whether numbers count from one, so that places in the file say all that they do.
+pub fn counts_from_one(numbers: &[i64]) -> bool {
+    numbers.iter().zip(1..).all(|(&number, place)| number == place)
+}
+
 /// A mesh as the analyst's file describes it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
@@ -50,7 +57,7 @@ pub struct Mesh {
     /// Whether the mesh lies in the x-y plane or in space.
     pub dimension: Dimension,
     /// Node positions, one `[x, y, z]` per node, in the deck's unit of length.
-    pub coordinates: Vec<[f64; 3]>,
+    pub coordinates: Coordinates,
     /// Element blocks in file order; elements are numbered through the blocks in this order.
     pub blocks: Vec<Block>,
     /// Node sets in file order.
@@ -162,7 +169,7 @@ impl Mesh {
 
     /// The same as a list in which each element is found by its place.
     pub fn connectivity(&self) -> Connectivity {
-        let mut all = Connectivity::default();
+        let mut all = Connectivity::with_room_for(self.blocks.iter().map(|block| block.nodes.len()).sum());
         self.shaped().for_each(|(shape, nodes)| all.push(shape, nodes.iter().copied()));
         all
     }

@@ -2,8 +2,8 @@
 //!
 //! All is per radian of a body of revolution, x its radius, or per unit of thickness.
 
-use super::Mesh;
 use super::check::{Problem, short};
+use super::{Coordinates, Mesh};
 
 /// Positions of the four corners, of which x and y count.
 pub type Corners = [[f64; 3]; 4];
@@ -61,7 +61,7 @@ pub fn mass_shares(nodes: &[u32; 4], corners: &Corners, about_axis: bool) -> [f6
 const ON_AXIS: f64 = 1e-9;
 
 /// Positions of a mesh that is turned about the y axis: what is on the axis up to round-off is on it.
-pub fn on_axis(mesh: &Mesh) -> Vec<[f64; 3]> {
+pub fn on_axis(mesh: &Mesh) -> Coordinates {
     let size = mesh.coordinates.iter().fold(0.0, |most, x| f64::max(most, x[0].abs()));
     let snapped = |&[x, y, z]: &[f64; 3]| [if x.abs() <= ON_AXIS * size { 0.0 } else { x }, y, z];
     mesh.coordinates.iter().map(snapped).collect()

@@ -48,7 +48,7 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh, Undivided> {
     if total > MOST_ELEMENTS {
         return Err(Undivided::TooLarge(total));
     }
-    let mut divider = Divider { coordinates: mesh.coordinates.clone(), ..Divider::default() };
+    let mut divider = Divider { coordinates: mesh.coordinates.to_vec(), ..Divider::default() };
     let (mut blocks, mut outside, mut first) = (Vec::new(), Vec::new(), vec![0]);
     let mut element = 0;
     for block in &mesh.blocks {
@@ -73,7 +73,7 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh, Undivided> {
         dimension: mesh.dimension,
         node_ids: mesh.node_ids.iter().copied().chain((1..=made as i64).map(|number| last + number)).collect(),
         element_ids: (1..=outside.len() as i64).collect(),
-        coordinates: divider.coordinates,
+        coordinates: divider.coordinates.into(),
         blocks,
         node_sets,
         side_sets,
@@ -292,7 +292,7 @@ mod tests {
         Mesh {
             node_ids: (11..11 + coordinates.len() as i64).collect(),
             element_ids: (1..=elements as i64).collect(),
-            coordinates,
+            coordinates: coordinates.into(),
             blocks,
             ..Mesh::default()
         }

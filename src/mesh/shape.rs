@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn quadrilaterals_that_fold_and_bars_without_length_are_faults() {
         let coordinates = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0], [0.6, 0.6, 0.0], [0.0; 3]];
-        let mesh = Mesh { coordinates, ..Mesh::default() };
+        let mesh = Mesh { coordinates: coordinates.into(), ..Mesh::default() };
         assert_eq!(Shape::Quadrilateral.fault(&mesh, &[0, 1, 2, 3]), None);
         assert!(Shape::Quadrilateral.fault(&mesh, &[0, 1, 3, 2]).is_some());
         assert!(Shape::Quadrilateral.fault(&mesh, &[1, 2, 3, 4]).is_some());

@@ -151,7 +151,8 @@ impl Assembly {
         let mut place = vec![0u32; self.hexes.len()];
         let mut placed = 0;
         for id in ids {
-            let mut block = Block { id, shape, ..Block::default() };
+            let count = self.blocks.iter().filter(|block| **block == id).count();
+            let mut block = Block { id, shape, nodes: Vec::with_capacity(corners * count), ..Block::default() };
             for element in (0..self.hexes.len()).filter(|&element| self.blocks[element] == id) {
                 place[element] = placed;
                 placed += 1;
@@ -176,7 +177,9 @@ impl Assembly {
         }
         mesh.node_ids = (1..=self.coordinates.len() as i64).collect();
         mesh.element_ids = (1..=mesh.element_count() as i64).collect();
-        mesh.coordinates = self.coordinates;
+        // Nodes that shapes had in common are gone: what they took is given back.
+        self.coordinates.shrink_to_fit();
+        mesh.coordinates = self.coordinates.into();
         Assembled { mesh, faces: self.parts.into_iter().map(|part| (part.block, part.faces)).collect() }
     }
 

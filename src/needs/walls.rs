@@ -2,7 +2,7 @@
 
 use super::{Advice, Scene};
 use crate::comm::Communicator;
-use crate::mesh::exterior::{EXTERIOR, SIDES, across};
+use crate::mesh::exterior::{SIDES, exterior};
 use crate::mesh::{Mesh, Shape};
 use crate::model::Precision;
 use crate::output::block_energies;
@@ -53,7 +53,11 @@ fn coarse(scene: &Scene, walls: &[usize]) -> Vec<Advice> {
 /// Indices of the blocks of hexahedra most of whose elements reach from one side of the body to the other, and are less thick
 /// than wide.
 pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
-    let across = across(mesh.shaped(), mesh.coordinates.len(), |_| true);
+    // A bit for each side.
+    let mut outside = vec![0u8; mesh.element_count()];
+    for face in exterior(mesh.shaped(), mesh.coordinates.len(), |_| true) {
+        outside[face as usize / SIDES] |= 1 << (face as usize % SIDES);
+    }
     let mut first = 0;
     let mut thin = Vec::new();
     for (index, block) in mesh.blocks.iter().enumerate() {
@@ -62,9 +66,8 @@ pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
         if block.shape != Shape::Hexahedron || block.is_empty() {
             continue;
         }
-        let faces = |element: usize| &across[SIDES * element..SIDES * (element + 1)];
         let through =
-            own.clone().zip(block.hexahedra()).filter(|(element, nodes)| reaches(mesh, nodes, faces(*element)));
+            own.clone().zip(block.hexahedra()).filter(|(element, nodes)| reaches(mesh, nodes, outside[*element]));
         if through.count() as f64 > MOST * block.len() as f64 {
             thin.push(index);
         }
@@ -73,8 +76,8 @@ pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Whether two faces that are opposite to each other are outside and nearer than the faces are wide.
-fn reaches(mesh: &Mesh, nodes: &[u32; 8], across: &[u32]) -> bool {
-    let outside = |side: usize| across[side] == EXTERIOR;
+fn reaches(mesh: &Mesh, nodes: &[u32; 8], sides: u8) -> bool {
+    let outside = |side: usize| sides & 1 << side != 0;
     let centre = |face: [u32; 4]| -> [f64; 3] {
         std::array::from_fn(|i| 0.25 * face.iter().map(|&node| mesh.coordinates[node as usize][i]).sum::<f64>())
     };

@@ -29,36 +29,41 @@ impl Collector {
 
     /// Nodal values of the whole mesh, one array per variable, on rank 0; `None` on the others.
     pub fn nodal(&self, values: Vec<f64>, variables: usize, comm: &mut dyn Communicator) -> Option<Vec<Vec<f64>>> {
-        let parts = comm.gather(pack(&values))?;
-        Some(place(&parts, self.ranks.iter().map(|r| &r.nodes[..]), variables, self.nodes))
+        self.whole(values, |places| &places.nodes, [variables, self.nodes], comm)
     }
 
     /// Element values of the whole mesh, one array per variable, on rank 0; `None` on the others.
     pub fn element(&self, values: Vec<f64>, variables: usize, comm: &mut dyn Communicator) -> Option<Vec<Vec<f64>>> {
-        let parts = comm.gather(pack(&values))?;
-        Some(place(&parts, self.ranks.iter().map(|r| &r.elements[..]), variables, self.elements))
+        self.whole(values, |places| &places.elements, [variables, self.elements], comm)
+    }
+
+    /// Rank 0's own values go to their places without a message.
+    fn whole(
+        &self,
+        values: Vec<f64>,
+        places: impl Fn(&Places) -> &[u32],
+        [variables, size]: [usize; 2],
+        comm: &mut dyn Communicator,
+    ) -> Option<Vec<Vec<f64>>> {
+        let own = comm.rank() == 0;
+        let parts = comm.gather(if own { Vec::new() } else { pack(&values) })?;
+        let mut whole = vec![vec![0.0; size]; variables];
+        for (part, places) in parts.iter().zip(self.ranks.iter().map(&places)).skip(1) {
+            let values = part.chunks_exact(8).map(number);
+            place(values, places, &mut whole);
+        }
+        place(values.into_iter(), self.ranks.first().map_or(&[][..], places), &mut whole);
+        Some(whole)
     }
 }
 
-fn place<'a>(
-    parts: &[Vec<u8>],
-    places: impl Iterator<Item = &'a [u32]>,
-    variables: usize,
-    size: usize,
-) -> Vec<Vec<f64>> {
-    let mut whole = vec![vec![0.0; size]; variables];
-    for (part, places) in parts.iter().zip(places) {
-        if places.is_empty() {
-            continue;
-        }
-        let arrays = part.chunks_exact(8 * places.len());
-        for (array, whole) in arrays.zip(&mut whole) {
-            for (bytes, &place) in array.chunks_exact(8).zip(places) {
-                whole[place as usize] = number(bytes);
-            }
+/// Puts the values of one rank, variable by variable, into the arrays of all.
+fn place(mut values: impl Iterator<Item = f64>, places: &[u32], whole: &mut [Vec<f64>]) {
+    for array in whole {
+        for (&place, value) in places.iter().zip(&mut values) {
+            array[place as usize] = value;
         }
     }
-    whole
 }
 
 fn number(bytes: &[u8]) -> f64 {
@@ -68,7 +73,9 @@ fn number(bytes: &[u8]) -> f64 {
 }
 
 fn pack(values: &[f64]) -> Vec<u8> {
-    values.iter().flat_map(|v| v.to_ne_bytes()).collect()
+    let mut bytes = Vec::with_capacity(8 * values.len());
+    values.iter().for_each(|value| bytes.extend(value.to_ne_bytes()));
+    bytes
 }
 
 fn pack_integers(values: impl Iterator<Item = u32>) -> Vec<u8> {

@@ -1,5 +1,6 @@
 //! Fields of the plot file: their names, and their values on one rank.
 
+use super::nodal::NodalValues;
 use super::plane;
 use crate::comm::Communicator;
 use crate::mesh::Dimension;
@@ -135,44 +136,38 @@ impl FieldList {
 
     /// Nodal values of the owned nodes of a rank, variable by variable. All ranks call it.
     pub fn nodal_values(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Vec<f64> {
+        self.prepare(solver, comm);
+        let values = self.nodal(solver);
+        (0..values.len()).flat_map(|variable| values.of(variable)).collect()
+    }
+
+    /// Lets ranks tell each other what nodal values are made of. All ranks call it.
+    pub fn prepare(&self, solver: &mut Solver, comm: &mut dyn Communicator) {
         solver.refresh();
         if [NodalField::Contact, NodalField::Reaction].iter().any(|field| self.nodal.contains(field)) {
             solver.complete_contact(comm);
         }
-        let solver = &*solver;
-        let nodes = &solver.domain.nodes;
-        let owned: Vec<u32> = (0..nodes.places as u32).filter(|&n| nodes.owned[n as usize]).collect();
-        let wanted = |field: NodalField| self.nodal.contains(&field);
-        let reactions = if wanted(NodalField::Reaction) { solver.reactions() } else { Vec::new() };
-        let contact = if wanted(NodalField::Contact) { contact_values(solver) } else { Vec::new() };
-        let turned = if wanted(NodalField::Rotation) { rotations(solver, Nodes::position) } else { Vec::new() };
-        let rates = if wanted(NodalField::RotationRate) {
-            rotations(solver, |_, rotation| solver.velocity_now(rotation))
-        } else {
-            Vec::new()
+    }
+
+    /// Nodal values of a rank, to be asked for one variable after the other; see [`FieldList::prepare`].
+    pub fn nodal<'a>(&self, solver: &'a Solver) -> NodalValues<'a> {
+        let of_field = |field: &NodalField| {
+            let field = *field;
+            self.shown(field.components()).map(move |(component, _)| (field, component))
         };
-        let owner_ranks = if wanted(NodalField::ContactRank) { contact_ranks(solver) } else { Vec::new() };
-        let mut values = Vec::new();
-        for field in &self.nodal {
-            let first = values.len();
-            let shown: Vec<usize> = self.shown(field.components()).map(|(place, _)| place).collect();
-            values.resize(first + shown.len() * owned.len(), 0.0);
-            for (i, &node) in owned.iter().enumerate() {
-                let vector = nodal_value(*field, solver, node);
-                let components: &[f64] = match field {
-                    NodalField::Reaction => &reactions[node as usize],
-                    NodalField::Contact => &contact[node as usize],
-                    NodalField::Rotation => &turned[node as usize],
-                    NodalField::RotationRate => &rates[node as usize],
-                    NodalField::ContactRank => &owner_ranks[node as usize..=node as usize],
-                    _ => &vector,
-                };
-                for (c, &component) in shown.iter().enumerate() {
-                    values[first + c * owned.len() + i] = components[component];
-                }
-            }
+        NodalValues::new(self.nodal.iter().flat_map(of_field).collect(), solver)
+    }
+
+    /// The element variables in a few lists of their own, in their order: together all values are much.
+    pub fn element_parts(&self) -> Vec<FieldList> {
+        // Those of layers come with what they are the layers of.
+        if self.layered {
+            return vec![self.clone()];
         }
-        values
+        let part = |element, state| FieldList::of_element(element, state, self.dimension, false);
+        let fields = self.element.iter().map(|&field| part(vec![field], Vec::new()));
+        let state = (!self.state.is_empty()).then(|| part(Vec::new(), self.state.clone()));
+        fields.chain(state).collect()
     }
 
     /// Element values of the elements of a rank in its canonical order, variable by variable.
@@ -241,45 +236,4 @@ impl FieldList {
             out.extend(self.state.iter().map(value));
         }
     }
-}
-
-fn nodal_value(field: NodalField, solver: &Solver, node: u32) -> [f64; 3] {
-    let nodes = &solver.domain.nodes;
-    match field {
-        NodalField::Displacement => {
-            let (x, initial) = (nodes.position(node), nodes.initial[node as usize]);
-            [x[0] - initial[0], x[1] - initial[1], x[2] - initial[2]]
-        }
-        NodalField::Velocity => solver.velocity_now(node),
-        NodalField::Acceleration => nodes.acceleration(node),
-        _ => [nodes.mass(node), 0.0, 0.0],
-    }
-}
-
-/// A vector of the rotation of each local node, zero of nodes that do not turn.
-fn rotations(solver: &Solver, vector: impl Fn(&Nodes, u32) -> [f64; 3]) -> Vec<[f64; 3]> {
-    let nodes = &solver.domain.nodes;
-    let mut values = vec![[0.0; 3]; nodes.len()];
-    for &(node, rotation) in &solver.domain.rotations {
-        values[node as usize] = vector(nodes, rotation);
-    }
-    values
-}
-
-/// Rank that computes the contact of each local node, −1 where there is none.
-fn contact_ranks(solver: &Solver) -> Vec<f64> {
-    let mut ranks = vec![-1.0; solver.domain.nodes.len()];
-    for (node, rank) in solver.domain.contact.iter().flat_map(|contact| contact.owner_ranks()) {
-        ranks[node as usize] = f64::from(rank);
-    }
-    ranks
-}
-
-/// Contact force, overlap, status and element touched, at each local node.
-fn contact_values(solver: &Solver) -> Vec<[f64; 6]> {
-    let mut values = vec![[0.0; 6]; solver.domain.nodes.len()];
-    for (node, of_node) in solver.domain.contact.iter().flat_map(|contact| contact.node_values()) {
-        values[node as usize] = of_node;
-    }
-    values
 }

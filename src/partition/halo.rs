@@ -150,7 +150,8 @@ impl<'a> Decomposition<'a> {
         let mut groups = Vec::new();
         for (group, members) in self.groups.iter().zip(&self.members) {
             let members = members[rank].clone();
-            let mut nodes = Connectivity::default();
+            let corners = members.iter().map(|&member| group.nodes[member as usize].len()).sum();
+            let mut nodes = Connectivity::with_room_for(corners);
             for member in members.iter().map(|&member| member as usize) {
                 nodes.push(group.nodes.shape(member), group.nodes[member].iter().map(|node| local.number(*node)));
             }
@@ -214,6 +215,14 @@ impl Share {
         share.owned.truncate(own);
         share.sums.retain(|sum| (sum.node as usize) < own);
         share
+    }
+
+    /// The share without the nodes of elements where none of them is shared: only messages ask for these.
+    pub fn without_needless(mut self) -> Share {
+        if let Some(elements) = self.groups.first_mut().filter(|_| self.sums.is_empty()) {
+            elements.nodes = Connectivity::default();
+        }
+        self
     }
 
     /// Buffers for an exchange of `width` numbers per contribution.

@@ -4,6 +4,7 @@ mod endless;
 mod files;
 mod identity;
 mod memory;
+mod parts;
 mod plots;
 mod report;
 mod restart;
@@ -14,6 +15,7 @@ pub use endless::Endless;
 pub use files::{Files, keep_old_print_files};
 pub use identity::{differences, other_form, told};
 pub use memory::processor;
+pub use parts::Parts;
 pub use report::{Display, Quiet};
 pub use restart::{Continuation, states_beside};
 
@@ -23,8 +25,7 @@ use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::needs::Advice;
 use crate::output::Schedule;
-use crate::partition::Decomposition;
-use crate::solver::{Body, Finding, Request, Solver, Stop};
+use crate::solver::{Finding, Request, Solver, Stop};
 use std::path::PathBuf;
 use std::time::Instant;
 use writer::Writer;
@@ -49,10 +50,8 @@ pub struct Job<'a> {
     pub qa: [String; 4],
     /// Where results go.
     pub files: &'a Files,
-    /// The body in canonical order.
-    pub body: &'a Body,
-    /// Which rank computes what.
-    pub decomposition: &'a Decomposition<'a>,
+    /// The body in canonical order, and which rank computes what of it.
+    pub parts: &'a Parts,
     /// Each rank writes its piece of the plot states.
     pub split: bool,
     /// The state that the run goes on from, if it does.
@@ -137,13 +136,15 @@ pub enum RunError {
 /// When the simulation cannot go on, after its last state has been written, or when results cannot be written.
 pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) -> Result<Ended, RunError> {
     let comm = &mut Counted::new(comm);
-    let share = job.decomposition.share(comm.rank());
-    let mut solver = Solver::new(job.mesh, job.model, job.body, &share, comm);
+    let (body, share) = job.parts.take(comm.rank());
+    let mut solver = Solver::new(job.mesh, job.model, &body, &share, comm);
     if let Some(continuation) = job.continuation {
         continuation.restore(&mut solver, comm)?;
     }
-    let mut writer = Writer::new(job, &solver, &share, comm);
-    writer.start(job, comm)?;
+    let mut writer = Writer::new(job, &solver, (&body, &share), comm);
+    writer.start(job, &body, comm)?;
+    // What only setting up asks for makes room for the steps.
+    drop((body, share));
     let begun = Instant::now();
     let outcome = steps(job, &mut solver, &mut writer, comm, display);
     display.finish();

@@ -4,12 +4,12 @@
 use super::RunError;
 use crate::comm::Communicator;
 use crate::exodus::pieces::piece_path;
-use crate::exodus::{ResultsHeader, ResultsWriter};
+use crate::exodus::{ResultsError, ResultsHeader, ResultsWriter, StateWriter};
 use crate::mesh::Dimension;
 use crate::output::{self, Collector, FieldList, Split, block_energies, global_values};
 use crate::partition::Share;
 use crate::restart::Snapshot;
-use crate::solver::{Solver, Totals};
+use crate::solver::{Body, Solver, Totals};
 use std::path::Path;
 
 use super::Job;
@@ -17,8 +17,6 @@ use super::Job;
 /// The plot file, or this rank's piece of it; closed on ranks that do not write.
 pub struct Plots {
     file: Option<ResultsWriter>,
-    /// Numbers of nodal and element variables.
-    variables: [usize; 2],
     /// Brings values together; there is none when nothing is gathered.
     collector: Option<Collector>,
     /// Puts values into this rank's piece; there is none when plot states are gathered.
@@ -30,16 +28,15 @@ pub struct Plots {
 
 impl Plots {
     /// Learns what goes where. All ranks call it.
-    pub fn new(job: &Job, solver: &Solver, share: &Share, variables: [usize; 2], comm: &mut dyn Communicator) -> Plots {
+    pub fn new(job: &Job, solver: &Solver, (body, share): (&Body, &Share), comm: &mut dyn Communicator) -> Plots {
         let (nodes, elements) = (job.mesh.coordinates.len(), job.mesh.element_count());
         let gathers = !job.split || job.model.restarts.write.is_some();
         Plots {
             file: None,
-            variables,
             collector: gathers.then(|| Collector::new(solver, nodes, elements, comm)),
             blocks: if job.model.plot_requests.block_energies { job.mesh.blocks.len() } else { 0 },
             dimension: job.mesh.dimension,
-            split: job.split.then(|| Split::new(job.mesh, job.body, share, comm)),
+            split: job.split.then(|| Split::new(job.mesh, body, share, comm)),
         }
     }
 
@@ -72,28 +69,57 @@ impl Plots {
         totals: &Totals,
         comm: &mut dyn Communicator,
     ) -> Result<(), RunError> {
-        let [nodal, element] = [fields.nodal_values(solver, comm), fields.element_values(solver, comm.rank())];
+        fields.prepare(solver, comm);
+        let solver = &*solver;
         let mut globals = global_values(solver, totals, self.dimension);
         if self.blocks > 0 {
             globals.extend(block_energies(self.blocks, solver, comm));
         }
-        let [nodal_count, element_count] = self.variables;
-        let values = match (&mut self.split, &self.collector) {
-            (Some(split), _) => Some((split.nodal(&nodal, nodal_count, comm), split.element(&element, element_count))),
-            (None, Some(collector)) => {
-                let nodal = collector.nodal(nodal, nodal_count, comm);
-                nodal.zip(collector.element(element, element_count, comm))
-            }
-            (None, None) => None,
-        };
-        match (&mut self.file, values) {
-            (Some(file), Some((nodal, element))) => Ok(file.write_state(solver.time, &globals, &nodal, &element)?),
-            _ => Ok(()),
+        let Plots { file, split, collector, .. } = self;
+        let mut state = Appended(file.as_mut().map(|file| file.begin_state(solver.time, &globals)));
+        // One variable after the other: all at once would be as much as half of what the elements store.
+        let nodal = fields.nodal(solver);
+        for own in (0..nodal.len()).map(|variable| nodal.of(variable)) {
+            state.put(match (&mut *split, &*collector) {
+                (Some(split), _) => Some(split.nodal(&own, 1, comm)),
+                (None, Some(collector)) => collector.nodal(own, 1, comm),
+                (None, None) => None,
+            });
         }
+        for part in fields.element_parts() {
+            let (own, variables) = (part.element_values(solver, comm.rank()), part.element_names().len());
+            state.put(match (&mut *split, &*collector) {
+                (Some(split), _) => Some(split.element(&own, variables)),
+                (None, Some(collector)) => collector.element(own, variables, comm),
+                (None, None) => None,
+            });
+        }
+        state.finish()
     }
 
     /// The state between two steps, on rank 0; `None` on the others, and when the run asks for none. All ranks call it.
     pub fn snapshot(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Option<Snapshot> {
         self.collector.as_ref().and_then(|collector| output::snapshot(solver, collector, comm))
+    }
+}
+
+/// A state of this rank's file, or why it cannot be written; nothing on ranks that do not write. Collecting goes on all the same:
+/// the other ranks take part in it.
+struct Appended<'a>(Option<Result<StateWriter<'a>, ResultsError>>);
+
+impl Appended<'_> {
+    fn put(&mut self, arrays: Option<Vec<Vec<f64>>>) {
+        if let Some(Ok(state)) = &mut self.0
+            && let Err(error) = arrays.iter().flatten().try_for_each(|values| state.put(values))
+        {
+            self.0 = Some(Err(error));
+        }
+    }
+
+    fn finish(self) -> Result<(), RunError> {
+        match self.0 {
+            Some(state) => Ok(state?.finish()?),
+            None => Ok(()),
+        }
     }
 }

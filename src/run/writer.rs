@@ -17,7 +17,7 @@ use crate::partition::Share;
 use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::elements::{Element, Touch};
-use crate::solver::{Request, Section, Solver};
+use crate::solver::{Body, Request, Section, Solver};
 use std::time::Instant;
 
 /// Plot file and print log of a run; the log is open on rank 0 only, but every rank takes part in collecting.
@@ -46,10 +46,12 @@ pub(super) struct Writer<'a> {
     states: Vec<f64>,
     /// Number of warnings from reading deck and mesh.
     told_before: usize,
+    /// Number of nodes that were moved because surfaces overlapped in the mesh.
+    moved: usize,
 }
 
 /// What pictures need of the deck.
-fn depiction(job: &Job) -> Depiction {
+fn depiction(job: &Job, body: &Body) -> Depiction {
     let planes = job.model.rigid_surfaces.iter();
     let planes = planes.map(|plane| RigidPlane { side_set: plane.side_set, point: plane.point, normal: plane.normal });
     let size = |(block, element): (&Block, &Element)| {
@@ -61,12 +63,17 @@ fn depiction(job: &Job) -> Depiction {
             Touch::Nodes(radius) => Some((block.id, radius)),
         }
     };
-    let sizes = job.mesh.blocks.iter().zip(&job.body.elements).filter_map(size);
+    let sizes = job.mesh.blocks.iter().zip(&body.elements).filter_map(size);
     Depiction { planes: planes.collect(), sizes: sizes.collect() }
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(job: &Job<'a>, solver: &Solver, share: &Share, comm: &mut dyn Communicator) -> Writer<'a> {
+    pub(super) fn new(
+        job: &Job<'a>,
+        solver: &Solver,
+        (body, share): (&Body, &Share),
+        comm: &mut dyn Communicator,
+    ) -> Writer<'a> {
         let fields = FieldList::new(job.model, solver);
         let mut globals: Vec<String> = global_names(job.model).map(String::from).collect();
         if job.model.plot_requests.block_energies {
@@ -74,7 +81,7 @@ impl<'a> Writer<'a> {
         }
         let names = [fields.nodal_names(), fields.element_names(), globals];
         Writer {
-            plots: Plots::new(job, solver, share, [names[0].len(), names[1].len()], comm),
+            plots: Plots::new(job, solver, (body, share), comm),
             fields,
             names,
             log: None,
@@ -94,11 +101,12 @@ impl<'a> Writer<'a> {
             lines: Vec::new(),
             states: Vec::new(),
             told_before: job.warnings.len(),
+            moved: body.overlap.nodes,
         }
     }
 
     /// Opens the files and prints the front part of the log on rank 0; all ranks learn whether it worked.
-    pub(super) fn start(&mut self, job: &Job, comm: &mut dyn Communicator) -> Result<(), RunError> {
+    pub(super) fn start(&mut self, job: &Job, body: &Body, comm: &mut dyn Communicator) -> Result<(), RunError> {
         let [nodal, element, global] = self.names.clone();
         let header = ResultsHeader {
             mesh: job.mesh,
@@ -107,14 +115,14 @@ impl<'a> Writer<'a> {
             nodal,
             element,
             qa: same_qa(&job.qa, comm),
-            info: job.deck.lines().map(String::from).chain(depiction(job).lines()).collect(),
+            info: job.deck.lines().map(String::from).chain(depiction(job, body).lines()).collect(),
         };
         let opened = self.plots.open(&self.files.plot, &header, comm.rank());
-        let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, &header) } else { Ok(()) });
+        let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, body, &header) } else { Ok(()) });
         together(outcome, comm)
     }
 
-    fn open(&mut self, job: &Job, header: &ResultsHeader) -> Result<(), RunError> {
+    fn open(&mut self, job: &Job, body: &Body, header: &ResultsHeader) -> Result<(), RunError> {
         self.histories = self.open_histories(header)?;
         let mut log = PrintLog::create(&self.files.print).map_err(|e| self.print_error(e))?;
         let echo = Echo {
@@ -124,11 +132,11 @@ impl<'a> Writer<'a> {
             warnings: job.warnings,
             model: job.model,
             mesh: job.mesh,
-            overlap: job.body.overlap,
-            masses: &job.body.block_masses(job.mesh.blocks.len()),
-            added: &job.body.added_mass.blocks,
-            rigid: &job.body.rigid,
-            ties: &job.body.tied.reports,
+            overlap: body.overlap,
+            masses: &body.block_masses(job.mesh.blocks.len()),
+            added: &body.added_mass.blocks,
+            rigid: &body.rigid,
+            ties: &body.tied.reports,
             variables: [&self.names[0], &self.names[1], &self.names[2]],
             seconds: [(job.clock[1] - job.clock[0]).as_secs_f64(), job.clock[1].elapsed().as_secs_f64()],
             memory: memory::resident().map(|(now, _)| now),
@@ -334,7 +342,7 @@ impl<'a> Writer<'a> {
             lines: &self.lines,
             states: &self.states,
             continued: job.continuation.is_some(),
-            moved: job.body.overlap.nodes,
+            moved: self.moved,
         };
         let complete = matches!(outcome, Ok(Request::Continue));
         let advice = if complete { needs::advice(&scene, comm) } else { Vec::new() };

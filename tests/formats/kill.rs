@@ -31,7 +31,7 @@ fn large_mesh() -> Mesh {
     Mesh {
         node_ids: (1..).take(coordinates.len()).collect(),
         element_ids: (1..).take(connectivity.len()).collect(),
-        coordinates,
+        coordinates: coordinates.into(),
         blocks: vec![Block::hexahedra_of(1, connectivity)],
         qa: two_block_mesh().qa,
         ..Mesh::default()

@@ -15,7 +15,7 @@ pub fn two_block_mesh() -> Mesh {
         title: "three cubes".into(),
         node_ids: (0..16).map(|n| 100 - n).collect(),
         element_ids: vec![7, 5, 9],
-        coordinates,
+        coordinates: coordinates.into(),
         blocks: vec![
             Block { name: "bar".into(), ..Block::hexahedra_of(10, [element(0), element(1)]) },
             Block::hexahedra_of(4, [element(2)]),

@@ -110,7 +110,7 @@ pub fn flow(mesh: &Mesh, deck: &str, velocity: Option<&dyn Fn([f64; 3]) -> [f64;
 }
 
 fn positions(mesh: &Mesh, solver: &Solver) -> Vec<[f64; 3]> {
-    let mut positions = mesh.coordinates.clone();
+    let mut positions = mesh.coordinates.to_vec();
     for (here, &file) in solver.domain.nodes.file.iter().enumerate() {
         positions[file as usize] = solver.domain.nodes.position(here as u32);
     }

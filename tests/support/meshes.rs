@@ -77,7 +77,7 @@ fn of_one_block(coordinates: Vec<[f64; 3]>, connectivity: Vec<[u32; 8]>) -> Mesh
         title: "made by a test".into(),
         node_ids: (1..=coordinates.len() as i64).collect(),
         element_ids: (1..=connectivity.len() as i64).collect(),
-        coordinates,
+        coordinates: coordinates.into(),
         blocks: vec![Block::hexahedra_of(1, connectivity)],
         ..Mesh::default()
     }

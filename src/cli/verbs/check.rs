@@ -212,7 +212,7 @@ fn pronto_step(given: &Given, body: &Body) -> Option<f64> {
     mesh.elements().filter_map(of_block).reduce(f64::min)
 }
 
-/// Bytes of element and node state, by the sizes of what is stored.
+/// Bytes of element and node state and of the mesh, by the sizes of what is stored.
 fn memory(given: &Given) -> f64 {
     let (mesh, model) = (&given.mesh, &given.problem.model);
     let elements: usize = mesh
@@ -221,15 +221,15 @@ fn memory(given: &Given) -> f64 {
         .map(|block| {
             let law_rows =
                 model.materials.iter().find(|m| m.block == block.id).map_or(0, |m| state_names(&m.law).len());
-            // State, mass, connectivity; place, file number, analyst's number and canonical number.
+            // State, mass, connectivity; place, file number and canonical number; connectivity and number in the mesh.
             let rows =
                 |element: Element| element.entry().rows.len() + element.points() * (element.point_rows() + law_rows);
             let rows = Element::of_block(block, model).map_or(0, rows);
-            block.len() * (8 * rows + 8 + 4 * block.shape.corners() + 4 + 4 + 8 + 4)
+            block.len() * (8 * rows + 8 + 4 * block.shape.corners() + 3 * 4 + 4 * block.shape.corners() + 8)
         })
         .sum();
-    // A node's record, force, initial position, file number and ownership.
-    (elements + mesh.coordinates.len() * (64 + 32 + 24 + 4 + 1)) as f64
+    // A node's record, force, file number and ownership; position and number in the mesh.
+    (elements + mesh.coordinates.len() * (64 + 32 + 4 + 1 + 24 + 8)) as f64
 }
 
 fn duration(seconds: f64) -> String {

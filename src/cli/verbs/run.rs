@@ -7,7 +7,7 @@ use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, sentence, with_warnings};
-use crate::run::{self, Continuation, Display, Ended, Files, Job, Quiet, RunError};
+use crate::run::{self, Continuation, Display, Ended, Files, Job, Parts, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -31,7 +31,6 @@ const ANOTHER_BASE: &str = "results take the deck's name, or that of --output: n
 /// What a run needs besides its communicator.
 pub(in crate::cli) struct Prepared {
     pub(in crate::cli) given: Given,
-    body: Body,
     pub(in crate::cli) ranks: usize,
     pub(in crate::cli) files: Files,
     split: bool,
@@ -47,7 +46,7 @@ impl Prepared {
         ranks: usize,
         transport: &str,
         read: impl FnOnce(&options::Input) -> Result<Given, Failure>,
-    ) -> Result<Prepared, Failure> {
+    ) -> Result<(Prepared, Body), Failure> {
         let begun = Instant::now();
         let given = read(&options.input)?;
         let clock = [begun, Instant::now()];
@@ -86,7 +85,7 @@ impl Prepared {
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
         let split = options.split;
-        Ok(Prepared { given, body, ranks, files, split, continuation, banner, qa, clock })
+        Ok((Prepared { given, ranks, files, split, continuation, banner, qa, clock }, body))
     }
 
     /// Makes room for the results: their folder, and the old print log out of the way.
@@ -144,16 +143,19 @@ fn base(asked: Option<&Path>, deck: &Path) -> PathBuf {
     }
 }
 
-/// Does `work` with everything that ranks share: the job, cut for `prepared.ranks` ranks.
-fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: impl FnOnce(&Job) -> T) -> T {
+/// Does `work` with everything that ranks share: the job, with its parts for the ranks of this process.
+fn with_job<T>(
+    prepared: &Prepared,
+    parts: &Parts,
+    wish: &(dyn Fn() -> Request + Sync),
+    work: impl FnOnce(&Job) -> T,
+) -> T {
     let problem = &prepared.given.problem;
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
     let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
     let idle = prepared.given.idle_nodes().map(|warning| warning.trim_start_matches("warning: ").to_string());
     let turn = prepared.given.idle_rotations().map(|warning| warning.trim_start_matches("warning: ").to_string());
     let warnings: Vec<String> = told.chain(idle).chain(turn).collect();
-    let cut = prepared.body.cut(prepared.ranks);
-    let contributors = prepared.body.contributors(&cut);
     work(&Job {
         mesh: &prepared.given.mesh,
         model: &problem.model,
@@ -164,9 +166,8 @@ fn with_job<T>(prepared: &Prepared, wish: &(dyn Fn() -> Request + Sync), work: i
         banner: &prepared.banner,
         qa: prepared.qa.clone(),
         files: &prepared.files,
-        body: &prepared.body,
+        parts,
         continuation: prepared.continuation.as_ref(),
-        decomposition: &prepared.body.decomposition(&contributors, prepared.ranks),
         split: prepared.split,
         wish,
     })
@@ -185,12 +186,13 @@ fn screen(prepared: &Prepared, quiet: bool) -> Box<dyn Display + Send> {
 fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let ranks = options.ranks.map_or(cores, |n| n as usize);
-    let prepared = Prepared::new(options, ranks, "threads", Given::read)?;
+    let (prepared, body) = Prepared::new(options, ranks, "threads", Given::read)?;
     prepared.make_room()?;
     prepared.announce(options.quiet);
     let wishes = listen(&prepared)?;
     let screen = Mutex::new(Some(screen(&prepared, options.quiet)));
-    let outcome = with_job(&prepared, &|| wishes.now(), |job| {
+    let parts = Parts::new(body, ranks, 0..ranks);
+    let outcome = with_job(&prepared, &parts, &|| wishes.now(), |job| {
         comm::run_threads(ranks, |comm| {
             let own = if comm.rank() == 0 { screen.lock().ok().and_then(|mut screen| screen.take()) } else { None };
             run::run(job, comm, own.unwrap_or(Box::new(Quiet)).as_mut())
@@ -246,18 +248,18 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
         );
     }
     let read = |input: &options::Input| Given::read_together(input, &mut Processes(&mut world));
-    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|prepared| {
+    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|(prepared, body)| {
         if rank == 0 {
             prepared.make_room()?;
             prepared.announce(options.quiet);
         }
         let wishes = listen(&prepared)?;
-        Ok((prepared, wishes))
+        Ok((prepared, body, wishes))
     });
     // One process may fail to read what the others could: all leave together.
     let mut good = [if prepared.is_ok() { 1.0 } else { 0.0 }];
     world.all_min(&mut good);
-    let (prepared, wishes) = match prepared {
+    let (prepared, body, wishes) = match prepared {
         // Rank 0 reads the same files, so as a rule it has the words; where only another rank failed, that one tells.
         Ok(_) if good[0] == 0.0 => return all_leave(&mut world, Failure::input("")),
         Ok(prepared) => prepared,
@@ -265,7 +267,8 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     };
     let mut screen: Box<dyn Display + Send> =
         if rank == 0 { screen(&prepared, options.quiet) } else { Box::new(Quiet) };
-    let outcome = with_job(&prepared, &|| wishes.now(), |job| run::run(job, &mut world, screen.as_mut()));
+    let parts = Parts::new(body, ranks, rank..rank + 1);
+    let outcome = with_job(&prepared, &parts, &|| wishes.now(), |job| run::run(job, &mut world, screen.as_mut()));
     match outcome {
         Ok(ended) => {
             wishes.obeyed();

@@ -36,7 +36,7 @@ impl Gathering {
         let mesh = Mesh {
             title: like.title.clone(),
             dimension: like.dimension,
-            coordinates: vec![[0.0; 3]; sizes.nodes],
+            coordinates: vec![[0.0; 3]; sizes.nodes].into(),
             blocks: blocks.collect(),
             node_sets: node_sets.collect(),
             side_sets: side_sets.collect(),

@@ -124,7 +124,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
     let nodes = &solver.domain.nodes;
     let own: Vec<u32> = (0..group.unknowns).map(|unknown| group.node(i, unknown)).collect();
     let (own, rotations) = own.split_at(group.corners);
-    let corners: Vec<[f64; 3]> = own.iter().map(|&node| nodes.initial[node as usize]).collect();
+    let corners: Vec<[f64; 3]> = own.iter().map(|&node| nodes.initial(node)).collect();
     let mut shares = vec![0.0; group.unknowns];
     let sample = Sample { nodes: own, corners: &corners, attributes: &[] };
     // The mass itself is known.
@@ -135,7 +135,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
         let mass = share * group.moving_mass(i);
         let (x, velocity) = (nodes.position(node), solver.velocity_now(node));
         let momentum = scaled(velocity, mass);
-        let moved = scaled(subtract(x, nodes.initial[node as usize]), mass);
+        let moved = scaled(subtract(x, nodes.initial(node)), mass);
         let vectors = [moved, momentum, scaled(x, mass), cross(x, momentum)];
         sums[0] += mass;
         for (first, vector) in [1, 4, 7, 10].into_iter().zip(vectors) {

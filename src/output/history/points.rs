@@ -151,7 +151,7 @@ impl Point {
         let nodes = group.nodes(i);
         let count = nodes.len() as f64;
         for node in nodes {
-            let (x, initial) = (solver.domain.nodes.position(node), solver.domain.nodes.initial[node as usize]);
+            let (x, initial) = (solver.domain.nodes.position(node), solver.domain.nodes.initial(node));
             let motion = [nodes::subtract(x, initial), solver.velocity_now(node)].concat();
             values.iter_mut().zip(motion).for_each(|(value, part)| *value += part / count);
         }

@@ -60,7 +60,7 @@ pub fn values(groups: &[NodeGroup], solver: &mut Solver, comm: &mut dyn Communic
             if group.nodes.binary_search(&file).is_err() {
                 continue;
             }
-            let (x, initial) = (nodes.position(node), nodes.initial[node as usize]);
+            let (x, initial) = (nodes.position(node), nodes.initial(node));
             let moved = [0, 1, 2].map(|i| x[i] - initial[i]);
             let parts = [moved, solver.velocity_now(node), reactions[node as usize]].concat();
             own.iter_mut().zip(parts).for_each(|(sum, part)| sum.add(part));

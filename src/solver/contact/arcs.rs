@@ -90,7 +90,7 @@ impl Contact {
             return Vec::new();
         }
         let arcs = self.arcs.merged(comm);
-        let positions = self.skin.positions(&layout.nodes);
+        let positions = self.skin.of_points(layout);
         let normal = |face: u32| area_normal(&faces.corners[face as usize].map(|point| positions[point as usize]));
         let mut blocks: Vec<[bool; 2]> = vec![[false; 2]; self.block_ids.len()];
         for pair in neighbours(faces, &positions) {

@@ -24,24 +24,33 @@ use crate::model::{ContactSearch, Model, Watched};
 use crate::solver::Body;
 use crate::solver::nodes::Nodes;
 
+/// The surfaces that a model lets touch; `None` when it has neither contact nor rigid surfaces.
+pub fn skin(mesh: &Mesh, model: &Model, body: &Body) -> Option<Skin> {
+    if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
+        return None;
+    }
+    Some(Skin::new(mesh, model, body, plane_node_sets(mesh, model).concat()))
+}
+
+/// Nodes of each rigid surface.
+fn plane_node_sets(mesh: &Mesh, model: &Model) -> Vec<Vec<u32>> {
+    model.rigid_surfaces.iter().map(|plane| mesh.side_set_nodes(plane.side_set)).collect()
+}
+
 impl Contact {
-    /// Contact as the model asks for it; `None` when it does not. `held[i]` says which constraint holds which
+    /// Contact as the model asks for it, with what [`skin`] has found; `None` when that is nothing. `held[i]` says which constraint holds which
     /// direction of local node i; `local` gives the local node of a node of the mesh, `elements` the canonical numbers
     /// of the elements here, ascending.
     pub fn new(
         mesh: &Mesh,
         model: &Model,
-        body: &Body,
+        (body, skin): (&Body, Option<Skin>),
         (nodes, held): (&Nodes, Vec<[u32; 3]>),
         (local, elements): (&[u32], &[u32]),
         comm: &mut dyn Communicator,
     ) -> Option<Contact> {
-        if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
-            return None;
-        }
-        let plane_node_sets: Vec<Vec<u32>> =
-            model.rigid_surfaces.iter().map(|plane| mesh.side_set_nodes(plane.side_set)).collect();
-        let skin = Skin::new(mesh, model, body, plane_node_sets.concat());
+        let skin = skin?;
+        let plane_node_sets = plane_node_sets(mesh, model);
         let layout = skin.layout();
         let mut contact = Contact {
             contact_nodes: ContactNodes::default(),
@@ -78,6 +87,15 @@ impl Contact {
         Some(contact)
     }
 
+    /// Lets go of what only a surface from which elements go has to know; on one rank who computes what is no question either.
+    pub fn settle(&mut self, ranks: usize) {
+        self.skin.settle(&self.layout);
+        self.held = Vec::new();
+        if ranks == 1 {
+            self.elements = Vec::new();
+        }
+    }
+
     /// Finds the points that are nodes here, and gets to know the other ranks.
     pub(super) fn meet(&mut self, local: impl Fn(u32) -> u32, nodes: &Nodes, comm: &mut dyn Communicator) {
         let Contact { layout, held, elements, skin, .. } = self;
@@ -87,6 +105,7 @@ impl Contact {
         let faces = (0..).zip(numbers).filter(|(face, number)| solid(face) && is_here(**number));
         self.thicknesses =
             faces.map(|(face, &number)| (face, skin.sides(number).map(|side| side.map(&local)))).collect();
+        self.thicknesses.shrink_to_fit();
         let here = |point: u32| local(layout.nodes[point as usize]);
         self.contact_nodes = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
         if layout.interfaces.is_empty() {

@@ -57,6 +57,7 @@ use skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
+pub(in crate::solver) use construction::skin;
 pub use enforcement::iterations::LOOSER;
 pub use report::{Report, Tally, Work};
 pub use seen::{Looser, Seen};

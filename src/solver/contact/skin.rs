@@ -9,7 +9,7 @@ use super::meetings;
 use super::search::Box3;
 use super::search::locate::{Interface, Rule};
 use super::touching::Touching;
-use crate::mesh::{Connectivity, Dimension, Mesh};
+use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
 use crate::solver::Body;
 use std::sync::Arc;
@@ -26,7 +26,9 @@ pub struct Skin {
     element_order: Arc<Vec<u32>>,
     element_nodes: Arc<Connectivity>,
     element_block: Arc<Vec<u32>>,
-    positions: Arc<Vec<[f64; 3]>>,
+    positions: Coordinates,
+    /// Those of the points, once nothing else is left.
+    of_points: Vec<[f64; 3]>,
     /// Whether CONTACT MATERIAL names a block.
     chosen: Vec<bool>,
     surface: Option<Surface>,
@@ -61,6 +63,7 @@ impl Skin {
             element_nodes: body.element_nodes.clone(),
             element_block: body.element_block.clone(),
             positions: body.positions.clone(),
+            of_points: Vec::new(),
             surface: contact.materials.is_some().then(|| surface(&chosen, body)),
             sets: side_set_faces(mesh, contact, body),
             more,
@@ -81,8 +84,21 @@ impl Skin {
         Skin { touching: self.touching.without_distances(), ..self }
     }
 
+    /// Keeps what a surface is asked that does not change any more, and lets go of the rest.
+    pub fn settle(&mut self, layout: &Layout) {
+        self.of_points = self.positions(&layout.nodes);
+        self.positions = Coordinates::default();
+        (self.element_nodes, self.element_block) = Default::default();
+        self.surface = None;
+    }
+
+    /// Initial positions of the points of a layout.
+    pub fn of_points(&self, layout: &Layout) -> Vec<[f64; 3]> {
+        if self.of_points.is_empty() { self.positions(&layout.nodes) } else { self.of_points.clone() }
+    }
+
     /// Initial positions of some nodes of the mesh.
-    pub fn positions(&self, nodes: &[u32]) -> Vec<[f64; 3]> {
+    fn positions(&self, nodes: &[u32]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&node| self.positions[node as usize]).collect()
     }
 

@@ -4,7 +4,7 @@
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
 use super::rotations::Rotations;
-use crate::mesh::{Block, Connectivity, Mesh, Shape};
+use crate::mesh::{Block, Connectivity, Coordinates, Mesh, Shape};
 use crate::model::Model;
 use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
 use crate::solver::AddedMass;
@@ -38,7 +38,7 @@ pub struct Body {
     /// Lumped nodal masses, in file order, and rotary inertias of the rotations behind them.
     pub node_mass: Vec<f64>,
     /// Initial positions, lengths, in file order; those of the mesh unless contact surfaces overlapped there.
-    pub positions: Arc<Vec<[f64; 3]>>,
+    pub positions: Coordinates,
     /// Faces under pressure, in canonical order after the elements.
     pub faces: Vec<LoadedFace>,
     /// Index into the model's materials of each mesh block.
@@ -138,7 +138,7 @@ impl Body {
             elements: Vec::new(),
             first: Vec::new(),
             node_mass: vec![0.0; mesh.coordinates.len()],
-            positions: Arc::new(mesh.coordinates.clone()),
+            positions: mesh.coordinates.clone(),
             faces: Vec::new(),
             block_material,
             overlap: Overlap::default(),
@@ -148,13 +148,11 @@ impl Body {
         };
         body.take_elements(mesh, model);
         if !model.ties.is_empty() {
-            let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut body.positions);
-            body.tied = Tied::new(mesh, model, positions);
+            body.tied = Tied::new(mesh, model, &mut body.positions);
         }
         body.overlap = contact::remove_overlap(mesh, model, &mut body);
         if body.overlap.nodes > 0 || !model.ties.is_empty() {
-            let positions: &mut Vec<[f64; 3]> = Arc::make_mut(&mut body.positions);
-            body.tied.place(positions);
+            body.tied.place(&mut body.positions);
             body.weigh(mesh, model);
             body.tied.hand_over(&mut body.node_mass);
         }
@@ -186,7 +184,7 @@ impl Body {
     fn take_elements(&mut self, mesh: &Mesh, model: &Model) {
         let count = mesh.element_count();
         let (mut order, mut blocks) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut elements = Connectivity::default();
+        let mut elements = Connectivity::with_room_for(mesh.blocks.iter().map(|block| block.nodes.len()).sum());
         let mut first = 0u32;
         for (index, block) in mesh.blocks.iter().enumerate() {
             self.first.push(first);

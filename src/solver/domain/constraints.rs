@@ -57,7 +57,7 @@ impl Constraint {
                     MotionKind::Acceleration => value(step.time),
                     MotionKind::Velocity => (value(step.time + 0.5 * step.drift) - velocity) / step.kick,
                     MotionKind::Displacement => {
-                        let target = nodes.initial[n][i] + value(step.time + step.drift);
+                        let target = nodes.initial(n as u32)[i] + value(step.time + step.drift);
                         ((target - row[i]) / step.drift - velocity) / step.kick
                     }
                 }

@@ -10,7 +10,7 @@ mod rotations;
 pub use body::{Body, Cut, NoMaterial, centroid};
 pub use rotations::Rotations;
 
-use super::contact::Contact;
+use super::contact::{self, Contact};
 use super::elements::{Element, ElementBlock, NewElement};
 use super::erosion::Erosion;
 use super::loads::{self, Load, PressureFace, PressureFaces, Setting};
@@ -20,7 +20,7 @@ use crate::comm::Communicator;
 use crate::lanes::{Force, Row};
 use crate::material::{Kernel, KernelVisitor, Law};
 use crate::memory;
-use crate::mesh::{Block, Mesh};
+use crate::mesh::{Block, Mesh, counts_from_one};
 use crate::model::{InitialVelocity, Model, Unknown};
 use crate::partition::Share;
 use body::LoadedFace;
@@ -37,8 +37,8 @@ pub struct Domain {
     pub blocks: Vec<ElementBlock>,
     /// File position of each local element, in the rank's canonical order.
     pub element_file: Vec<u32>,
-    /// The analyst's number of each local element.
-    pub element_id: Vec<i64>,
+    /// The analyst's number of each local element; empty where elements have the numbers of their places in the file, from 1.
+    pub(in crate::solver) element_id: Vec<i64>,
     /// Canonical number of each local element in the whole body.
     pub element_canonical: Vec<u32>,
     /// Names of the state variables that the laws of the whole model store in elements with one point, ascending; the same on
@@ -140,13 +140,15 @@ fn element_rows(body: &Body) -> Vec<&'static str> {
 impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
+        // What finding the surface takes meanwhile is gone before the elements come.
+        let skin = contact::skin(mesh, model, body);
         let local = local_numbers(body.rotations.unknowns(), &share.nodes);
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
         let mut domain = Domain {
             nodes: nodes(mesh, model, body, share),
             blocks: blocks(mesh, model, body, share, &local),
-            element_id: element_file.iter().map(|&e| mesh.element_ids[e as usize]).collect(),
+            element_id: element_numbers(mesh, &element_file),
             element_file,
             element_canonical: elements.clone(),
             law_states: law_states(mesh, model, body),
@@ -172,7 +174,10 @@ impl Domain {
         domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, body, &local);
         domain.contact =
-            Contact::new(mesh, model, body, (&domain.nodes, held), (&local, &domain.element_canonical), comm);
+            Contact::new(mesh, model, (body, skin), (&domain.nodes, held), (&local, &domain.element_canonical), comm);
+        if domain.erosion.is_none() {
+            domain.contact.iter_mut().for_each(|contact| contact.settle(comm.size()));
+        }
         domain.set_initial_velocities(mesh, model, &local);
         if let Some(ties) = &domain.ties {
             ties.set_off(&mut domain.nodes, comm);
@@ -181,6 +186,11 @@ impl Domain {
             rigid.set_off(&mut domain.nodes, comm);
         }
         domain
+    }
+
+    /// The analyst's number of a local element.
+    pub fn element_number(&self, place: usize) -> i64 {
+        self.element_id.get(place).copied().unwrap_or_else(|| i64::from(self.element_file[place]) + 1)
     }
 
     /// Forgets the forces of constraints and planes, when those of the elements are of no use.
@@ -293,6 +303,12 @@ impl Domain {
     }
 }
 
+/// See [`Domain::element_id`].
+fn element_numbers(mesh: &Mesh, file: &[u32]) -> Vec<i64> {
+    let of_place = |&element: &u32| mesh.element_ids[element as usize];
+    if counts_from_one(&mesh.element_ids) { Vec::new() } else { file.iter().map(of_place).collect() }
+}
+
 /// A block that has been given a rotation: its number, angular velocity and a point of the axis.
 type Turned = (i64, [[f64; 3]; 2]);
 
@@ -362,11 +378,8 @@ fn nodes(mesh: &Mesh, model: &Model, body: &Body, share: &Share) -> Nodes {
     Nodes {
         rows,
         forces: memory::repeated(Force::default(), share.nodes.len()),
-        initial: share
-            .nodes
-            .iter()
-            .map(|&file| mesh.coordinates.get(file as usize).copied().unwrap_or_default())
-            .collect(),
+        mesh: mesh.coordinates.clone(),
+        beside: Vec::new(),
         places: share.nodes.partition_point(|&file| (file as usize) < mesh.coordinates.len()),
         file: share.nodes.clone(),
         owned: share.owned.clone(),
@@ -406,10 +419,8 @@ fn blocks(mesh: &Mesh, model: &Model, body: &Body, share: &Share, local: &[u32])
         let state_names = state_names(&material.law);
         let (border, interior): (Vec<u32>, Vec<u32>) = run.iter().partition(|&&place| elements.border[place as usize]);
         let group = |places: Vec<u32>| {
-            let mesh_block = &mesh.blocks[index];
-            let new: Vec<NewElement> =
-                places.into_iter().map(|place| new_element(place, mesh_block, body, share, local)).collect();
-            ElementBlock::group(&body.elements[index], &material.law, material.density, &new)
+            let new = |i: usize| new_element(places[i], &mesh.blocks[index], body, share, local);
+            ElementBlock::group_of(&body.elements[index], &material.law, material.density, (places.len(), new))
         };
         ElementBlock {
             index,

@@ -1,6 +1,7 @@
 //! Nodes of one rank: position and velocity side by side in one cache line, and the force sums.
 
 use crate::lanes::{Force, Row};
+use crate::mesh::Coordinates;
 use std::ops::Range;
 
 pub use crate::vector::{add, cross, dot, scaled, subtract};
@@ -13,8 +14,10 @@ pub struct Nodes {
     pub rows: Vec<Row>,
     /// Force sums, moments of rotations; zero between steps.
     pub forces: Vec<Force>,
-    /// Positions in the mesh, lengths.
-    pub initial: Vec<[f64; 3]>,
+    /// Positions of all nodes of the mesh, lengths, in the order of its file.
+    pub mesh: Coordinates,
+    /// Positions of the nodes that are not of the mesh, the last ones, lengths.
+    pub beside: Vec<[f64; 3]>,
     /// How many of them are nodes of the mesh: the first ones.
     pub places: usize,
     /// Node of the mesh file.
@@ -73,6 +76,13 @@ impl Nodes {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
+    }
+
+    /// Position of a local node in the mesh, a length; zero of a rotation, which has none.
+    pub fn initial(&self, node: u32) -> [f64; 3] {
+        let (node, first) = (node as usize, self.len() - self.beside.len());
+        let place = if node < first { self.mesh.get(self.file[node] as usize) } else { self.beside.get(node - first) };
+        place.copied().unwrap_or_default()
     }
 
     /// Position of a local node.

@@ -8,6 +8,7 @@ use crate::memory::repeated;
 use crate::model::Precision;
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;
+use std::borrow::Borrow;
 
 /// The elements of one material on one rank.
 pub struct ElementBlock {
@@ -80,10 +81,10 @@ pub struct NewElement {
 }
 
 impl Group {
-    /// Elements at rest, with so many corners and unknowns. `start` fills in the numbers that an element stores in this
-    /// precision, of which there are `stride`.
-    pub fn new(
-        elements: &[NewElement],
+    /// So many elements at rest, with so many corners and unknowns; `new` gives one after the other. `start` fills in the numbers that
+    /// an element stores in this precision, of which there are `stride`.
+    pub fn new<E: Borrow<NewElement>>(
+        (count, new): (usize, impl Fn(usize) -> E),
         [corners, unknowns]: [usize; 2],
         (precision, stride): (Precision, usize),
         start: impl Fn(&NewElement, &mut [f64]),
@@ -92,11 +93,11 @@ impl Group {
             Precision::Double => CHUNK,
             Precision::Single => SingleRow::LANES,
         };
-        let rows = elements.len().div_ceil(lanes);
+        let rows = count.div_ceil(lanes);
         let chunks = rows * lanes / CHUNK;
         let store = |of: Precision| if of == precision { rows * stride } else { 0 };
         let mut group = Group {
-            places: elements.iter().map(|e| e.place).collect(),
+            places: Vec::with_capacity(count),
             corners,
             unknowns,
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
@@ -109,17 +110,25 @@ impl Group {
             steps: Vec::new(),
         };
         let mut numbers = vec![0.0; stride];
-        for slot in 0..chunks * CHUNK {
-            let element = &elements[slot.min(elements.len() - 1)];
+        let mut added = Vec::new();
+        for place in 0..count {
+            let element = new(place);
+            let element: &NewElement = element.borrow();
+            group.places.push(element.place);
             numbers.fill(0.0);
             start(element, &mut numbers);
-            group.set(slot, &element.nodes, element.mass, &numbers);
-        }
-        if elements.iter().any(|element| element.added > 0.0) {
-            group.moving = group.mass.clone();
-            for slot in 0..chunks * CHUNK {
-                group.moving[slot / CHUNK].0[slot % CHUNK] += elements[slot.min(elements.len() - 1)].added;
+            // The last one has copies in the lanes behind it.
+            let end = if place + 1 == count { chunks * CHUNK } else { place + 1 };
+            (place..end).for_each(|slot| group.set(slot, &element.nodes, element.mass, &numbers));
+            if element.added > 0.0 {
+                added.resize(chunks * CHUNK, 0.0);
+                added[place..end].fill(element.added);
             }
+        }
+        if !added.is_empty() {
+            group.moving = group.mass.clone();
+            let lanes = group.moving.iter_mut().flat_map(|row| &mut row.0);
+            lanes.zip(added).for_each(|(mass, added)| *mass += added);
         }
         group
     }
@@ -273,6 +282,16 @@ impl ElementBlock {
 
     /// A group of elements of this block's kind.
     pub fn group(element: &Element, law: &Law, density: f64, elements: &[NewElement]) -> Group {
+        ElementBlock::group_of(element, law, density, (elements.len(), |place: usize| &elements[place]))
+    }
+
+    /// The same with so many elements that are made one after the other.
+    pub fn group_of<E: Borrow<NewElement>>(
+        element: &Element,
+        law: &Law,
+        density: f64,
+        elements: (usize, impl Fn(usize) -> E),
+    ) -> Group {
         let entry = element.entry();
         let (of_points, of_law) = (element.point_rows(), state_names(law).len());
         let of_points = [element.points(), of_points + of_law];

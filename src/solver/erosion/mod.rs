@@ -69,7 +69,7 @@ impl Erosion {
             let [x, y, z] = corner.map(|c| c * edge);
             nodes.rows.push(Row([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0]));
             nodes.forces.push(Default::default());
-            nodes.initial.push([x, y, z]);
+            nodes.beside.push([x, y, z]);
             nodes.file.push(ABSENT);
             nodes.owned.push(false);
         }

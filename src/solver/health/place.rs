@@ -47,7 +47,7 @@ fn find(domain: &Domain, canonical: f64) -> Option<ElementPlace> {
     })?;
     let corners: Vec<[f64; 3]> = group.nodes(i).map(|node| domain.nodes.position(node)).collect();
     let volume = block.element.volume(group, i, &domain.nodes);
-    Some(ElementPlace { element: domain.element_id[place], block: block.id, centre: centroid(&corners), volume })
+    Some(ElementPlace { element: domain.element_number(place), block: block.id, centre: centroid(&corners), volume })
 }
 
 /// Living elements of this rank, block by block.
@@ -98,6 +98,14 @@ pub fn worst_nodes(exam: &Exam, values: &[(u32, f64)], comm: &mut dyn Communicat
     spots
 }
 
+/// The analyst's number of a local node, as one that ranks can compare; of a rotation, which has none, infinity.
+fn number_of_node(exam: &Exam, node: usize) -> f64 {
+    let nodes = &exam.solver.domain.nodes;
+    let place = || (node < nodes.places).then(|| f64::from(nodes.file[node]) + 1.0);
+    let number = exam.facts.node_id.get(node).map(|&id| id as f64);
+    number.or_else(|| place().filter(|_| exam.facts.node_id.is_empty())).unwrap_or(f64::INFINITY)
+}
+
 /// The node that one rank has chosen, and the element whose face it meets.
 fn node_spot(exam: &Exam, own: Option<u32>, comm: &mut dyn Communicator) -> Spot {
     let domain = &exam.solver.domain;
@@ -107,12 +115,12 @@ fn node_spot(exam: &Exam, own: Option<u32>, comm: &mut dyn Communicator) -> Spot
         // Places in the mesh file are told from 1, and 0 is none.
         let met = domain.contact.iter().flat_map(|contact| contact.node_values()).find(|(met, _)| *met == node);
         let element = met.map_or(0.0, |(_, values)| values[5]);
-        facts = [exam.facts.node_id.get(node as usize).map_or(f64::INFINITY, |id| *id as f64), x, y, z, element];
+        facts = [number_of_node(exam, node as usize), x, y, z, element];
     }
     comm.all_min(&mut facts);
     let [node, x, y, z, element] = facts;
     let here = domain.element_file.iter().position(|&file| f64::from(file) + 1.0 == element);
-    let mut id = [here.map_or(f64::INFINITY, |place| domain.element_id[place] as f64)];
+    let mut id = [here.map_or(f64::INFINITY, |place| domain.element_number(place) as f64)];
     comm.all_min(&mut id);
     Spot { node: Some(node as i64), element: id[0].is_finite().then_some(id[0] as i64), at: [x, y, z] }
 }
@@ -124,7 +132,7 @@ pub fn node_id(exam: &Exam, file: u32, comm: &mut dyn Communicator) -> (i64, [f6
     let mut facts = [f64::INFINITY; 4];
     if let Some(node) = here {
         let [x, y, z] = nodes.position(node as u32);
-        facts = [exam.facts.node_id.get(node).map_or(f64::INFINITY, |id| *id as f64), x, y, z];
+        facts = [number_of_node(exam, node), x, y, z];
     }
     comm.all_min(&mut facts);
     (facts[0] as i64, [facts[1], facts[2], facts[3]])

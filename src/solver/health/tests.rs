@@ -12,7 +12,7 @@ use crate::solver::{Body, Request, Solver, Stop, Totals};
 /// A cube of mass 1 that flies with a speed of 2: its energy is 2. `more` are further commands.
 fn with_cube(more: &str, test: impl FnOnce(&mut Solver)) {
     let mesh = Mesh {
-        coordinates: UNIT_CUBE.to_vec(),
+        coordinates: UNIT_CUBE.to_vec().into(),
         node_ids: (1..=8).collect(),
         element_ids: vec![7],
         blocks: vec![Block::hexahedra_of(1, [[0, 1, 2, 3, 4, 5, 6, 7]])],

@@ -4,7 +4,7 @@ use super::finding::{Evidence, Finding, ROW, Spot};
 use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, counts_from_one};
 use crate::model::Model;
 use crate::partition::Share;
 use crate::restart::Archive;
@@ -18,7 +18,7 @@ const CONTACT_INTERVAL: u64 = 10;
 /// What does not change in a run.
 #[derive(Debug, Clone, Default)]
 pub struct Facts {
-    /// The analyst's number of each local node.
+    /// The analyst's number of each local node; empty where nodes have the numbers of their places in the file, from 1.
     pub node_id: Vec<i64>,
     /// Number, mass and elements of each block of the mesh.
     pub blocks: Vec<BlockFacts>,
@@ -80,8 +80,7 @@ impl Watch {
         let block =
             |(block, mass): (&crate::mesh::Block, f64)| BlockFacts { id: block.id, mass, elements: block.len() };
         let facts = Facts {
-            // Rotations have no numbers of their own.
-            node_id: share.nodes.iter().map_while(|&node| mesh.node_ids.get(node as usize).copied()).collect(),
+            node_id: node_numbers(mesh, share),
             blocks: mesh.blocks.iter().zip(masses).map(block).collect(),
             energy_floor: energy::energy_floor(body, model),
             stored_energy: energy::stored_energy(body, model),
@@ -235,6 +234,12 @@ impl Solver {
         }
         energy::check(totals, self.initial_energy, self.watch.supplied, facts.energy_floor)
     }
+}
+
+/// See [`Facts::node_id`]. Rotations have no numbers of their own.
+fn node_numbers(mesh: &Mesh, share: &Share) -> Vec<i64> {
+    let of_place = |&node: &u32| mesh.node_ids.get(node as usize).copied();
+    if counts_from_one(&mesh.node_ids) { Vec::new() } else { share.nodes.iter().map_while(of_place).collect() }
 }
 
 /// The node that was moved farthest out of an initial overlap.

@@ -136,7 +136,7 @@ impl Domain {
 impl Nodes {
     fn visit_state(&mut self, archive: &mut dyn Archive) {
         // Forces are zero between steps; the others are of the problem and its cut.
-        let Nodes { rows, forces: _, initial: _, places, file, owned, rates, passive: _ } = self;
+        let Nodes { rows, forces: _, mesh: _, beside: _, places, file, owned, rates, passive: _ } = self;
         const NAMES: [&str; 8] = ["POSX", "POSY", "POSZ", "NODMASS", "VELX", "VELY", "VELZ", "INVMASS"];
         for (i, name) in NAMES.into_iter().enumerate() {
             let mut values: Vec<f64> = rows[..*places].iter().map(|row| row.0[i]).collect();

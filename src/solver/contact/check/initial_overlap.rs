@@ -22,7 +22,6 @@ use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::skin::Skin;
 use crate::solver::elements::Touch;
 use crate::vector::{add, cross, dot, scaled, subtract};
-use std::sync::Arc;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;
@@ -214,7 +213,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         let limits = Limits { iterations: 100, tolerance: 0.1 * NOTHING };
         enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited);
         enforcer.solve(&mut constraints, &motion, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
-        let positions = Arc::make_mut(&mut body.positions);
+        let positions: &mut Vec<[f64; 3]> = &mut body.positions;
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {
             let node = layout.nodes[point] as usize;
             let there = add(motion.start(point as u32), enforcer.velocity_change(point, &motion, still.kick));

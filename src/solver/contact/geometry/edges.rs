@@ -123,14 +123,16 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edg
     }
     sides.sort_unstable();
     let side = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
-    (sides.chunk_by(|a, b| a.0 == b.0))
+    let mut edges: Vec<Edge> = (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| {
             let [first, second] = pair_at(same, faces)?;
             let edge = Edge { ends: same[0].0, faces: [first, second], shape: Shape::Hollow, in_mesh: Shape::Hollow };
             let shape = edge.shape_between(side(first), side(second), faces);
             Some(Edge { shape, in_mesh: shape, ..edge })
         })
-        .collect()
+        .collect();
+    edges.shrink_to_fit();
+    edges
 }
 
 /// Area normal and middle of a face.

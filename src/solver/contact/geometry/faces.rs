@@ -63,7 +63,18 @@ impl Faces {
         (point, points): (impl Fn(u32) -> u32, usize),
         reach: impl Fn(u32) -> f64,
     ) -> Faces {
-        let mut faces = Faces { number: numbers.to_vec(), ..Default::default() };
+        let count = numbers.len();
+        let mut faces = Faces {
+            number: numbers.to_vec(),
+            corners: Vec::with_capacity(count),
+            block: Vec::with_capacity(count),
+            size: Vec::with_capacity(count),
+            reach: Vec::with_capacity(count),
+            two_sided: Vec::with_capacity(count),
+            start_depth: Vec::with_capacity(count),
+            element: Vec::with_capacity(count),
+            ..Default::default()
+        };
         for &number in numbers {
             let nodes = face_nodes(elements, number);
             let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);

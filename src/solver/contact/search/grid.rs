@@ -87,6 +87,8 @@ impl Grid {
             cells.join((nodes, many, larger), (faces, few, smaller), edge, push);
         }
         found.sort_by_node(nodes.len());
+        // Between searches the memory of the cells is better used by others.
+        *cells = Cells::default();
     }
 }
 

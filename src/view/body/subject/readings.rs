@@ -11,7 +11,7 @@ use crate::view::body::section::Between;
 impl Subject<'_> {
     /// Node positions with the displacement, as many times as asked for.
     pub(super) fn positions(&self, state: Option<usize>) -> Result<Vec<[f64; 3]>, ViewError> {
-        let mut positions = self.mesh.coordinates.clone();
+        let mut positions = self.mesh.coordinates.to_vec();
         if let (Some(names), Some(state)) = (&self.displacement, state) {
             for (axis, name) in names.iter().enumerate() {
                 for (position, displacement) in positions.iter_mut().zip(self.read(Place::Nodes, name, state)?) {

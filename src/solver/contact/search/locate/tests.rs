@@ -273,7 +273,8 @@ impl Stage {
         Nodes {
             rows: (0..count).map(row).collect(),
             forces: vec![Force::default(); count],
-            initial: self.body.positions.to_vec(),
+            mesh: self.body.positions.clone(),
+            beside: Vec::new(),
             places: count,
             file: (0..count as u32).collect(),
             owned: vec![true; count],
@@ -286,8 +287,9 @@ impl Stage {
         let local: Vec<u32> = (0..nodes.len() as u32).collect();
         let elements: Vec<u32> = (0..self.mesh.element_count() as u32).collect();
         let held = vec![[crate::solver::contact::ABSENT; 3]; nodes.len()];
+        let skin = crate::solver::contact::skin(&self.mesh, &self.model, &self.body);
         let contact =
-            Contact::new(&self.mesh, &self.model, &self.body, (nodes, held), (&local, &elements), &mut Serial);
+            Contact::new(&self.mesh, &self.model, (&self.body, skin), (nodes, held), (&local, &elements), &mut Serial);
         contact.expect("the deck asks for contact")
     }
 
