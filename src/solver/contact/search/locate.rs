@@ -238,18 +238,23 @@ impl Locator {
         }
         let own = motion.swept_boxes[self.slave_nodes[i] as usize];
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
-        let capture_boxes = &mut self.capture_boxes;
-        let mut look = |candidate: &Candidate| {
-            let swept = capture_boxes.of(candidate.face, faces, motion, self.depth);
+        // No closure: it would be compiled apart, without the vector instructions of the caller.
+        let mut next = 64;
+        loop {
+            let place = if awake != 0 {
+                let place = awake.trailing_zeros() as usize;
+                awake &= awake - 1;
+                place
+            } else {
+                next += 1;
+                next - 1
+            };
+            let Some(candidate) = candidates.get(place) else { break };
+            let swept = self.capture_boxes.of(candidate.face, faces, motion, self.depth);
             if f64::from(own.distance(&swept)) <= reach || held && past.iter().any(|past| past.face == candidate.face) {
                 near.push(*candidate);
             }
-        };
-        while awake != 0 {
-            look(&candidates[awake.trailing_zeros() as usize]);
-            awake &= awake - 1;
         }
-        candidates.iter().skip(64).for_each(look);
     }
 
     /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
