@@ -35,15 +35,15 @@ pub struct Bounded<V> {
 }
 
 impl<V: Lanes> Bounded<V> {
-    /// The stable step with hourglass control, given the one without, the measure B:B/V of stiffness, the mass and the moduli μ and λ + 2μ.
+    /// The stable step with hourglass control, given the one without, the measure B:B/V of stiffness, the mass and μ.
     #[inline(always)]
-    pub fn stable_step<H: Control>(&self, control: &H, without: V, [measure, mass, mu, dilatational]: [V; 4]) -> V {
+    pub fn stable_step<H: Control>(&self, control: &H, without: V, [measure, mass, mu]: [V; 3]) -> V {
         let zero = V::splat(0.0);
         let times = V::splat(4.0) * self.weight;
         // Frequency and damping of a viscosity both go with the square of the base vectors.
         let felt = V::select_less(zero, self.weight, mu * times * times, mu);
         let step = control.stable_step(without, measure, mass, felt);
-        shared_step(step, control.largest_modulus(dilatational, mu) * measure * times, mass)
+        shared_step(step, control.further_modulus(mu) * measure * times, mass)
     }
 }
 

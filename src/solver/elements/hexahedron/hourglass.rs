@@ -44,8 +44,9 @@ pub trait Control: Copy + Send + Sync {
     }
     /// Part of the viscosity by which a fluid's modes are resisted, at most 1.
     fn of_fluids(&self) -> f64;
-    /// A bound of the stiffness of a mode whose base vector is as long as that of a parallelepiped, over B:B/V: a modulus.
-    fn largest_modulus<V: Lanes>(&self, dilatational: V, mu: V) -> V;
+    /// What the step of elements with bounded resistance has to allow for beside their own: the stiffness of a mode whose base vector is as
+    /// long as that of a parallelepiped, over B:B/V: a modulus.
+    fn further_modulus<V: Lanes>(&self, mu: V) -> V;
     /// Largest stable time step with hourglass control, given the one without, `stiffness_measure`, mass and μ.
     fn stable_step<V: Lanes>(&self, without: V, stiffness_measure: V, mass: V, mu: V) -> V;
 }
@@ -82,7 +83,7 @@ impl Control for FlanaganBelytschko {
 
     /// k |γ|² = 8 κμB:B/(4V)
     #[inline(always)]
-    fn largest_modulus<V: Lanes>(&self, _dilatational: V, mu: V) -> V {
+    fn further_modulus<V: Lanes>(&self, mu: V) -> V {
         V::splat(2.0 * self.stiffness) * mu
     }
 
@@ -161,10 +162,10 @@ impl Control for AssumedStrain {
         self.factor.min(1.0)
     }
 
-    /// See [`Control::stable_step`]: no more than the element's own.
+    /// None: the stiffness is bounded to what it is just below the bound, where the floor under [`State::lengths`] suffices.
     #[inline(always)]
-    fn largest_modulus<V: Lanes>(&self, dilatational: V, _mu: V) -> V {
-        V::splat(self.factor) * dilatational
+    fn further_modulus<V: Lanes>(&self, _mu: V) -> V {
+        V::splat(0.0)
     }
 
     /// On a parallelepiped, whatever ν and however the frame lies, the floor under [`State::lengths`] keeps the
@@ -214,10 +215,10 @@ impl Control for Either {
     }
 
     #[inline(always)]
-    fn largest_modulus<V: Lanes>(&self, dilatational: V, mu: V) -> V {
+    fn further_modulus<V: Lanes>(&self, mu: V) -> V {
         match self {
-            Either::FlanaganBelytschko(control) => control.largest_modulus(dilatational, mu),
-            Either::AssumedStrain(control) => control.largest_modulus(dilatational, mu),
+            Either::FlanaganBelytschko(control) => control.further_modulus(mu),
+            Either::AssumedStrain(control) => control.further_modulus(mu),
         }
     }
 

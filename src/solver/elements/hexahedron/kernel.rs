@@ -235,7 +235,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let stable_step = match &bounded {
         _ if K::FLUID => held.stable_step,
         None => control.stable_step(stable_step, stiffness_measure, light, mu),
-        Some(bounded) => bounded.stable_step::<H>(control, stable_step, [stiffness_measure, light, mu, modulus]),
+        Some(bounded) => bounded.stable_step::<H>(control, stable_step, [stiffness_measure, light, mu]),
     };
     let initial192 = V::splat(192.0 / settings.density) * given.material;
     let mut viscous = viscous;
