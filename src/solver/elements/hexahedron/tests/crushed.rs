@@ -77,7 +77,9 @@ fn barrier_pushes_along_the_gradient_of_the_volume() {
 }
 
 /// 2/√λ_max of what an element is, over the step that it asks for, where it is pressed together and bent. Up to τ₀ hourglass stiffness is
-/// not asked for its part of the step, as in all elements; beyond it is.
+/// not asked for its part of the step, as in all elements: next to it the step is too long for an element that stands alone. Beyond τ₀ that of
+/// Flanagan and Belytschko is asked for; assumed strain stays as stiff as it is at τ₀, and the step as long: a bound of its own would cost
+/// half as many steps again (docs/decisions.md).
 #[test]
 fn stable_step_of_squashed_elements() {
     let (mut worst, mut beyond, mut largest) = ([f64::INFINITY; 3], [f64::INFINITY; 3], 0.0f64);
@@ -100,7 +102,7 @@ fn stable_step_of_squashed_elements() {
     println!("exact step over bound {worst:.3?} at least, {beyond:.3?} beyond; tau up to {largest:.1e}");
     assert!(largest > 100.0);
     assert!(worst[0] >= 1.0 && worst[1] > 0.85 && worst[2] > 0.6, "{worst:?}");
-    assert!(beyond.iter().all(|ratio| *ratio >= 1.0 - NOISE), "{beyond:?}");
+    assert!(beyond[..2].iter().all(|ratio| *ratio >= 1.0 - NOISE) && beyond[2] > 0.55, "{beyond:?}");
 }
 
 /// Closed paths on which an element is squashed and bent, and given its shape again: hourglass resistance never gives
