@@ -8,7 +8,7 @@ use crate::solver::contact::geometry::swept_box::{Exchanged, SweptBox};
 
 /// Edge of a cell in typical sizes of the class that looks through it.
 const CELL: f64 = 0.7;
-/// How many times more boxes than another list has one is the many of.
+/// From this many times the boxes of another list on, a list is looked through instead of looking.
 const FEW: usize = 4;
 /// Cells are numbered within this bound, which keeps numbers in 32 bits; the outermost cells have no end.
 const OUTERMOST: f64 = (1 << 30) as f64;

@@ -78,7 +78,7 @@ impl Box3 {
     }
 }
 
-/// A way to find all candidates. Arrays for the work are kept from call to call.
+/// A way to find all candidates. What takes little memory is kept from call to call.
 pub trait Search {
     /// Finds all pairs of a node and a face whose boxes overlap, but for nodes that are corners of the face. Face `f` has
     /// the box `faces[f]` and the corners `connectivity[f]`, which are indices into `nodes`; a triangle names one of its

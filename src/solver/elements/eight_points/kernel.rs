@@ -7,7 +7,7 @@ use crate::material::{Kernel, Step};
 use crate::mesh::hexahedron::SIGNS;
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
-use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, dot, gradient, modes};
+use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, dot, earlier, gradient, modes};
 use crate::solver::elements::hexahedron::hourglass::Resistance;
 use crate::solver::elements::hexahedron::kernel::{corner_forces, hourglass_rates, lengths};
 use crate::solver::elements::hexahedron::kinematics::{self, Motion};
@@ -72,7 +72,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
 
         // (i) velocity gradient and hourglass rates at mid-step
         let half_step = V::splat(0.5 * settings.time_step);
-        let middle: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - half_step * v[i][k]]];
+        let middle = earlier([&x, &v], half_step);
         let operator = gradient(&middle);
         let measure = stiffness_measure(&operator);
         let Gradient { g24, volume192: middle_volume192 } = operator;

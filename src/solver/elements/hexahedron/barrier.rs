@@ -9,8 +9,8 @@
 //!
 //! f, f′ and f″ vanish at u = 1. Its force on the corners is φ′ B, B = ∂V/∂x: exactly the gradient of φ, whatever the shape.
 
-use super::geometry::{Gradient, Modes, dot, gradient};
-use crate::lanes::{Lanes, array};
+use super::geometry::{Gradient, Modes, dot, earlier, gradient};
+use crate::lanes::Lanes;
 use crate::solver::elements::exact::Steps;
 
 /// s: the barrier begins where this part of the volume is left.
@@ -101,7 +101,7 @@ impl<V: Lanes> Solid<'_, V> {
     pub fn held(&self, steps: Steps) -> Barrier<V> {
         let Solid { motion: [x, v], operator, square4608, initial192, dilatational } = *self;
         let (zero, time_step) = (V::splat(0.0), V::splat(steps.time_step));
-        let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
+        let before = earlier([x, v], time_step);
         let operator_before = gradient(&before);
         let [then, _] = stress_and_modulus(operator_before.volume192, initial192, dilatational);
         let [stress, _] = stress_and_modulus(operator.volume192, initial192, dilatational);

@@ -9,11 +9,11 @@
 //! ```
 //!
 //! which bounds k|γ|². A resistance Q that is stored holds the energy Q²/2k. Where k falls Q would give back more than it has
-//! taken; it is scaled by √(k/k_old) then, so that this energy does not grow: the rest is lost in the account of hourglass resistance, which is
-//! never negative for that reason.
+//! taken; it is scaled by √(k/k_old) then, so that this energy does not grow: the rest is lost in the account of hourglass resistance. The
+//! stiffness is taken to go with c B:B/V, as that of Flanagan and Belytschko does; that of assumed strain goes with c and the lengths.
 
 use super::barrier::shared_step;
-use super::geometry::{Gradient, HOURGLASS, Modes, gradient, square};
+use super::geometry::{Gradient, HOURGLASS, Modes, earlier, gradient, square};
 use super::hourglass::Control;
 use crate::lanes::{Lanes, array};
 
@@ -30,7 +30,7 @@ pub struct Bounded<V> {
     pub factor: V,
     /// Factor on the resistance stored at the start of the step, 1 of the others.
     pub kept: V,
-    /// cτ/4 where τ > τ₀, else 0: what base vectors make of the stiffness, against those of a parallelepiped.
+    /// cτ where τ > τ₀, else 0: Σ|γ|²/8 as far as it is resisted.
     pub weight: V,
 }
 
@@ -39,7 +39,7 @@ impl<V: Lanes> Bounded<V> {
     #[inline(always)]
     pub fn stable_step<H: Control>(&self, control: &H, without: V, [measure, mass, mu]: [V; 3]) -> V {
         let zero = V::splat(0.0);
-        let times = V::splat(4.0) * self.weight;
+        let times = self.weight;
         // Frequency and damping of a viscosity both go with the square of the base vectors.
         let felt = V::select_less(zero, self.weight, mu * times * times, mu);
         let step = control.stable_step(without, measure, mass, felt);
@@ -89,7 +89,7 @@ pub fn bounded<V: Lanes>(
     if !V::any_less(largest, tau) {
         return None;
     }
-    let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
+    let before = earlier([x, v], time_step);
     let operator_before = gradient(&before);
     let tau_before = squares(&before, &operator_before);
     let factor = (largest / tau).min(one);
@@ -101,6 +101,6 @@ pub fn bounded<V: Lanes>(
     Some(Bounded {
         factor,
         kept: V::select_less(largest, tau, kept, one),
-        weight: V::select_less(largest, tau, factor * tau * V::splat(0.25), zero),
+        weight: V::select_less(largest, tau, factor * tau, zero),
     })
 }

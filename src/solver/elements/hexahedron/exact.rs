@@ -3,7 +3,7 @@
 
 use super::carried;
 use super::fluid;
-use super::geometry::{Corners, Gradient, Modes, dot, gradient, modes};
+use super::geometry::{Corners, Gradient, Modes, dot, earlier, gradient, modes};
 use super::hourglass::Resistance;
 use super::kernel::{Settings, hourglass_rates};
 use super::kinematics::rotation_matrix;
@@ -86,7 +86,7 @@ impl<V: Lanes> Start<V> {
         steps: Steps,
     ) -> Start<V> {
         let time_step = V::splat(steps.time_step);
-        let before: [Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - time_step * v[i][k]]];
+        let before = earlier([x, v], time_step);
         let gradient_before = gradient(&before);
         let flow_before = flow(v, &gradient_before);
         let flow = flow(v, &gradient(x));

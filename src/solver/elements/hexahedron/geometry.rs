@@ -6,9 +6,7 @@
 //! 2 × 2 determinant or two. The hourglass base vectors are modes themselves. Nothing is approximated: the operator is
 //! the isoparametric gradient integrated exactly over the element, warped or not.
 
-use crate::lanes::Lanes;
-#[cfg(test)]
-use crate::lanes::array;
+use crate::lanes::{Lanes, array};
 
 /// One component at the eight corners of an element.
 pub type Corners<V> = [V; 8];
@@ -38,6 +36,12 @@ pub fn corners<V: Lanes>(m: &Modes<V>) -> Corners<V> {
     let (e, f) = (m[4] + m[5], m[5] - m[4]);
     let (s0, s1, s2, s3) = (m[3] + e, m[3] - e, f - m[3], -(m[3] + f));
     [s0 - d0, s1 - d1, s2 - d2, s3 - d3, s2 + d2, s3 + d3, s0 + d0, s1 + d1]
+}
+
+/// Modes of the positions a time ago, at these velocities since.
+#[inline(always)]
+pub fn earlier<V: Lanes>([x, v]: [&[Modes<V>; 3]; 2], time: V) -> [Modes<V>; 3] {
+    array![i in 3 => array![k in 7 => x[i][k] - time * v[i][k]]]
 }
 
 /// The mean gradient operator of an element in the space of modes, with the volume.

@@ -5,7 +5,7 @@ use super::bounded;
 use super::carried;
 use super::exact::{self, Start};
 use super::fluid;
-use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, gradient, modes};
+use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, earlier, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
 use super::rows;
@@ -107,7 +107,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (i) velocity gradient and hourglass rates at mid-step
     let half_step = V::splat(0.5 * settings.time_step);
-    let middle: [geometry::Modes<V>; 3] = array![i in 3 => array![k in 7 => x[i][k] - half_step * v[i][k]]];
+    let middle = earlier([&x, &v], half_step);
     let Gradient { g24, volume192: middle_volume192 } = gradient(&middle);
     let inverse = V::splat(1.0) / middle_volume192;
     let velocity_gradient: Matrix3<V> = array![i in 3 => array![j in 3 => dot(&v[i], &g24[j]) * inverse]];
