@@ -29,7 +29,7 @@ const LARGEST_CLOSING: f64 = 0.4;
 pub struct Barrier<V> {
     /// Mean stress that it adds, force/length².
     pub stress: V,
-    /// What it has taken from the motion in the step.
+    /// What it has taken from the motion in the step; nothing of elements that are not near it, whatever others of the chunk are.
     pub work: V,
     /// A bound of its stiffness, force/length.
     pub stiffness: V,
@@ -114,7 +114,7 @@ impl<V: Lanes> Solid<'_, V> {
         let longest = volume * V::splat(LARGEST_CLOSING) / closing;
         Barrier {
             stress,
-            work,
+            work: V::select_less(operator.volume192, initial192 * V::splat(NEAR), work, V::splat(-0.0)),
             stiffness: along * square4608 * V::splat(1.0 / 4608.0) / volume + all,
             closing_step: V::select_less(zero, closing, longest, V::splat(f64::MAX)),
         }

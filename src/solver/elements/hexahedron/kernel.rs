@@ -152,10 +152,8 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     if carries {
         carried::keep_rest::<V, K>(&felt, [&old, &stress], state, part, settings);
     }
-    if !K::EQUATION {
-        let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
-        book::<V, K>(power * middle_volume, INTERNAL, state, part);
-    }
+    let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
+    let mut work = power * middle_volume;
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
@@ -247,7 +245,11 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         let barrier = solid.held(settings.steps());
         viscous = viscous + barrier.stress;
         stable_step = barrier.stable_step(stable_step, light);
-        book::<V, K>(barrier.work, INTERNAL, state, part);
+        work = work + barrier.work;
+    }
+    // Once a step: in single precision nothing more is something, in a sum that keeps what it loses.
+    if !K::EQUATION {
+        book::<V, K>(work, INTERNAL, state, part);
     }
     let stable_step = match &start {
         Some(start) => gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
