@@ -1,4 +1,4 @@
-//! Random scenes of parts that are no bodies of elements alone: rigid blocks, and blocks that are tied.
+//! Random scenes of parts that are no bodies of elements alone, rigid blocks and blocks that are tied, and with settings that are not the default.
 
 use super::scenes::{Scene, builder, scene};
 
@@ -15,6 +15,21 @@ pub fn rigid_scene(seed: u64) -> Scene {
         let kept: String = kept.map(|line| format!("{line}\n")).collect();
         scene.deck = format!("{kept}RIGID BODY, {rigid}\nEXIT\n");
     }
+    scene
+}
+
+/// The confined scene of a seed with the step of the mesh as a whole, in single precision, or both; and with either kind of hourglass control.
+pub fn settings_scene(seed: u64) -> Scene {
+    let mut scene = scene(seed);
+    let mut settings = match (seed / 8) % 3 {
+        0 => "TIME STEP ESTIMATE, GLOBAL\n".to_string(),
+        1 => "PRECISION, SINGLE\n".to_string(),
+        _ => "TIME STEP ESTIMATE, GLOBAL\nPRECISION, SINGLE\n".to_string(),
+    };
+    if (seed / 24) % 2 == 1 {
+        settings += "HOURGLASS STIFFENING, 0.05, 0.\n";
+    }
+    scene.deck = scene.deck.replace("EXIT\n", &(settings + "EXIT\n"));
     scene
 }
 

@@ -24,17 +24,20 @@ pub enum Sink<'a> {
 /// What a pass found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PassOutcome {
-    /// Smallest stable time step, infinite when there are no elements.
+    /// Smallest step that an element asks for, infinite when there are no elements.
     pub stable_step: f64,
     /// Place of the element that sets it.
     pub controlling: Option<u32>,
+    /// Smallest [`Outcome::motion_step`]; the stable step is no larger.
+    pub motion_step: f64,
     /// Place of the first element without a positive volume or a finite motion.
     pub failed: Option<u32>,
 }
 
 impl PassOutcome {
     /// Of no elements.
-    pub const NOTHING: PassOutcome = PassOutcome { stable_step: f64::INFINITY, controlling: None, failed: None };
+    pub const NOTHING: PassOutcome =
+        PassOutcome { stable_step: f64::INFINITY, controlling: None, motion_step: f64::INFINITY, failed: None };
 
     /// Of both: the smaller step, ties to the earlier place.
     pub fn and(self, other: PassOutcome) -> PassOutcome {
@@ -46,7 +49,8 @@ impl PassOutcome {
         } else {
             (self.stable_step, first(self.controlling, other.controlling))
         };
-        PassOutcome { stable_step, controlling, failed: first(self.failed, other.failed) }
+        let motion_step = self.motion_step.min(other.motion_step);
+        PassOutcome { stable_step, controlling, motion_step, failed: first(self.failed, other.failed) }
     }
 }
 
@@ -78,6 +82,9 @@ pub trait StepKernel<const N: usize> {
 
     /// Whether it asks for the rates of its neighbours: see [`Given::rates`].
     const NEIGHBOURS: bool = false;
+
+    /// Whether [`Outcome::motion_step`] may be smaller than the stable step.
+    const MOVES_FAR: bool = false;
 
     /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
     #[inline(always)]
@@ -115,6 +122,9 @@ pub struct Outcome<V, const N: usize> {
     pub force: [[V; N]; 3],
     /// Largest stable time step; not positive, or no number, of an element that has failed.
     pub stable_step: V,
+    /// Largest step in which the shape changes by no more than it may, of kernels that [move far](StepKernel::MOVES_FAR).
+    /// It is no matter of frequencies: neighbours do not make it longer.
+    pub motion_step: V,
     /// Rate at which the volume grows, over it, of elements whose neighbours ask; else zero.
     pub rate: V,
 }
@@ -275,6 +285,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     let (mut x, mut v) = ([[V::splat(0.0); N]; 3], [[V::splat(0.0); N]; 3]);
     let (mut smallest, mut smallest_row) = (V::Row::filled(f64::INFINITY), V::Row::filled(f64::INFINITY));
     let mut failed_row = V::Row::filled(f64::INFINITY);
+    let mut motion_steps = V::Row::filled(f64::INFINITY);
     for (row, connectivity) in group.connectivity.as_chunks::<N>().0.chunks_exact(abreast).enumerate() {
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
@@ -299,13 +310,18 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
                 V::spread([x[corner], y[corner], z[corner], outcome.rate], &mut corner_forces, corner, part);
             }
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
-            let (here, step) = (V::splat(row as f64), outcome.stable_step);
-            let best = V::load(&smallest, part);
-            V::select_less(step, best, here, V::load(&smallest_row, part)).store(&mut smallest_row, part);
-            V::select_less(step, best, step, best).store(&mut smallest, part);
+            let (here, mut step) = (V::splat(row as f64), outcome.stable_step);
             if let Some(rows) = &mut steps {
                 step.store_double(rows, part);
             }
+            if S::MOVES_FAR {
+                let motion_step = outcome.motion_step;
+                motion_step.min(V::load(&motion_steps, part)).store(&mut motion_steps, part);
+                step = V::select_less(motion_step, step, motion_step, step);
+            }
+            let best = V::load(&smallest, part);
+            V::select_less(step, best, here, V::load(&smallest_row, part)).store(&mut smallest_row, part);
+            V::select_less(step, best, step, best).store(&mut smallest, part);
             let failed = V::load(&failed_row, part);
             V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_row, part);
         }
@@ -330,7 +346,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     if let Target::Nodes(merge) = &mut sink {
         merge.border_before(u32::MAX);
     }
-    summarise(group, &smallest, &smallest_row, &failed_row)
+    summarise(group, [&smallest, &smallest_row, &motion_steps, &failed_row])
 }
 
 /// One of some nearly equal shares of rows.
@@ -411,7 +427,7 @@ fn relative_corners<V: Lanes, const N: usize>(
     }
 }
 
-fn summarise<R: Numbers>(group: &Group, smallest: &R, smallest_row: &R, failed_row: &R) -> PassOutcome {
+fn summarise<R: Numbers>(group: &Group, [smallest, smallest_row, motion_steps, failed_row]: [&R; 4]) -> PassOutcome {
     (0..R::LANES).fold(PassOutcome::NOTHING, |outcome, lane| {
         // Lanes that fill up the last chunk repeat its last element.
         let place = |row: f64| {
@@ -420,6 +436,7 @@ fn summarise<R: Numbers>(group: &Group, smallest: &R, smallest_row: &R, failed_r
         outcome.and(PassOutcome {
             stable_step: smallest.number(lane),
             controlling: place(smallest_row.number(lane)),
+            motion_step: motion_steps.number(lane),
             failed: place(failed_row.number(lane)),
         })
     })

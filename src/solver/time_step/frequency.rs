@@ -19,7 +19,7 @@ use crate::comm::{Communicator, ExactSum};
 use crate::lanes::{CHUNK, Force, Row};
 use crate::restart::Archive;
 use crate::solver::domain::{ABSENT, Domain};
-use crate::solver::elements::{PassSettings, Probe, Sink};
+use crate::solver::elements::{PassOutcome, PassSettings, Probe, Sink};
 
 /// ε: share of λ that the iterations may miss; the step gives away half of it.
 const MISSED: f64 = 0.1;
@@ -65,6 +65,8 @@ pub struct Votes {
     pub rest: f64,
     /// Least ratio of own steps now and when the estimate was made.
     pub ratio: f64,
+    /// Least step in which elements change their shape by no more than they may, whatever the mesh's frequencies are.
+    pub motion: f64,
 }
 
 impl GlobalStep {
@@ -92,8 +94,8 @@ impl GlobalStep {
     }
 
     /// What this rank's elements say.
-    pub fn votes(&self, domain: &Domain) -> Votes {
-        let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0 };
+    pub fn votes(&self, domain: &Domain, found: &PassOutcome) -> Votes {
+        let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0, motion: found.motion_step };
         let blocks = domain.blocks.iter().zip(&self.takes_part).zip(&self.then);
         for ((block, takes_part), then) in blocks.filter(|((block, _), _)| !block.rigid) {
             for (group, then) in block.groups().into_iter().zip(then) {
@@ -122,7 +124,7 @@ impl GlobalStep {
         if self.stale {
             return own;
         }
-        own.max((self.found * votes.ratio).min(votes.rest))
+        own.max((self.found * votes.ratio).min(votes.rest)).min(votes.motion)
     }
 
     /// Finds the stable step anew. All ranks call it, when the elements have had their pass.

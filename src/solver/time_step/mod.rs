@@ -51,19 +51,19 @@ impl Solver {
     /// The step that all ranks take, the wish that all ranks follow, and whether any element has failed.
     pub(super) fn agree(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         let failed = self.local.failed.map_or(f64::INFINITY, |place| self.canonical(place));
-        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8), f64::INFINITY, 1.0];
+        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8), f64::INFINITY, 1.0, f64::INFINITY];
         self.clock.start();
-        let of_mesh = self.global_step.as_ref().map(|global| global.votes(&self.domain));
+        let of_mesh = self.global_step.as_ref().map(|global| global.votes(&self.domain, &self.local));
         let cast = match of_mesh {
-            Some(Votes { rest, ratio }) => {
-                (votes[3], votes[4]) = (rest, ratio);
-                5
+            Some(Votes { rest, ratio, motion }) => {
+                (votes[3], votes[4], votes[5]) = (rest, ratio, motion);
+                6
             }
             None => 3,
         };
         comm.all_min(&mut votes[..cast]);
         self.clock.stop(Section::Communication);
-        let [stable_step, failed, wish, rest, ratio] = votes;
+        let [stable_step, failed, wish, rest, ratio, motion] = votes;
         (self.stable_step, self.own_step) = (stable_step, stable_step);
         if failed.is_finite() {
             let place = self.locate(failed, comm);
@@ -71,7 +71,7 @@ impl Solver {
             let inverted = place.volume.is_finite() && place.centre.iter().all(|x| x.is_finite());
             return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
         }
-        self.estimate(Votes { rest, ratio }, comm);
+        self.estimate(Votes { rest, ratio, motion }, comm);
         let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
         self.stable_step *= self.domain.ties.as_ref().map_or(1.0, |ties| ties.step_part);
         self.stable_step = self.stable_step.min(bodies).min(self.control.longest / self.control.scale);

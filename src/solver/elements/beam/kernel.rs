@@ -141,9 +141,11 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
         let moment: [V; 3] = array![i in 3 => t * e1[i] + my * e2[i] + mz * e3[i]];
         let couple: [V; 3] = array![i in 3 => lever * (qz * e2[i] - qy * e3[i])];
         let stable_step = self.stable_step(now.length, state, part, given.moving);
+        let stable_step = V::select_less(zero, now.length, stable_step, zero);
         Outcome {
             force: array![i in 3 => [zero - force[i], force[i], couple[i] - moment[i], couple[i] + moment[i]]],
-            stable_step: V::select_less(zero, now.length, stable_step, zero),
+            stable_step,
+            motion_step: stable_step,
             rate: zero,
         }
     }

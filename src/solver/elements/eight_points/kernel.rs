@@ -134,7 +134,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         }]];
         let total = moments.mean.rotate(&r).add_diagonal(viscous);
         let force = corner_forces(&total, &resistance, &x, &operator.g24, one / operator.volume192);
-        Outcome { force, stable_step, rate: V::splat(0.0) }
+        Outcome { force, stable_step, motion_step: stable_step, rate: V::splat(0.0) }
     }
 }
 

@@ -178,6 +178,7 @@ impl Formulation for EightPoints {
             least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
+            bounded: false,
             density: None,
         });
     }

@@ -19,11 +19,16 @@ const START: f64 = 0.15;
 /// k: its strength, in moduli λ + 2μ.
 const STRENGTH: f64 = 0.25;
 
-/// Elements with less than this part of their volume are looked at: those that have left the barrier in this step are among them.
+/// Elements with less than this part of their volume at either end of the step are looked at.
 const NEAR: f64 = 2.0 * START;
 
-/// They may lose this part of their volume in a step.
+/// They may lose this part of their volume in a step, and grow by what undoes it: 1/(1 − 0.4) − 1. Work by the trapezoidal rule of so long a
+/// step is 13 % above that of the potential, as much of one that opens as of one that closes.
 const LARGEST_CLOSING: f64 = 0.4;
+const LARGEST_OPENING: f64 = 1.0 / (1.0 - LARGEST_CLOSING) - 1.0;
+
+/// So do elements of any volume that lose this part of it in a step of their own: that of a mesh may be some times as long.
+const FAST: f64 = 0.1;
 
 /// What the barrier does to elements of which some are pressed together.
 pub struct Barrier<V> {
@@ -33,24 +38,28 @@ pub struct Barrier<V> {
     pub work: V,
     /// A bound of its stiffness, force/length.
     pub stiffness: V,
-    /// The step in which no element closes by more than it may.
-    pub closing_step: V,
+    /// The step in which the volume changes by no more than it may.
+    pub motion_step: V,
 }
 
-impl<V: Lanes> Barrier<V> {
-    /// The stable step with it, given the one without and the mass.
-    #[inline(always)]
-    pub fn stable_step(&self, without: V, mass: V) -> V {
-        let step = shared_step(without, self.stiffness, mass);
-        // In this order a NaN of the element's own step, its sign of failure, stays one.
-        V::select_less(self.closing_step, step, self.closing_step, step)
-    }
-}
-
-/// Whether any element is pressed together so much; `initial` is 192 times the volume at the start.
+/// Whether any element was or is pressed together so much, given 192 times its volume in the middle and at the end of the step, and at the start
+/// of all.
 #[inline(always)]
-pub fn any<V: Lanes>(volume192: V, initial192: V) -> bool {
-    V::any_less(volume192, V::splat(NEAR) * initial192)
+pub fn any_near<V: Lanes>(volumes192: [V; 2], initial192: V) -> bool {
+    V::any_less(least(volumes192), V::splat(NEAR) * initial192)
+}
+
+/// Whether any element closes so fast that its next step is to be bounded, given the part of its volume by which it grows in a step of its own.
+#[inline(always)]
+pub fn any_fast<V: Lanes>(growth: V) -> bool {
+    V::any_less(growth, V::splat(-FAST))
+}
+
+/// The volume at the end of a step, or about that at its start where this is less: no more than that where volume grows ever faster, as that of
+/// a body that is set free does.
+#[inline(always)]
+fn least<V: Lanes>([middle, end]: [V; 2]) -> V {
+    end.min(middle + middle - end)
 }
 
 /// f′ and f″.
@@ -87,7 +96,11 @@ pub struct Solid<'a, V> {
     pub motion: [&'a [Modes<V>; 3]; 2],
     /// The operator at these positions.
     pub operator: &'a Gradient<V>,
-    /// B:B there.
+    /// 192 times the volume in the middle of the step.
+    pub middle_volume192: V,
+    /// Part of the volume by which it grows in a step of its own.
+    pub growth: V,
+    /// B:B at these positions.
     pub square4608: V,
     /// 192 times the volume at the start.
     pub initial192: V,
@@ -99,9 +112,9 @@ impl<V: Lanes> Solid<'_, V> {
     /// What the barrier does to the elements after this step.
     #[inline(always)]
     pub fn held(&self, steps: Steps) -> Barrier<V> {
-        let Solid { motion: [x, v], operator, square4608, initial192, dilatational } = *self;
-        let (zero, time_step) = (V::splat(0.0), V::splat(steps.time_step));
-        let before = earlier([x, v], time_step);
+        let Solid { motion: [x, v], operator, middle_volume192, growth: fast, square4608, initial192, dilatational } =
+            *self;
+        let before = earlier([x, v], V::splat(steps.time_step));
         let operator_before = gradient(&before);
         let [then, _] = stress_and_modulus(operator_before.volume192, initial192, dilatational);
         let [stress, _] = stress_and_modulus(operator.volume192, initial192, dilatational);
@@ -109,16 +122,25 @@ impl<V: Lanes> Solid<'_, V> {
         let rates = [growth(v, &operator_before), growth(v, operator)];
         let work = V::splat(0.5 * steps.kick) * then * rates[0] + V::splat(0.5 * steps.time_step) * stress * rates[1];
         let volume = operator.volume192 * V::splat(1.0 / 192.0);
-        let near = V::select_less(operator.volume192, initial192 * V::splat(NEAR), V::splat(1.0), zero);
-        let closing = (zero - rates[1]) * near;
-        let longest = volume * V::splat(LARGEST_CLOSING) / closing;
+        let [least, near] = [least([middle_volume192, operator.volume192]), initial192 * V::splat(NEAR)];
+        let of_near = |number: V, otherwise: f64| V::select_less(least, near, number, V::splat(otherwise));
+        let longest = volume * largest_change(rates[1]);
         Barrier {
             stress,
-            work: V::select_less(operator.volume192, initial192 * V::splat(NEAR), work, V::splat(-0.0)),
+            work: of_near(work, -0.0),
             stiffness: along * square4608 * V::splat(1.0 / 4608.0) / volume + all,
-            closing_step: V::select_less(zero, closing, longest, V::splat(f64::MAX)),
+            motion_step: V::select_less(fast, V::splat(-FAST), longest, of_near(longest, f64::MAX)),
         }
     }
+}
+
+/// Time in which a volume of one that grows at this rate does so by no more than it may.
+#[inline(always)]
+fn largest_change<V: Lanes>(rate: V) -> V {
+    let zero = V::splat(0.0);
+    let part = V::select_less(zero, rate, V::splat(LARGEST_OPENING), V::splat(LARGEST_CLOSING));
+    let size = rate.max(zero - rate);
+    V::select_less(zero, size, part / size, V::splat(f64::MAX))
 }
 
 /// Rate at which the volume grows.

@@ -10,7 +10,8 @@
 //!
 //! which bounds k|γ|². A resistance Q that is stored holds the energy Q²/2k. Where k falls Q would give back more than it has
 //! taken; it is scaled by √(k/k_old) then, so that this energy does not grow: the rest is lost in the account of hourglass resistance. The
-//! stiffness is taken to go with c B:B/V, as that of Flanagan and Belytschko does; that of assumed strain goes with c and the lengths.
+//! stiffness is taken to go with c B:B/V, as that of Flanagan and Belytschko does. That of assumed strain goes with c and the lengths; to count
+//! c alone for it, tried, is no nearer to passive on random paths, and worse in scenes (docs/decisions.md).
 
 use super::barrier::shared_step;
 use super::geometry::{Gradient, HOURGLASS, Modes, earlier, gradient, square};
@@ -76,6 +77,12 @@ pub fn squares<V: Lanes>(x: &[Modes<V>; 3], operator: &Gradient<V>) -> V {
     sum
 }
 
+/// c
+#[inline(always)]
+pub fn factor<V: Lanes>(tau: V) -> V {
+    (V::splat(LARGEST) / tau).min(V::splat(1.0))
+}
+
 /// The bound of elements with these positions, which have moved with these velocities; `None` where no τ is above τ₀.
 #[inline(always)]
 pub fn bounded<V: Lanes>(
@@ -92,8 +99,7 @@ pub fn bounded<V: Lanes>(
     let before = earlier([x, v], time_step);
     let operator_before = gradient(&before);
     let tau_before = squares(&before, &operator_before);
-    let factor = (largest / tau).min(one);
-    let factor_before = (largest / tau_before).min(one);
+    let [factor, factor_before] = [factor(tau), factor(tau_before)];
     // Stiffness goes with c B:B/V.
     let now = factor * square4608 / operator.volume192;
     let then = factor_before * operator_before.square4608() / operator_before.volume192;

@@ -1,6 +1,6 @@
 //! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
 
-use super::barrier::{self, Solid};
+use super::barrier::{self, Solid, shared_step};
 use super::bounded;
 use super::carried;
 use super::exact::{self, Start};
@@ -68,6 +68,7 @@ pub struct Physics<'a, K, H> {
 
 impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
     const NEIGHBOURS: bool = K::FLUID;
+    const MOVES_FAR: bool = K::HYPOELASTIC;
 
     #[inline(always)]
     fn step<V: Lanes>(
@@ -237,14 +238,26 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     };
     let initial192 = V::splat(192.0 / settings.density) * given.material;
     let mut viscous = viscous;
-    let mut stable_step = stable_step;
-    if K::HYPOELASTIC && barrier::any(gradient.volume192, initial192) {
+    let [mut stable_step, mut motion_step] = [stable_step, V::splat(f64::MAX)];
+    let growth = rate * stable_step;
+    if K::HYPOELASTIC
+        && (barrier::any_near([middle_volume192, gradient.volume192], initial192) || barrier::any_fast(growth))
+    {
         let dilatational = V::splat(settings.dilatational);
         let operator = &gradient;
-        let solid = Solid { motion: [&x, &v], operator, square4608: b_squared, initial192, dilatational };
+        let solid = Solid {
+            motion: [&x, &v],
+            operator,
+            middle_volume192,
+            growth,
+            square4608: b_squared,
+            initial192,
+            dilatational,
+        };
         let barrier = solid.held(settings.steps());
         viscous = viscous + barrier.stress;
-        stable_step = barrier.stable_step(stable_step, light);
+        stable_step = shared_step(stable_step, barrier.stiffness, light);
+        motion_step = barrier.motion_step;
         work = work + barrier.work;
     }
     // Once a step: in single precision nothing more is something, in a sum that keeps what it loses.
@@ -271,7 +284,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     if K::FLUID {
         force = array![i in 3 => array![n in 8 => force[i][n] + held.force[i][n]]];
     }
-    Outcome { force, stable_step, rate: if K::FLUID { rate } else { zero } }
+    Outcome { force, stable_step, motion_step, rate: if K::FLUID { rate } else { zero } }
 }
 
 /// Accounts of energies, by their place behind the internal one.

@@ -172,6 +172,7 @@ impl Formulation for Hexahedron {
             least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
+            bounded: true,
             density: law.accept(IsHypoelastic).then_some(density),
         };
         over(self.precision, pass, &vibration);

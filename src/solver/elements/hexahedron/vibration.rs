@@ -6,6 +6,7 @@
 //! makes so for every Δt ≥ Δt̂ s.) Nothing of the state changes.
 
 use super::barrier::{self, stiffness};
+use super::bounded;
 use super::geometry::{self, Corners, dot, gradient, modes};
 use super::hourglass::{self, Control, Either, Resistance};
 use super::kernel::{corner_forces, hourglass_rates, lengths};
@@ -30,6 +31,8 @@ pub struct Vibration {
     pub viscosity: BulkViscosity,
     /// Where to look.
     pub rows: FrameRows,
+    /// Whether hourglass resistance is bounded where elements are bent out of all shape.
+    pub bounded: bool,
     /// Density at the start, of laws with a barrier of the volume.
     pub density: Option<f64>,
 }
@@ -60,7 +63,12 @@ impl StepKernel<8> for Vibration {
         if matches!(self.probe, Probe::Mass) {
             // Forces are subtracted.
             let corner = zero - light * V::splat(0.125);
-            return Outcome { force: [[corner; 8], [zero; 8], [zero; 8]], stable_step: one, rate: zero };
+            return Outcome {
+                force: [[corner; 8], [zero; 8], [zero; 8]],
+                stable_step: one,
+                motion_step: one,
+                rate: zero,
+            };
         }
         let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
         let u: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
@@ -86,11 +94,13 @@ impl StepKernel<8> for Vibration {
             r[0][i] * rates[0][a] + r[1][i] * rates[1][a] + r[2][i] * rates[2][a]
         }]];
         let measure = operator.square4608() * inverse * V::splat(192.0 / 4608.0);
+        let bounded = self.bounded && bounded::any(&x, &operator);
+        let factor = if bounded { bounded::factor(bounded::squares(&x, &operator)) } else { one };
         let elastic = hourglass::State {
             lengths: lengths(&x, &r, measure),
             stiffness_measure: measure,
             mass: light,
-            mu: two_mu * V::splat(0.5),
+            mu: two_mu * V::splat(0.5) * factor,
             poisson: V::splat(self.moduli.poisson()),
             returned: one,
             time_step: one,
@@ -105,7 +115,7 @@ impl StepKernel<8> for Vibration {
         let part_left = (one + damping * damping).sqrt() - damping;
         let factor = one / (part_left * part_left);
         let held = self.density.map(|density| given.material * V::splat(192.0 / density));
-        let held = held.filter(|&initial192| barrier::any(operator.volume192, initial192));
+        let held = held.filter(|&initial192| barrier::any_near([operator.volume192; 2], initial192));
         let held = held.map(|initial192| stiffness(&x, &operator, initial192, modulus));
         let stress = held.map_or(stress, |[along, _]| stress.add_diagonal(along * strain.trace()));
         let mut force = corner_forces(&stress, &resistance, &x, &operator.g24, inverse);
@@ -116,7 +126,12 @@ impl StepKernel<8> for Vibration {
                 force[i] = array![n in 8 => force[i][n] + all * moved[n]];
             }
         }
-        Outcome { force: array![i in 3 => array![n in 8 => force[i][n] * factor]], stable_step: one, rate: zero }
+        Outcome {
+            force: array![i in 3 => array![n in 8 => force[i][n] * factor]],
+            stable_step: one,
+            motion_step: one,
+            rate: zero,
+        }
     }
 }
 

@@ -290,7 +290,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
                 force[i] = array![n in 4 => force[i][n] + held.force[i][n]];
             }
         }
-        Outcome { force, stable_step, rate: if K::FLUID { rate } else { zero } }
+        Outcome { force, stable_step, motion_step: stable_step, rate: if K::FLUID { rate } else { zero } }
     }
 }
 

@@ -86,7 +86,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
                 force[i][c + C] = moments[c][i];
             }
         }
-        Outcome { force, stable_step, rate: V::splat(0.0) }
+        Outcome { force, stable_step, motion_step: stable_step, rate: V::splat(0.0) }
     }
 }
 

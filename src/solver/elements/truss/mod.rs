@@ -231,7 +231,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         let zero = V::splat(0.0);
         // A truss that has no length any more has failed.
         let stable_step = V::select_less(zero, length, stable_step, zero);
-        Outcome { force: array![i in 3 => [zero - end[i], end[i]]], stable_step, rate: zero }
+        Outcome { force: array![i in 3 => [zero - end[i], end[i]]], stable_step, motion_step: stable_step, rate: zero }
     }
 }
 

@@ -37,18 +37,18 @@ fn struck(speed: f64, quadratic: f64) -> (f64, bool) {
     rig.pass.bulk_viscosity = BulkViscosity { linear: 0.06, quadratic };
     let c = (law.moduli().dilatational() / DENSITY).sqrt();
     let mut v = CUBE.map(|[_, _, z]| [0.0, 0.0, -speed * c * z]);
-    let mut step = rig.step(0.0, |n| v[n]).stable_step;
+    let [mut last, mut step] = [0.0, rig.step(0.0, |n| v[n]).stable_step];
     let mut least = 1.0f64;
     for _ in 0..50 {
         for n in 4..8 {
-            v[n][2] -= step * rig.force(n)[2] / (DENSITY / 8.0);
+            v[n][2] -= 0.5 * (last + step) * rig.force(n)[2] / (DENSITY / 8.0);
         }
         let found = rig.step(step, |n| v[n]);
         least = least.min(rig.position(4)[2]);
         if found.failed.is_some() {
             return (least, true);
         }
-        step = found.stable_step;
+        (last, step) = (step, found.stable_step);
     }
     (least, false)
 }
@@ -56,15 +56,17 @@ fn struck(speed: f64, quadratic: f64) -> (f64, bool) {
 #[test]
 fn impact_at_the_wave_speed_and_beyond() {
     // Quadratic viscosity sees the blow coming: the step is short and the element stiff, up to three times c.
-    for (speed, least) in [(1.0, 0.65), (1.5, 0.6), (3.0, 0.5)] {
+    for (speed, least) in [(1.0, 0.6), (1.5, 0.5), (3.0, 0.4)] {
         let (compression, failed) = struck(speed, 1.2);
         assert!(!failed && compression > least, "{speed}: {compression}");
     }
-    // Without it the element gives way to 40 % of its height at c, and folds through at 1.5 c, which is noticed.
-    let (compression, failed) = struck(1.0, 0.0);
-    assert!(!failed && (0.3..0.5).contains(&compression), "{compression}");
-    let (compression, failed) = struck(1.5, 0.0);
-    assert!(failed && compression < 0.0, "{compression}");
+    // Without it the bound of closing elements does. Nodes of half of the mass stop where h ln h − h + 1 = (v/c)²/4: at h = 0.38 at c, at 0.15,
+    // where the barrier of the volume begins, at 1.5 c; and in it at 3 c, at h = 0.15 u where f(u) = 4 (9/4 − 0.565). Linear viscosity takes
+    // part of the energy, and steps are long.
+    for (speed, height) in [(1.0, 0.382), (1.5, 0.151), (3.0, 0.0065)] {
+        let (compression, failed) = struck(speed, 0.0);
+        assert!(!failed && (0.95 * height..1.5 * height).contains(&compression), "{speed}: {compression}");
+    }
 }
 
 /// Extreme 4: nearly incompressible elements have a finite step, ∝ √(1 − 2ν), and finite forces.
