@@ -3,5 +3,6 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    urto::memory::give_back();
     urto::cli::main(std::env::args_os())
 }

@@ -16,6 +16,19 @@ pub fn reserved<T>(count: usize) -> Vec<T> {
     numbers
 }
 
+/// Lets the system have large arrays back as soon as they are gone. The C library else keeps what has been freed beside what has not,
+/// the more of it the larger the arrays that it has seen freed, and most of what a run is set up with is gone when it begins: on two
+/// ranks a crushed can took 1.3 times the memory (`docs/performance.md`). To be called before there are threads.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub fn give_back() {
+    // SAFETY: a number of the C library's allocator is set, which says from what size on it asks the system for each piece of memory
+    // apart. That must not happen while others set such numbers, and no other thread is there yet.
+    unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 20) };
+}
+
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub fn give_back() {}
+
 /// Below this size, bytes, an array fills too few large pages to gain by them.
 #[cfg(target_os = "linux")]
 const LARGE: usize = 8 << 20;

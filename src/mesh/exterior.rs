@@ -83,7 +83,7 @@ pub fn exterior<'a>(
 type Keyed = (([u32; 4], u8), u32);
 
 /// Into so many parts lists of faces are divided, so that not all are held at once, unless they are short.
-const PARTS: usize = 8;
+const PARTS: usize = 16;
 
 /// The length of a short list.
 const SHORT: usize = 1 << 16;
@@ -130,6 +130,8 @@ fn matched<'a>(
             end += 1;
         }
         list.clear();
+        // No more than it takes: a list that grows as it is would have twice the room.
+        list.reserve_exact(length);
         list.resize(length, Keyed::default());
         for face in keys(begin..end) {
             let place = &mut next[face.0.0[0] as usize - begin];

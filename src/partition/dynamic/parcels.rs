@@ -42,10 +42,14 @@ impl Parcels {
     /// were added; every rank calls it, with the same width. One sparse exchange.
     pub fn exchange(self, comm: &mut dyn Communicator) -> Records {
         let outgoing = self.messages.into_iter().enumerate().filter(|(_, message)| !message.is_empty()).collect();
-        let mut records = Records { width: self.width, ..Records::default() };
-        for (sender, message) in comm.sparse_exchange(outgoing) {
+        let incoming = comm.sparse_exchange(outgoing);
+        let length = 4 + 8 * self.width;
+        let count: usize = incoming.iter().map(|(_, message)| message.len() / length).sum();
+        let (ids, values) = (Vec::with_capacity(count), Vec::with_capacity(count * self.width));
+        let mut records = Records { width: self.width, ids, values, senders: Vec::new() };
+        for (sender, message) in incoming {
             let first = records.ids.len();
-            message.chunks_exact(4 + 8 * self.width).for_each(|record| records.unpack(record));
+            message.chunks_exact(length).for_each(|record| records.unpack(record));
             records.senders.push((sender, first..records.ids.len()));
         }
         records

@@ -38,10 +38,8 @@ pub struct ContactNodes {
     /// Whether there was a search, and whether one is due: a contact node leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
-    /// What contact says of each, in this step.
-    pub results: Vec<NodeResult>,
-    /// Contact nodes on which forces act now, ascending.
-    pub loaded: Vec<u32>,
+    /// Contact nodes on which forces act now, ascending, and what contact says of each in this step.
+    pub loaded: Vec<(u32, NodeResult)>,
     /// Rank that computes the contact of each; empty on one rank.
     pub owner_ranks: Vec<u32>,
     /// Work of normal and of friction forces so far, energies.
@@ -68,7 +66,6 @@ impl ContactNodes {
             places: inverse(list.iter().map(|contact_node| contact_node.point), points),
             list,
             motion: NodeMotion::new(count, origin),
-            results: vec![NodeResult::FREE; count],
             works: vec![[0.0; 2]; count],
             ..Default::default()
         };
@@ -88,8 +85,9 @@ impl ContactNodes {
 
     /// Local nodes of this rank that it answers for and on which forces act, and these forces.
     pub fn own_forces(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
-        let own = self.loaded.iter().map(|&i| i as usize).filter(|&i| self.list[i].owned);
-        own.map(|i| (self.list[i].node, add(self.results[i].normal_force, self.results[i].tangential_force)))
+        let own =
+            self.loaded.iter().map(|(i, result)| (&self.list[*i as usize], result)).filter(|(node, _)| node.owned);
+        own.map(|(contact_node, result)| (contact_node.node, add(result.normal_force, result.tangential_force)))
     }
 
     /// All points as contact nodes, for a search around them as they are.
@@ -148,17 +146,16 @@ impl ContactNodes {
         self.search_boxes[contact_node].corners()
     }
 
-    /// Normal and friction force on a contact node, forces.
-    pub fn forces(&self, contact_node: usize) -> [[f64; 3]; 2] {
-        let NodeResult { normal_force, tangential_force, .. } = self.results[contact_node];
-        [normal_force, tangential_force]
+    /// What contact says of a contact node on which forces act.
+    pub fn result(&mut self, contact_node: u32) -> Option<&mut NodeResult> {
+        let place = self.loaded.binary_search_by_key(&contact_node, |(loaded, _)| *loaded).ok()?;
+        Some(&mut self.loaded[place].1)
     }
 
     /// Adds the forces to the nodes; what a constraint holds, its reaction takes up.
     pub fn hand_over(&self, nodes: &mut Nodes, mut react: impl FnMut(u32, f64)) {
-        for &i in &self.loaded {
-            let (contact_node, result) = (&self.list[i as usize], &self.results[i as usize]);
-            let holders = &self.holders[i as usize];
+        for (i, result) in &self.loaded {
+            let (contact_node, holders) = (&self.list[*i as usize], &self.holders[*i as usize]);
             let sum = &mut nodes.forces[contact_node.node as usize].0;
             for axis in 0..3 {
                 let force = result.normal_force[axis] + result.tangential_force[axis];
@@ -172,12 +169,11 @@ impl ContactNodes {
 
     /// Books half the step's work with the present velocities.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        for &i in &self.loaded {
-            let v = nodes.velocity(self.list[i as usize].node);
-            let [normal, friction] = self.forces(i as usize);
-            let work = &mut self.works[i as usize];
-            work[0] += half_step * dot(normal, v);
-            work[1] += half_step * dot(friction, v);
+        for (i, result) in &self.loaded {
+            let v = nodes.velocity(self.list[*i as usize].node);
+            let work = &mut self.works[*i as usize];
+            work[0] += half_step * dot(result.normal_force, v);
+            work[1] += half_step * dot(result.tangential_force, v);
         }
     }
 }

@@ -23,6 +23,7 @@ mod reshape;
 pub mod search;
 mod seen;
 mod skin;
+mod sparse;
 mod state;
 mod touching;
 
@@ -180,12 +181,8 @@ impl Contact {
             return;
         }
         self.contact_nodes.belong(|node| rigid.of_node(node));
-        if self.remote.is_none() {
-            let of_points = &self.contact_nodes.motion.mobility.body;
-            self.problem.motion.mobility.body.clone_from(of_points);
-            if comm.size() > 1 {
-                self.problem.answers = self.contact_nodes.list.iter().map(|contact_node| contact_node.owned).collect();
-            }
+        if self.remote.is_none() && comm.size() > 1 {
+            self.problem.answers = self.contact_nodes.list.iter().map(|contact_node| contact_node.owned).collect();
         }
     }
 
@@ -218,10 +215,10 @@ impl Contact {
             Some(remote) => remote.send_forces(contact_nodes, problem, comm),
             None => {
                 std::mem::swap(&mut problem.motion, &mut contact_nodes.motion);
-                contact_nodes.loaded.clone_from(&problem.loaded);
-                for &point in &problem.loaded {
-                    contact_nodes.results[point as usize] = problem.results[point as usize];
-                }
+                contact_nodes.loaded.clear();
+                contact_nodes
+                    .loaded
+                    .extend(problem.loaded.iter().map(|&point| (point, problem.results[point as usize])));
             }
         }
     }
@@ -256,10 +253,7 @@ impl Contact {
             let history = carried.take().unwrap_or_else(|| problem.history());
             *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
         } else {
-            let points = neighbourhood::point_boxes(layout, contact_nodes);
-            let faces = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
-            let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
-            let found = neighbourhood::find(&mut **search, [&points, &faces, &edges], |_| true, layout);
+            let found = neighbourhood::find_alone(&mut **search, layout, contact_nodes);
             if carried.is_some() || self.searches == 1 {
                 *problem = alone(layout, contact_nodes, plane_nodes, found, depth);
                 problem.restore(carried.take().unwrap_or_default());

@@ -79,8 +79,8 @@ impl Contact {
     }
 
     fn results(&self) -> impl Iterator<Item = (u32, &NodeResult)> + '_ {
-        let ContactNodes { loaded, list, results, .. } = &self.contact_nodes;
-        loaded.iter().map(|&i| (list[i as usize].node, &results[i as usize]))
+        let ContactNodes { loaded, list, .. } = &self.contact_nodes;
+        loaded.iter().map(|(i, result)| (list[*i as usize].node, result))
     }
 
     /// At each local node on which contact forces act: contact force, overlap that contact closes in the coming step, status

@@ -51,7 +51,7 @@ fn find(domain: &Domain, canonical: f64) -> Option<ElementPlace> {
 }
 
 /// Living elements of this rank, block by block.
-pub fn elements(domain: &Domain) -> impl Iterator<Item = (&ElementBlock, &Group, usize)> {
+pub fn elements(domain: &Domain) -> impl Iterator<Item = (&ElementBlock, &Group, usize)> + Clone {
     let groups = domain.blocks.iter().flat_map(|block| block.groups().map(|group| (block, group)));
     groups.flat_map(|(block, group)| (0..group.len()).filter(|&i| group.is_alive(i)).map(move |i| (block, group, i)))
 }

@@ -28,6 +28,13 @@ pub type Outer = (u32, [u32; 8]);
 /// Elements are seen larger by this part, so that a point between two of them is in both.
 const LARGER: f64 = 1e-3;
 
+/// Elements that are looked at together. Neighbours follow each other in canonical order, so that few points are near those of one
+/// round, and what a search takes for a round is small against what a run keeps.
+const TOGETHER: usize = 4096;
+
+/// A point, and where it is.
+type Located = (u32, [f64; 3]);
+
 /// Bytes of a point on its way to other ranks: its number and its position.
 const PARCEL: usize = 4 + 3 * 8;
 
@@ -46,16 +53,36 @@ impl Contact {
 
     /// The nodes of all ranks that are in some of these elements, those of this rank; a node is told once for each element
     /// that it is in. All ranks call it.
-    pub fn embedded_nodes(&self, elements: &[Outer], nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
-        let points = self.points_of_all(nodes, comm);
-        let corners = |outer: &Outer| plane::solid(&outer.1.map(|node| nodes.position(node)));
-        let boxes: Vec<Box3> = elements.iter().map(|outer| Box3::around(&corners(outer))).collect();
-        let places: Vec<Box3> = points.iter().map(|(_, at)| Box3::around(&[*at])).collect();
+    pub fn embedded_nodes(
+        &self,
+        elements: impl Iterator<Item = Outer> + Clone,
+        nodes: &Nodes,
+        comm: &mut dyn Communicator,
+    ) -> Vec<EmbeddedNode> {
+        let around = |(_, corners): Outer| box_of(&corners, nodes);
+        let extent = elements.clone().fold(Box3::empty(), |all, outer| all.joined(&around(outer)));
+        let points = self.points_of_all(&extent, nodes, comm);
+        let (mut found, mut rest) = (Vec::new(), elements);
+        loop {
+            let some: Vec<Outer> = rest.by_ref().take(TOGETHER).collect();
+            if some.is_empty() {
+                return found;
+            }
+            self.embedded_among(&points, &some, nodes, &mut found);
+        }
+    }
+
+    /// Adds what of these points is in some of these elements.
+    fn embedded_among(&self, points: &[Located], elements: &[Outer], nodes: &Nodes, found: &mut Vec<EmbeddedNode>) {
+        let boxes: Vec<Box3> = elements.iter().map(|(_, corners)| box_of(corners, nodes)).collect();
+        let extent = boxes.iter().fold(Box3::empty(), |all, of| all.joined(of));
+        let point_box = |at: &[f64; 3]| Box3::around(&[*at]);
+        let points: Vec<&Located> = points.iter().filter(|(_, at)| point_box(at).overlaps(&extent)).collect();
+        let places: Vec<Box3> = points.iter().map(|(_, at)| point_box(at)).collect();
         let mut near = Candidates::default();
         // An element is not a face: no point is a corner of it here.
         SearchKind::Grid.make().find(&places, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut near);
-        let mut found = Vec::new();
-        for (i, (point, at)) in points.iter().enumerate() {
+        for (i, (point, at)) in points.into_iter().enumerate() {
             let node = self.layout.nodes[*point as usize];
             let of_others = near
                 .of(i)
@@ -63,12 +90,11 @@ impl Contact {
                 .map(|&element| &elements[element as usize])
                 .filter(|(_, corners)| corners.iter().all(|&corner| nodes.file[corner as usize] != node))
                 .filter(|(element, _)| !self.is_kept_apart(*point, *element));
-            found.extend(of_others.filter_map(|outer| {
-                let depth = self.depth(outer.0, &corners(outer), *at)?;
-                Some(EmbeddedNode { node, element: outer.0, depth })
+            found.extend(of_others.filter_map(|&(element, corners)| {
+                let corners = plane::solid(&corners.map(|node| nodes.position(node)));
+                Some(EmbeddedNode { node, element, depth: self.depth(element, &corners, *at)? })
             }));
         }
-        found
     }
 
     /// Whether the deck keeps a point from touching the faces of an element.
@@ -101,24 +127,27 @@ impl Contact {
         least.is_finite().then_some(least)
     }
 
-    /// Points that CONTACT MATERIAL lets touch, of all ranks, and where they are; on each rank.
-    fn points_of_all(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<(u32, [f64; 3])> {
+    /// Points that CONTACT MATERIAL lets touch, of all ranks: those in `extent`, and where they are. All ranks call it.
+    fn points_of_all(&self, extent: &Box3, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<Located> {
         let Some(automatic) = self.layout.automatic() else { return Vec::new() };
         let own = self
             .contact_nodes
             .list
             .iter()
             .filter(|contact_node| contact_node.owned && automatic.points[contact_node.point as usize]);
-        let mut points: Vec<(u32, [f64; 3])> =
-            own.map(|contact_node| (contact_node.point, nodes.position(contact_node.node))).collect();
+        let own = own.map(|contact_node| (contact_node.point, nodes.position(contact_node.node)));
+        let in_box = |extent: &Box3, (_, at): &Located| Box3::around(&[*at]).overlaps(extent);
+        let count = own.clone().filter(|point| in_box(extent, point)).count();
+        let mut points = Vec::with_capacity(count);
+        points.extend(own.clone().filter(|point| in_box(extent, point)));
         if comm.size() > 1 {
-            let parcel = |(point, at): &(u32, [f64; 3])| {
-                let bytes = at.iter().flat_map(|x| x.to_le_bytes());
-                point.to_le_bytes().into_iter().chain(bytes).collect::<Vec<u8>>()
-            };
-            let bytes: Vec<u8> = points.iter().flat_map(parcel).collect();
+            let extents = extents_of_all(extent, comm);
             let others = (0..comm.size()).filter(|&rank| rank != comm.rank());
-            let incoming = comm.sparse_exchange(others.map(|rank| (rank, bytes.clone())).collect());
+            let parcels = others.map(|rank| {
+                let theirs = own.clone().filter(|point| in_box(&extents[rank], point));
+                (rank, theirs.flat_map(packed).collect::<Vec<u8>>())
+            });
+            let incoming = comm.sparse_exchange(parcels.filter(|(_, bytes)| !bytes.is_empty()).collect());
             points.extend(incoming.iter().flat_map(|(_, bytes)| bytes.chunks_exact(PARCEL)).map(unpacked));
         }
         points.sort_unstable_by_key(|(point, _)| *point);
@@ -126,7 +155,28 @@ impl Contact {
     }
 }
 
-fn unpacked(bytes: &[u8]) -> (u32, [f64; 3]) {
+/// The box around an element of these local nodes.
+fn box_of(corners: &[u32; 8], nodes: &Nodes) -> Box3 {
+    Box3::around(&plane::solid(&corners.map(|node| nodes.position(node))))
+}
+
+/// What every rank calls its extent, by rank; all ranks call it.
+fn extents_of_all(own: &Box3, comm: &mut dyn Communicator) -> Vec<Box3> {
+    let mut sides = vec![[f64::INFINITY; 6]; comm.size()];
+    let ([a, b, c], [d, e, f]) = (own.low, own.high);
+    sides[comm.rank()] = [a, b, c, -d, -e, -f];
+    comm.all_min(sides.as_flattened_mut());
+    sides.into_iter().map(|[a, b, c, d, e, f]| Box3 { low: [a, b, c], high: [-d, -e, -f] }).collect()
+}
+
+fn packed((point, at): Located) -> [u8; PARCEL] {
+    let mut bytes = [0; PARCEL];
+    bytes[..4].copy_from_slice(&point.to_le_bytes());
+    bytes[4..].chunks_exact_mut(8).zip(at).for_each(|(place, x)| place.copy_from_slice(&x.to_le_bytes()));
+    bytes
+}
+
+fn unpacked(bytes: &[u8]) -> Located {
     let mut number = [0; 4];
     number.copy_from_slice(&bytes[..4]);
     let coordinate = |i: usize| {

@@ -410,7 +410,7 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &contact_nodes);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let mut locator = Locator::new(found, 1.0, motion, &layout.faces, &layout.edges);
+    let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
     locator.step(motion, &layout.faces);
     let check = NodeFaceCheck { motion, faces: &layout.faces, longest_path: locator.last_path() };
     let (mut contacts, mut found) = (Vec::new(), Vec::new());

@@ -24,6 +24,7 @@ use super::node_result::NodeResult;
 use super::pairings::{Pairing, Pairings};
 use super::search::locate::{Candidate, Locator, Rule};
 use super::search::neighbourhood::SearchResult;
+use super::sparse::Sparse;
 use crate::lanes::Vectors;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
@@ -59,7 +60,7 @@ pub struct Numbering {
 /// Points that may touch, and everything about them.
 #[derive(Default)]
 pub struct LocalProblem {
-    /// Motion of the points.
+    /// Motion of the points; where they are the contact nodes of this rank it is lent for a step, and else there are none.
     pub motion: NodeMotion,
     /// Candidates.
     pub locator: Locator,
@@ -75,14 +76,15 @@ pub struct LocalProblem {
     /// Blocks that have a say at each point, and at each face.
     blocks_around: [Vec<Blocks>; 2],
     rules: Vec<Rule>,
-    history: Vec<[FaceContact; MAX_FACES]>,
+    /// What each point touches.
+    history: Sparse<[FaceContact; MAX_FACES]>,
     edge_history: Vec<EdgeContact>,
     planes: Vec<PlaneNode>,
     /// Constraints of this step.
     pub constraints: Vec<Constraint>,
     enforcer: Enforcer,
     /// What contact says of each point.
-    pub results: Vec<NodeResult>,
+    pub results: Sparse<NodeResult>,
     /// Points on which contact forces act now, ascending.
     pub loaded: Vec<u32>,
     near: Vec<Candidate>,
@@ -150,10 +152,8 @@ impl LocalProblem {
             plane_nodes.iter().map(|plane_node| PlaneNode { point: local(plane_node.point), ..*plane_node }).collect();
         (points as u32..).zip(&numbering.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + numbering.ghosts.len();
-        let values = NodeMotion::new(points, layout.origin);
         LocalProblem {
-            locator: Locator::new(found, depth, &values, &faces, &edges),
-            motion: values,
+            locator: Locator::new(found, depth, points, &faces, &edges),
             edge_reaches: edges.iter().map(|edge| edge_edge::reach(&faces, edge)).collect(),
             edges,
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
@@ -162,11 +162,11 @@ impl LocalProblem {
                 numbering.faces.iter().map(|&face| layout.blocks_around[1][face as usize]).collect(),
             ],
             rules: layout.interfaces.iter().map(|interface| interface.rule).collect(),
-            history: vec![NO_CONTACT; points],
+            history: Sparse::new(NO_CONTACT, points),
             planes,
             places,
             enforcer: Enforcer::new(all),
-            results: vec![NodeResult::FREE; all],
+            results: Sparse::new(NodeResult::FREE, all),
             faces,
             numbering,
             ..Default::default()
@@ -181,13 +181,13 @@ impl LocalProblem {
     /// The candidates of the last search are replaced; history is kept of points that still have any.
     pub fn renew(&mut self, found: SearchResult, depth: f64) {
         let mut slave_nodes = found.slave_nodes.iter().peekable();
-        for (point, past) in self.history.iter_mut().enumerate() {
+        for point in 0..self.history.len() {
             // Whether a point without candidates is looked at must not depend on when the search is made.
             if slave_nodes.next_if(|&&next| next as usize == point).is_none() {
-                *past = NO_CONTACT;
+                self.history.reset(point);
             }
         }
-        self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
+        self.locator = Locator::new(found, depth, self.numbering.points.len(), &self.faces, &self.edges);
     }
 
     /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.
@@ -229,9 +229,10 @@ impl LocalProblem {
     /// What is carried from step to step.
     pub fn history(&self) -> History {
         let face = |face: u32| if face == NONE { NONE } else { self.numbering.faces[face as usize] };
-        let touching = self.history.iter().zip(&self.numbering.points).filter(|(past, _)| **past != NO_CONTACT);
+        let points = self.numbering.points.iter().enumerate().map(|(here, &point)| (self.history[here], point));
+        let touching = points.filter(|(past, _)| *past != NO_CONTACT);
         let points =
-            touching.map(|(past, &point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
+            touching.map(|(past, point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
         let edges = self.edge_history.iter();
         let planes = self.planes.iter().filter(|plane_node| plane_node.carried != Carried::NOTHING);
         History {
@@ -246,9 +247,10 @@ impl LocalProblem {
     /// Puts back what was carried, as far as it concerns what is here.
     pub fn restore(&mut self, mut history: History) {
         for (point, pasts) in history.points {
-            let here = place(&self.numbering.points, point);
-            if let Some(mine) = self.history.get_mut(here as usize) {
-                *mine = tidy(pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past }));
+            let here = place(&self.numbering.points, point) as usize;
+            if here < self.history.len() {
+                *self.history.own(here) =
+                    tidy(pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past }));
             }
         }
         history.edges.sort_by_key(|past| past.pair);
@@ -365,11 +367,10 @@ impl LocalProblem {
                 continue;
             }
             let point = locator.slave_nodes()[i];
-            let past = &mut history[point as usize];
-            locator.locate(i, motion, faces, past, near);
+            locator.locate(i, motion, faces, &history[point as usize], near);
             if near.is_empty() {
                 if locator.is_held(i) {
-                    *past = NO_CONTACT;
+                    history.reset(point as usize);
                     locator.set_held(i, false);
                 }
                 continue;
@@ -379,13 +380,13 @@ impl LocalProblem {
             strict.clear();
             strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
             // The history of the many that nothing holds need not be fetched.
-            let before = if locator.is_held(i) { *past } else { NO_CONTACT };
+            let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
             check.point(point, near_faces, strict, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;
             }
             locator.set_held(i, !contacts.is_empty());
-            *past = NO_CONTACT;
+            history.reset(point as usize);
             for (place, contact) in contacts.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
@@ -399,7 +400,8 @@ impl LocalProblem {
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
-                past[place] = FaceContact { face: contact.face, tolerated: contact.tolerated, ..NO_CONTACT[0] };
+                history.own(point as usize)[place] =
+                    FaceContact { face: contact.face, tolerated: contact.tolerated, ..NO_CONTACT[0] };
             }
         }
     }
@@ -442,7 +444,7 @@ impl LocalProblem {
         let c = self.constraints[constraint];
         match c.origin {
             Origin::Face(_, place) => {
-                let past = &mut self.history[c.members[0] as usize][place as usize];
+                let past = &mut self.history.own(c.members[0] as usize)[place as usize];
                 past.carried = c.carried;
             }
             Origin::Edges(first, second) => {
@@ -461,7 +463,7 @@ impl LocalProblem {
 
     /// Forgets the forces of this step.
     pub fn forget(&mut self) {
-        self.loaded.drain(..).for_each(|point| self.results[point as usize] = NodeResult::FREE);
+        self.loaded.drain(..).for_each(|point| self.results.reset(point as usize));
         self.constraints.clear();
     }
 }

@@ -10,7 +10,7 @@ use crate::solver::contact::enforcement::constraint::{Constraint, Origin};
 use crate::solver::contact::enforcement::resultants::{Resultants, Share, Side};
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::meetings::Meetings;
-use crate::solver::contact::node_result::{Details, NodeResult, Status};
+use crate::solver::contact::node_result::{Details, Status};
 use crate::solver::contact::seen::Seen;
 use crate::vector::dot;
 
@@ -106,10 +106,10 @@ impl LocalProblem {
 
     /// Says what contact does to each node.
     pub(super) fn tell_nodes(&mut self) {
-        self.loaded.drain(..).for_each(|point| self.results[point as usize] = NodeResult::FREE);
+        self.loaded.drain(..).for_each(|point| self.results.reset(point as usize));
         for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
             for (point, _) in c.parts() {
-                let result = &mut self.results[point];
+                let result = self.results.own(point);
                 if result.details.status == Status::Free {
                     self.loaded.push(point as u32);
                     result.normal_force = self.enforcer.normal_force[point];
@@ -117,7 +117,7 @@ impl LocalProblem {
                     result.details.status = Status::Loaded;
                 }
             }
-            let Details { gap, status, face, plane_force } = &mut self.results[c.members[0] as usize].details;
+            let Details { gap, status, face, plane_force } = &mut self.results.own(c.members[0] as usize).details;
             *gap = gap.min(c.gap);
             match c.origin {
                 Origin::Face(..) => {

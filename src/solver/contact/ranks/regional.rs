@@ -32,46 +32,45 @@ impl Regional {
         let owner_rank = |point: u32| {
             f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
         };
-        let own = neighbourhood::point_boxes(layout, contact_nodes);
+        // One kind after the other, each let go of as soon as it is on its way: a search takes the most memory of all that a step does.
+        let (points, _) = sorted::<0>(sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, size, comm));
         let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, contact_nodes);
-        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
-        let [mut to_owner, mut edges_to_owner] = [6, 6].map(|width| Parcels::new(size, width));
-        for (&point, of) in own.ids.iter().zip(&own.boxes) {
-            to_owner.add(owner_rank(point) as u32, point, &flat(of));
-        }
-        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
-            edges_to_owner.add(owner_rank(layout.edges[edge as usize].ends[0]) as u32, edge, &flat(of));
-        }
-        let (points, _) = sorted(to_owner.exchange(comm));
-        let (own_edges, _) = sorted(edges_to_owner.exchange(comm));
+        let first_owner = |edge: u32| owner_rank(layout.edges[edge as usize].ends[0]);
+        let (own_edges, _) = sorted::<0>(sent(edges.clone(), first_owner, size, comm));
         let all = points.boxes.iter().chain(&own_edges.boxes).filter(|of| of.is_sound());
         let all = all.fold(Box3::empty(), |all, one| all.joined(one));
+        let own_edges = own_edges.ids;
         let regions = Regions::gather(all.low, all.high, comm);
-        let [mut face_parcels, mut edge_parcels] = [10, 8].map(|width| Parcels::new(size, width));
         let mut ranks = Vec::new();
-        for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
-            regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(owner_rank));
-            let values = [a, b, c, d, e, f, g, h, i, j];
-            ranks.iter().for_each(|&rank| face_parcels.add(rank, face, &values));
-        }
+        let mut parcels = Parcels::new(size, 8);
         for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
             regions.ranks_meeting(of.low, of.high, &mut ranks);
             let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(owner_rank));
             let values = [a, b, c, d, e, f, g, h];
-            ranks.iter().for_each(|&rank| edge_parcels.add(rank, edge, &values));
+            ranks.iter().for_each(|&rank| parcels.add(rank, edge, &values));
         }
-        let (faces, face_owners) = sorted(face_parcels.exchange(comm));
-        let (edges, edge_owners) = sorted(edge_parcels.exchange(comm));
-        Regional {
-            points,
-            faces,
-            edges,
-            own_edges: own_edges.ids,
-            face_owners: face_owners.chunks_exact(4).map(|v| [0, 1, 2, 3].map(|i| v[i] as u32)).collect(),
-            edge_owners: edge_owners.chunks_exact(2).map(|v| [0, 1].map(|i| v[i] as u32)).collect(),
+        drop(edges);
+        let (edges, edge_owners) = sorted(parcels.exchange(comm));
+        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
+        let mut parcels = Parcels::new(size, 10);
+        for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
+            regions.ranks_meeting(of.low, of.high, &mut ranks);
+            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(owner_rank));
+            let values = [a, b, c, d, e, f, g, h, i, j];
+            ranks.iter().for_each(|&rank| parcels.add(rank, face, &values));
         }
+        drop(faces);
+        let (faces, face_owners) = sorted(parcels.exchange(comm));
+        Regional { points, faces, edges, own_edges, face_owners, edge_owners }
     }
+}
+
+/// Sends each box to its rank; what has come instead. All ranks call it.
+fn sent(boxes: Boxes, rank: impl Fn(u32) -> f64, size: usize, comm: &mut dyn Communicator) -> Records {
+    let mut parcels = Parcels::new(size, 6);
+    boxes.ids.iter().zip(&boxes.boxes).for_each(|(&id, of)| parcels.add(rank(id) as u32, id, &flat(of)));
+    drop(boxes);
+    parcels.exchange(comm)
 }
 
 fn flat(of: &Box3) -> [f64; 6] {
@@ -79,13 +78,13 @@ fn flat(of: &Box3) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Boxes that have come, by number, and the numbers behind each box.
-fn sorted(records: Records) -> (Boxes, Vec<f64>) {
-    let (mut boxes, mut rest) = (Boxes::default(), Vec::new());
+/// Boxes that have come, by number, and the owner ranks behind each box.
+fn sorted<const OWNERS: usize>(records: Records) -> (Boxes, Vec<[u32; OWNERS]>) {
+    let (mut boxes, mut owners) = (Boxes::with_capacity(records.len()), Vec::with_capacity(records.len()));
     for i in records.by_id() {
         let v = records.values(i as usize);
         boxes.push(records.ids[i as usize], Box3 { low: [v[0], v[1], v[2]], high: [v[3], v[4], v[5]] });
-        rest.extend_from_slice(&v[6..]);
+        owners.push(std::array::from_fn(|owner| v[6 + owner] as u32));
     }
-    (boxes, rest)
+    (boxes, owners)
 }

@@ -19,6 +19,7 @@ use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::contact_nodes::{ContactNode, ContactNodes};
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
@@ -153,19 +154,17 @@ impl Remote {
                 // All bits at once: comparing the arrays would be a call for every point.
                 let unlike = forces.iter().zip(AT_REST).fold(0, |all, (a, b)| all | (a.to_bits() ^ b.to_bits()));
                 if unlike != 0 {
-                    contact_nodes.results[contact_node as usize] = NodeResult::unpack_forces(forces);
-                    contact_nodes.loaded.push(contact_node);
+                    contact_nodes.loaded.push((contact_node, NodeResult::unpack_forces(forces)));
                 }
             },
             comm,
         );
         for &point in &problem.loaded {
             if let Some(&contact_node) = self.own.get(point as usize).filter(|&&contact_node| contact_node != ABSENT) {
-                contact_nodes.results[contact_node as usize] = problem.results[point as usize];
-                contact_nodes.loaded.push(contact_node);
+                contact_nodes.loaded.push((contact_node, problem.results[point as usize]));
             }
         }
-        contact_nodes.loaded.sort_unstable();
+        contact_nodes.loaded.sort_unstable_by_key(|(contact_node, _)| *contact_node);
     }
 
     /// Brings the details of what contact has found in this step to the nodes that other ranks load: only output asks for them.
@@ -179,7 +178,10 @@ impl Remote {
             &mut (contact_nodes, problem),
             |(_, problem), point| problem.results[point as usize].details.pack(),
             |(contact_nodes, _), contact_node, details| {
-                contact_nodes.results[contact_node as usize].details = Details::unpack(details);
+                // What takes part in nothing has no forces and no details.
+                if let Some(result) = contact_nodes.result(contact_node) {
+                    result.details = Details::unpack(details);
+                }
             },
             comm,
         );
@@ -209,7 +211,9 @@ impl Remote {
         let is_own = |plane_node: &&PlaneNode| regional.points.ids.binary_search(&plane_node.point).is_ok();
         let plane_nodes: Vec<PlaneNode> = plane_nodes.iter().filter(is_own).copied().collect();
         let numbering = numbering(layout, &found, &plan, &plane_nodes);
+        let motion = NodeMotion::new(numbering.points.len(), layout.origin);
         let mut problem = LocalProblem::new(numbering, found, depth, layout, &plane_nodes);
+        problem.motion = motion;
         self.connect((layout, contact_nodes), &mut problem, &plan, &regional, &plane_nodes, comm);
         problem.restore(history);
         problem
@@ -229,7 +233,7 @@ impl Remote {
             }
         };
         let mut weights = vec![1; contact_nodes.list.len()];
-        contact_nodes.loaded.iter().for_each(|&contact_node| weights[contact_node as usize] = LOADED);
+        contact_nodes.loaded.iter().for_each(|&(contact_node, _)| weights[contact_node as usize] = LOADED);
         let (mut places, mut ids, mut own_weights) = (Vec::new(), Vec::new(), Vec::new());
         for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
             places.push(contact_nodes.motion.start(i as u32));

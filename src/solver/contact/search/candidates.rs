@@ -61,6 +61,8 @@ impl Candidates {
             *start -= 1;
             self.faces[*start as usize] = *face;
         }
+        // They take more than all the rest, and are not asked for any more.
+        self.pairs = Vec::new();
         for bounds in self.starts.windows(2) {
             let list = &mut self.faces[bounds[0] as usize..bounds[1] as usize];
             if !list.is_sorted() {

@@ -86,9 +86,9 @@ impl Grid {
             let (many, few) = (of_nodes[class as usize], of_faces[..=class as usize].iter().sum());
             cells.join((nodes, many, larger), (faces, few, smaller), edge, push);
         }
-        found.sort_by_node(nodes.len());
         // Between searches the memory of the cells is better used by others.
         *cells = Cells::default();
+        found.sort_by_node(nodes.len());
     }
 }
 

@@ -143,9 +143,9 @@ impl CaptureBoxes {
 }
 
 impl Locator {
-    /// Takes over what a search has found, in numbers of the local problem.
-    pub fn new(found: SearchResult, depth: f64, motion: &NodeMotion, faces: &Faces, edges: &[Edge]) -> Locator {
-        let mut is_moving = vec![false; motion.len()];
+    /// Takes over what a search has found, in numbers of the local problem, which has so many `points`.
+    pub fn new(found: SearchResult, depth: f64, points: usize, faces: &Faces, edges: &[Edge]) -> Locator {
+        let mut is_moving = vec![false; points];
         for &edge in found.pairs.iter().flatten() {
             edges[edge as usize].ends.iter().for_each(|&end| is_moving[end as usize] = true);
         }
@@ -157,7 +157,7 @@ impl Locator {
             depth,
             sleep: vec![SleepState::default(); found.slave_nodes.len()],
             quiet_until: vec![0.0; found.slave_nodes.len()],
-            moving: (0..motion.len() as u32).filter(|&point| is_moving[point as usize]).collect(),
+            moving: (0..points as u32).filter(|&point| is_moving[point as usize]).collect(),
             slave_nodes: found.slave_nodes,
             first: found.first,
             candidates: found.candidates,

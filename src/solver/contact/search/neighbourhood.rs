@@ -6,6 +6,7 @@ use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::{Box3, Candidates, Search};
+use std::borrow::Cow;
 
 /// Numbers, ascending, and their boxes.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +18,11 @@ pub struct Boxes {
 }
 
 impl Boxes {
+    /// None yet, with room for so many and no more.
+    pub fn with_capacity(count: usize) -> Boxes {
+        Boxes { ids: Vec::with_capacity(count), boxes: Vec::with_capacity(count) }
+    }
+
     /// Adds one.
     pub fn push(&mut self, id: u32, of: Box3) {
         self.ids.push(id);
@@ -45,7 +51,7 @@ fn around(contact_nodes: &ContactNodes, contact_node: usize) -> Box3 {
 
 /// Boxes of some contact nodes, as large as they reach.
 pub fn point_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
-    let mut points = Boxes::default();
+    let mut points = Boxes::with_capacity(contact_nodes.list.len());
     for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
         let reach = layout.faces.node_reach[contact_node.point as usize];
         points.push(contact_node.point, around(contact_nodes, i).grown(reach));
@@ -55,7 +61,7 @@ pub fn point_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
 
 /// Boxes of some faces, whose corners are contact nodes.
 pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
-    let mut all = Boxes::default();
+    let mut all = Boxes::with_capacity(faces.size_hint().0);
     for face in faces {
         let corners = layout.faces.corners[face as usize].map(|corner| contact_nodes.of(corner));
         let of = corners
@@ -68,15 +74,26 @@ pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nod
 }
 
 /// Boxes of those of some edges that take part, whose ends are contact nodes.
-pub fn edge_boxes(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
-    let mut all = Boxes::default();
-    for edge in edges.filter(|&edge| layout.takes_part(edge)) {
+pub fn edge_boxes(edges: impl Iterator<Item = u32> + Clone, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
+    let edges = edges.filter(|&edge| layout.takes_part(edge));
+    let mut all = Boxes::with_capacity(edges.clone().count());
+    for edge in edges {
         let one = &layout.edges[edge as usize];
         let of = one.ends.iter().filter_map(|&end| contact_nodes.of(end));
         let of = of.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)));
         all.push(edge, of.grown(edge_edge::farthest_reach(&layout.faces, one) + one.distance(&layout.faces)));
     }
     all
+}
+
+/// Finds what there is to find on one rank: edges first, whose boxes are gone when those of points and faces come.
+pub fn find_alone(search: &mut dyn Search, layout: &Layout, contact_nodes: &ContactNodes) -> SearchResult {
+    let edges = edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
+    let pairs = crossings(search, &edges, |_| true, layout);
+    drop(edges);
+    let points = point_boxes(layout, contact_nodes);
+    let faces = face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
+    SearchResult { pairs, ..find(search, [&points, &faces, &Boxes::default()], |_| true, layout) }
 }
 
 /// Finds all candidates of these points among these faces, and the crossings of `mine` among these edges with all of them.
@@ -86,13 +103,13 @@ pub fn find(
     mine: impl Fn(u32) -> bool,
     layout: &Layout,
 ) -> SearchResult {
-    let candidates: Vec<(Vec<u32>, Candidates)> =
-        (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
     let mut found = SearchResult { pairs: crossings(search, edges, mine, layout), ..Default::default() };
+    let candidates: Vec<(Cow<Boxes>, Candidates)> =
+        (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
     for (place, &point) in points.ids.iter().enumerate() {
         let begin = found.candidates.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
-            let near = candidates.of(place).iter().map(|&place| faces[place as usize]);
+            let near = candidates.of(place).iter().map(|&place| faces.ids[place as usize]);
             let faces = &layout.faces;
             let joined = |face: u32| layout.are_joined(point, &faces.corners[face as usize]);
             let by_blocks = layout.interfaces[number].rule == Rule::Blocks;
@@ -117,27 +134,44 @@ pub fn find(
 }
 
 /// Candidates of one interface, and the faces among which they count.
-fn of_interface(
+fn of_interface<'a>(
     search: &mut dyn Search,
     points: &Boxes,
-    faces: &Boxes,
+    faces: &'a Boxes,
     interface: &Interface,
-) -> (Vec<u32>, Candidates) {
-    let takes_part = |(&point, of): (&u32, &Box3)| if interface.points[point as usize] { *of } else { Box3::empty() };
-    let nodes: Vec<Box3> = points.ids.iter().zip(&points.boxes).map(takes_part).collect();
-    let mut chosen = Boxes::default();
-    let mut list = interface.faces.iter().peekable();
-    for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
-        while list.next_if(|&&other| other < face).is_some() {}
-        if list.next_if(|&&other| other == face).is_some() {
-            chosen.push(face, *of);
+) -> (Cow<'a, Boxes>, Candidates) {
+    let takes_part = |point: u32| interface.points[point as usize];
+    let nodes = match points.ids.iter().all(|&point| takes_part(point)) {
+        true => Cow::Borrowed(&points.boxes),
+        false => {
+            let places = points.ids.iter().zip(&points.boxes);
+            Cow::Owned(places.map(|(&point, of)| if takes_part(point) { *of } else { Box3::empty() }).collect())
         }
-    }
+    };
+    let chosen = among(faces, &interface.faces);
     // Corners are left out with all nodes of the element.
     let corners = vec![[u32::MAX; 4]; chosen.ids.len()];
     let mut found = Candidates::default();
     search.find(&nodes, &chosen.boxes, &corners, &mut found);
-    (chosen.ids, found)
+    (chosen, found)
+}
+
+/// Those of some faces that are in an ascending list. Mostly these are all, and nothing is copied.
+fn among<'a>(faces: &'a Boxes, list: &[u32]) -> Cow<'a, Boxes> {
+    let chosen = || {
+        let mut list = list.iter().peekable();
+        faces.ids.iter().zip(&faces.boxes).filter(move |(face, _)| {
+            while list.next_if(|other| other < face).is_some() {}
+            list.next_if_eq(face).is_some()
+        })
+    };
+    let count = chosen().count();
+    if count == faces.ids.len() {
+        return Cow::Borrowed(faces);
+    }
+    let mut all = Boxes::with_capacity(count);
+    chosen().for_each(|(&face, of)| all.push(face, *of));
+    Cow::Owned(all)
 }
 
 /// Puts the candidates of one point in order. Of interfaces that name the same pair, the first holds.
@@ -153,32 +187,35 @@ fn keep_first(near: &mut Vec<Candidate>, begin: usize) {
     near.truncate(kept);
 }
 
+/// Edges that are looked through together: what a search takes for these is small against what a run keeps.
+const TOGETHER: usize = 1 << 15;
+
+/// Crossings that `mine` among these edges can have with all of them, ascending.
 fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool, layout: &Layout) -> Vec<[u32; 2]> {
-    if edges.ids.is_empty() {
-        return Vec::new();
-    }
-    let stands_out = |edge: u32| layout.edges[edge as usize].stands_out();
-    let asks = |edge: u32| mine(edge) && stands_out(edge);
-    let own = edges.ids.iter().zip(&edges.boxes).map(|(&edge, of)| if asks(edge) { *of } else { Box3::empty() });
-    let own: Vec<Box3> = own.collect();
-    let selves: Vec<[u32; 4]> = (0..own.len() as u32).map(|edge| [edge; 4]).collect();
-    let mut found = Candidates::default();
-    search.find(&own, &edges.boxes, &selves, &mut found);
+    let asks = |edge: u32| mine(edge) && layout.edges[edge as usize].stands_out();
+    let own: Vec<(u32, &Box3)> = edges.ids.iter().copied().zip(&edges.boxes).filter(|(edge, _)| asks(*edge)).collect();
     let mut pairs = Vec::new();
-    for (place, &first) in edges.ids.iter().enumerate() {
-        let others = found.of(place).iter().map(|&other| edges.ids[other as usize]);
-        let others = others.filter(|&other| layout.meets(first, other) && (other > first || !stands_out(other)));
-        let one = &layout.edges[first as usize];
-        let joined = |other: u32| {
-            let others = &layout.edges[other as usize].ends;
-            one.ends.iter().any(|&end| layout.are_joined(end, others))
-        };
-        let kept_apart = |other: u32| {
-            layout.exclusions.keep_edges_apart(one.faces, layout.edges[other as usize].faces, &layout.faces)
-        };
-        let others = others.filter(|&other| !joined(other) && !kept_apart(other));
-        let unrelated = others.filter(|&other| edges::unrelated(one, &layout.edges[other as usize], &layout.faces));
-        pairs.extend(unrelated.map(|second| [first, second]));
+    for (ids, boxes) in edges.ids.chunks(TOGETHER).zip(edges.boxes.chunks(TOGETHER)) {
+        let extent = boxes.iter().fold(Box3::empty(), |all, of| all.joined(of));
+        let near: Vec<(u32, &Box3)> = own.iter().copied().filter(|(_, of)| of.overlaps(&extent)).collect();
+        let near_boxes: Vec<Box3> = near.iter().map(|(_, of)| **of).collect();
+        let mut found = Candidates::default();
+        search.find(&near_boxes, boxes, &vec![[u32::MAX; 4]; ids.len()], &mut found);
+        for (place, &(first, _)) in near.iter().enumerate() {
+            let others = found.of(place).iter().map(|&other| ids[other as usize]);
+            pairs.extend(others.filter(|&other| may_cross(first, other, layout)).map(|other| [first, other]));
+        }
     }
+    pairs.sort_unstable();
     pairs
+}
+
+/// Whether an edge that stands out may cross another: of two that stand out the one with the lower number asks, and none crosses itself.
+fn may_cross(first: u32, other: u32, layout: &Layout) -> bool {
+    let (one, another) = (&layout.edges[first as usize], &layout.edges[other as usize]);
+    layout.meets(first, other)
+        && (other > first || !another.stands_out())
+        && !one.ends.iter().any(|&end| layout.are_joined(end, &another.ends))
+        && !layout.exclusions.keep_edges_apart(one.faces, another.faces, &layout.faces)
+        && edges::unrelated(one, another, &layout.faces)
 }

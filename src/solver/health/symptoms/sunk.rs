@@ -43,15 +43,13 @@ fn sunk(exam: &Exam, comm: &mut dyn Communicator) -> Vec<EmbeddedNode> {
         while numbers.next_if(|first| *first < canonical).is_some() {}
         *is_outer = numbers.peek() == Some(&canonical);
     }
+    drop(outer);
     let here = elements(domain).filter(|(_, group, i)| is_outer[group.places[*i] as usize]);
-    let here: Vec<(u32, [u32; 8])> = here
-        .filter(|(block, ..)| block.element.entry().shape.is_solid())
-        .map(|(_, group, i)| {
-            let nodes: Vec<u32> = group.nodes(i).collect();
-            (domain.element_canonical[group.places[i] as usize], plane::eight(&nodes))
-        })
-        .collect();
-    let found = contact.embedded_nodes(&here, &domain.nodes, comm);
+    let here = here.filter(|(block, ..)| block.element.entry().shape.is_solid()).map(|(_, group, i)| {
+        let nodes: Vec<u32> = group.nodes(i).collect();
+        (domain.element_canonical[group.places[i] as usize], plane::eight(&nodes))
+    });
+    let found = contact.embedded_nodes(here, &domain.nodes, comm);
     let mut count = [found.iter().filter(|sunk| sunk.depth >= DEEP).count() as u64];
     comm.all_sum(&mut count);
     if count[0] == 0 {
@@ -89,7 +87,8 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
 /// The deepest node, and the element that it is in.
 fn place(exam: &Exam, evidence: &mut Evidence, comm: &mut dyn Communicator) {
     let own = sunk(exam, comm);
-    let first = own.iter().max_by(|a, b| a.depth.total_cmp(&b.depth).then(b.node.cmp(&a.node)));
+    let first =
+        own.iter().max_by(|a, b| a.depth.total_cmp(&b.depth).then(b.node.cmp(&a.node)).then(b.element.cmp(&a.element)));
     let key = first.map_or([f64::INFINITY; 2], |sunk| [-sunk.depth, f64::from(sunk.node)]);
     let Some(node) = first_of_all(key, comm) else { return };
     let mine = first.filter(|sunk| f64::from(sunk.node) == node);
