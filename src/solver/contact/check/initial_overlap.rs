@@ -412,7 +412,7 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
     locator.step(motion, &layout.faces);
-    let check = NodeFaceCheck { motion, faces: &layout.faces, longest_path: locator.last_path() };
+    let check = NodeFaceCheck { motion, faces: &layout.faces, longest_path: locator.longest_path() };
     let (mut contacts, mut found) = (Vec::new(), Vec::new());
     let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.slave_nodes().len() {

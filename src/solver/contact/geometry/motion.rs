@@ -51,30 +51,84 @@ pub struct NodeMotion {
     origin: [f64; 3],
     /// Length of the step, a time: how long paths take.
     drift: f64,
-    /// Whether a node counts in the longest path: all bits or none.
+    /// Whether a node counts among the paths: all bits or none.
     counts: Vec<u64>,
-    longest: Longest,
+    range: PathRange,
     instructions: InstructionSet,
 }
 
-/// The longest path along each axis, a length. Without branches, which nobody could foretell.
+/// Between which paths along each axis all paths are, no path among them: lengths. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
-struct Longest {
-    lengths: Four,
+struct PathRange {
+    low: Four,
+    high: Four,
     /// Not a number where a path's length is not one or has no end, else zero.
     poison: Four,
 }
 
-impl Longest {
+impl PathRange {
     #[inline(always)]
     fn take(&mut self, [before, start, end]: [Four; 3], counts: u64) {
         for i in 0..4 {
-            let length = larger((start[i] - before[i]).abs(), (end[i] - start[i]).abs());
-            let length = f64::from_bits(length.to_bits() & counts);
-            self.poison[i] += 0.0 * length;
-            self.lengths[i] = larger(length, self.lengths[i]);
+            let gone = f64::from_bits((start[i] - before[i]).to_bits() & counts);
+            let ahead = f64::from_bits((end[i] - start[i]).to_bits() & counts);
+            self.poison[i] += 0.0 * ahead;
+            self.low[i] = smaller(smaller(gone, ahead), self.low[i]);
+            self.high[i] = larger(larger(gone, ahead), self.high[i]);
         }
     }
+}
+
+/// How far nodes go in a step, along an axis.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Paths {
+    /// The longest path, a length.
+    pub longest: f64,
+    /// Half of the most by which two paths differ, one of which may be none: how far either of two nodes goes at most, seen from
+    /// halfway between them. No less than half of the longest: boxes around two equal paths are that much nearer than the nodes.
+    pub half_range: f64,
+}
+
+impl Paths {
+    /// Of paths between these. A path that is not a number leaves nobody at rest.
+    fn between([low, high]: [[f64; 3]; 2]) -> Paths {
+        let all = low
+            .iter()
+            .zip(&high)
+            .fold([0.0f64; 2], |[longest, range], (low, high)| [longest.max(-low).max(*high), range.max(high - low)]);
+        Paths { longest: all[0], half_range: 0.5 * all[1] }
+    }
+
+    /// Of some nodes, in the coming step.
+    pub fn ahead(points: impl Iterator<Item = u32>, motion: &NodeMotion) -> Paths {
+        let mut range = PathRange::default();
+        for point in points {
+            let start = motion.motion[point as usize].start;
+            range.take([start, start, motion.end_four(point)], u64::MAX);
+        }
+        range.paths()
+    }
+
+    /// Of both.
+    pub fn and(self, other: Paths) -> Paths {
+        Paths { longest: self.longest.max(other.longest), half_range: self.half_range.max(other.half_range) }
+    }
+}
+
+impl PathRange {
+    fn paths(&self) -> Paths {
+        if self.poison[..3] == [0.0; 3] {
+            Paths::between([three(self.low), three(self.high)])
+        } else {
+            Paths { longest: f64::INFINITY, half_range: f64::INFINITY }
+        }
+    }
+}
+
+/// The smaller of two numbers; what is none has no say where it comes first.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// The larger of two numbers; what is none has no say where it comes first.
@@ -129,7 +183,7 @@ impl NodeMotion {
 
     /// Begins a step of length `drift`, a time; then the motion of every node is to be set.
     pub fn begin(&mut self, drift: f64) {
-        (self.drift, self.longest) = (drift, Longest::default());
+        (self.drift, self.range) = (drift, PathRange::default());
     }
 
     /// Sets a node's position and its velocities over the coming step and over the step `before`, and finds its path.
@@ -138,7 +192,7 @@ impl NodeMotion {
         self.before[point] = before;
         let motion = PointMotion { start: four(start), velocity: four(velocity) };
         let end = motion.end(self.drift);
-        self.longest.take([self.motion[point].start, motion.start, end], self.counts[point]);
+        self.range.take([self.motion[point].start, motion.start, end], self.counts[point]);
         (self.motion[point], self.swept_boxes[point]) = (motion, motion.box_to(end, four(self.origin)));
     }
 
@@ -146,7 +200,7 @@ impl NodeMotion {
     #[inline]
     pub fn copy(&mut self, point: usize, others: &NodeMotion, other: usize) {
         let motion = others.motion[other];
-        self.longest.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
+        self.range.take([self.motion[point].start, motion.start, motion.end(self.drift)], self.counts[point]);
         (self.motion[point], self.swept_boxes[point]) = (motion, others.swept_boxes[other]);
     }
 
@@ -176,31 +230,29 @@ impl NodeMotion {
     #[inline(always)]
     fn set_each(&mut self, motions: impl Iterator<Item = (Four, Four)>, search_boxes: &[SweptBox]) -> bool {
         let (drift, origin) = (self.drift, four(self.origin));
-        let (mut longest, mut outside) = (self.longest, Outside::default());
+        let (mut range, mut outside) = (self.range, Outside::default());
         let places = self.motion.iter_mut().zip(&mut self.swept_boxes).zip(&self.counts).zip(search_boxes);
         for ((((before, swept), &counts), search_box), (start, velocity)) in places.zip(motions) {
             let motion = PointMotion { start, velocity };
             let end = motion.end(drift);
-            longest.take([before.start, start, end], counts);
+            range.take([before.start, start, end], counts);
             *swept = motion.box_to(end, origin);
             outside.take(swept, search_box);
             *before = motion;
         }
-        self.longest = longest;
+        self.range = range;
         outside.any()
     }
 
-    /// Chooses the nodes that count in the longest path.
+    /// Chooses the nodes that count among the paths.
     pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
         self.counts.fill(0);
         chosen.for_each(|point| self.counts[point as usize] = u64::MAX);
     }
 
-    /// The farthest that a node which counts has gone in the last step or will go in this one, along an axis: a length.
-    pub fn longest_path(&self) -> f64 {
-        let Longest { lengths: [x, y, z, _], poison } = self.longest;
-        // A path that is not a number leaves nobody at rest.
-        if poison[..3] == [0.0; 3] { x.max(y).max(z) } else { f64::INFINITY }
+    /// How far nodes that count have gone in the last step or will go in this one.
+    pub fn paths(&self) -> Paths {
+        self.range.paths()
     }
 
     /// Position at the present state.
@@ -242,5 +294,34 @@ impl NodeMotion {
     pub fn path(&self, point: u32) -> ([f64; 3], [f64; 3]) {
         let (start, end) = (self.start(point), self.end(point));
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths(velocities: &[[f64; 3]]) -> Paths {
+        let mut motion = NodeMotion::new(velocities.len(), [0.0; 3]);
+        motion.count(0..velocities.len() as u32);
+        motion.begin(2.0);
+        (velocities.iter().enumerate()).for_each(|(point, velocity)| motion.set(point, [0.0; 3], *velocity, [0.0; 3]));
+        motion.paths()
+    }
+
+    /// A body that runs into another at rest nears it by its path; two that run into each other by the sum; what flies
+    /// together counts as if something were at rest.
+    #[test]
+    fn half_of_the_range_is_how_far_either_goes() {
+        for (velocities, longest, half_range) in [
+            ([[3.0, 0.0, 1.0], [0.0; 3]], 6.0, 3.0),
+            ([[3.0, 0.0, 1.0], [-1.0, 0.0, 0.5]], 6.0, 4.0),
+            ([[0.0, -3.0, 0.0], [0.0, -3.0, 0.0]], 6.0, 3.0),
+        ] {
+            let found = paths(&velocities);
+            assert_eq!([found.longest, found.half_range], [longest, half_range]);
+        }
+        let nowhere = paths(&[[0.0, f64::NAN, 0.0], [0.0; 3]]);
+        assert_eq!([nowhere.longest, nowhere.half_range], [f64::INFINITY; 2]);
     }
 }

@@ -372,7 +372,7 @@ impl LocalProblem {
         let StepInput { pairings, remaining, .. } = *setting;
         let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
-        let check = NodeFaceCheck { motion, faces, longest_path: locator.last_path() };
+        let check = NodeFaceCheck { motion, faces, longest_path: locator.longest_path() };
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
                 continue;

@@ -5,7 +5,7 @@ use super::neighbourhood::SearchResult;
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::NodeMotion;
+use crate::solver::contact::geometry::motion::{NodeMotion, Paths};
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::vector::{dot, subtract};
@@ -68,10 +68,11 @@ pub struct Locator {
     sleep: Vec<SleepState>,
     /// How far things must have gone in all until a slave node may have anything near at all.
     quiet_until: Vec<f64>,
-    /// How far nodes have travelled in all, a length, counted as if the fastest node of each step were always the same.
+    /// How far nodes have travelled in all, a length: in each step as far as those whose paths differ most, seen from halfway between
+    /// them. What all of them go together brings none nearer to another.
     travelled: f64,
-    /// How much of that in the present step.
-    last_path: f64,
+    /// How far they go in the present step.
+    paths: Paths,
     /// Slave nodes, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
     /// Whether no step has been made yet, and whether what sleeps has been taken over from the search before.
@@ -221,25 +222,19 @@ impl Locator {
         // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
         let heir = std::mem::replace(&mut self.heir, false);
-        self.last_path = match (first, heir) {
-            (false, _) => motion.longest_path(),
-            (true, false) => self.longest_path(motion),
+        let ahead = || Paths::ahead(self.moving.iter().copied(), motion);
+        self.paths = match (first, heir) {
+            (false, _) => motion.paths(),
+            (true, false) => ahead(),
             // Those that counted before have also gone on since the last step.
-            (true, true) => self.longest_path(motion).max(motion.longest_path()),
+            (true, true) => ahead().and(motion.paths()),
         };
-        self.travelled += self.last_path;
-    }
-
-    /// The farthest that a point which matters will go in this step, along an axis.
-    fn longest_path(&self, motion: &NodeMotion) -> f64 {
-        let lengths = self.moving.iter().flat_map(|&point| motion.path(point).1).map(f64::abs);
-        // A path that is not a number leaves nobody at rest.
-        lengths.fold(0.0, |longest, length| if length <= f64::MAX { length.max(longest) } else { f64::INFINITY })
+        self.travelled += self.paths.half_range;
     }
 
     /// The farthest that one of them goes in this step along an axis, a length.
-    pub fn last_path(&self) -> f64 {
-        self.last_path
+    pub fn longest_path(&self) -> f64 {
+        self.paths.longest
     }
 
     /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
@@ -271,7 +266,7 @@ impl Locator {
     ) {
         near.clear();
         // Written so that it does not rest where what has gone is not a number.
-        let rests = self.travelled + self.last_path < self.sleep[i].due;
+        let rests = self.travelled + self.paths.half_range < self.sleep[i].due;
         if !rests {
             self.plan_sleep(i, motion, faces, past);
         }
@@ -304,7 +299,7 @@ impl Locator {
     /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
     #[inline]
     pub fn is_quiet(&self, i: usize) -> bool {
-        self.travelled + self.last_path < self.quiet_until[i]
+        self.travelled + self.paths.half_range < self.quiet_until[i]
     }
 
     /// Whether a face holds the `i`-th slave node; in a step known from [`Locator::locate`] on.
@@ -348,7 +343,7 @@ impl Locator {
 
     /// Whether the `i`-th pair of edges may be near in this step.
     pub fn is_pair_due(&self, i: usize) -> bool {
-        self.travelled + self.last_path >= self.pairs_due[i]
+        self.travelled + self.paths.half_range >= self.pairs_due[i]
     }
 
     /// Lets a pair wait whose edges are so far apart along an axis in this step, beyond where they would be near.
@@ -362,7 +357,7 @@ impl Locator {
         let held = past[0].face != NONE;
         let own = motion.swept_boxes[point as usize];
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
-        let (sleep, mut rest, mut awake) = (SLEEP * self.last_path, f64::INFINITY, 0);
+        let (sleep, mut rest, mut awake) = (SLEEP * self.paths.half_range, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
         // Behind a thin face a point may be touching a thick one beside it, and then both normals count.
         let depths = candidates.iter().map(|candidate| faces.depth[candidate.face as usize]);
