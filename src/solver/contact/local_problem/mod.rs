@@ -92,8 +92,6 @@ pub struct LocalProblem {
     pair_places: Vec<u32>,
     strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
-    /// Whether a face has become deeper since the last search: what sleeps has reckoned with the depth of before.
-    grown: bool,
     /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many ranks; else empty.
     pub answers: Vec<bool>,
 }
@@ -191,9 +189,7 @@ impl LocalProblem {
         }
         let before = std::mem::take(&mut self.locator);
         self.locator = Locator::new(found, depth, self.numbering.points.len(), &self.faces, &self.edges);
-        if !std::mem::replace(&mut self.grown, false) {
-            self.locator.take_over(&before);
-        }
+        self.locator.take_over(&before);
     }
 
     /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.
@@ -203,7 +199,9 @@ impl LocalProblem {
 
     /// Faces of the layout that all belong to this local problem, shared with it. `grown` says whether one of them has become deeper.
     pub fn share_faces(&mut self, faces: &Arc<Faces>, grown: bool) {
-        self.grown |= grown;
+        if grown {
+            self.locator.wake_all();
+        }
         self.faces = faces.clone();
         self.measure_edges();
     }
@@ -211,11 +209,16 @@ impl LocalProblem {
     /// Gives faces of the layout, as far as they are here, their thinnings; see [`Faces::set_thinning`].
     pub fn thin(&mut self, changed: impl Iterator<Item = (u32, u8)>) {
         let faces = Arc::make_mut(&mut self.faces);
+        let mut grown = false;
         for (face, thinning) in changed {
             let here = place(&self.numbering.faces, face);
             if (here as usize) < faces.len() {
+                grown |= thinning < faces.thinning(here);
                 faces.set_thinning(here, thinning);
             }
+        }
+        if grown {
+            self.locator.wake_all();
         }
         self.measure_edges();
     }

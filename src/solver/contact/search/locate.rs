@@ -98,7 +98,7 @@ const SLEEP: f64 = 6.0;
 /// Least sleeps after which a point looks out for candidates that are awake but need not be.
 const LOOK: f64 = 8.0;
 
-/// Part of the distance between two edges that either may go before they are looked at again: half, less what rounding takes.
+/// Part of the distance between two things that either may go before they are looked at again: half, less what rounding takes.
 const SAFE: f64 = 0.499;
 
 /// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
@@ -179,26 +179,39 @@ impl Locator {
     }
 
     /// Takes over from the search before how long things may wait that it has found as well: slave nodes whose candidates are the
-    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled. The numbers are those of the
-    /// same local problem.
+    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from here on. The numbers are
+    /// those of the same local problem.
     pub fn take_over(&mut self, before: &Locator) {
-        (self.heir, self.travelled) = (true, before.travelled);
+        self.heir = true;
+        let travelled = before.travelled;
+        if !travelled.is_finite() {
+            return;
+        }
         let mut old = 0;
         for new in 0..self.slave_nodes.len() {
             while before.slave_nodes.get(old).is_some_and(|&node| node < self.slave_nodes[new]) {
                 old += 1;
             }
             if before.slave_nodes.get(old) == Some(&self.slave_nodes[new]) && self.of(new) == before.of(old) {
-                (self.sleep[new], self.quiet_until[new]) = (before.sleep[old], before.quiet_until[old]);
+                let SleepState { due, awake, held } = before.sleep[old];
+                self.sleep[new] = SleepState { due: due - travelled, awake, held };
+                self.quiet_until[new] = before.quiet_until[old] - travelled;
             }
         }
         let mut past = before.edge_pairs.iter().zip(&before.pairs_due).peekable();
         for (pair, due) in self.edge_pairs.iter().zip(&mut self.pairs_due) {
             while past.next_if(|(past, _)| *past < pair).is_some() {}
             if let Some((_, past_due)) = past.next_if(|(past, _)| *past == pair) {
-                *due = *past_due;
+                *due = past_due - travelled;
             }
         }
+    }
+
+    /// Lets everything be looked at in the next step: faces have become deeper than what sleeps has reckoned with.
+    pub fn wake_all(&mut self) {
+        self.sleep.iter_mut().for_each(|sleep| sleep.due = 0.0);
+        self.quiet_until.fill(0.0);
+        self.pairs_due.fill(0.0);
     }
 
     /// The candidates of the `i`-th slave node.
@@ -366,7 +379,7 @@ impl Locator {
             let face = candidate.face;
             // Both sides may come nearer.
             let apart = f64::from(own.distance(&self.capture_boxes.of(face, faces, motion, self.depth)));
-            let mut away = 0.5 * (apart - reach);
+            let mut away = SAFE * (apart - reach);
             if !held && away <= sleep {
                 let front = self.depth * faces.depth[face as usize] + faces.reach[face as usize] + reach;
                 let apart = separation([point, face], motion, faces, [front, deepest]);

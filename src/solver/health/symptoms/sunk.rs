@@ -91,7 +91,10 @@ fn place(exam: &Exam, evidence: &mut Evidence, comm: &mut dyn Communicator) {
         own.iter().max_by(|a, b| a.depth.total_cmp(&b.depth).then(b.node.cmp(&a.node)).then(b.element.cmp(&a.element)));
     let key = first.map_or([f64::INFINITY; 2], |sunk| [-sunk.depth, f64::from(sunk.node)]);
     let Some(node) = first_of_all(key, comm) else { return };
-    let mine = first.filter(|sunk| f64::from(sunk.node) == node);
+    let mut least = [key[0]];
+    comm.all_min(&mut least);
+    // The node may be in an element of another rank as well, less deep.
+    let mine = first.filter(|sunk| f64::from(sunk.node) == node && -sunk.depth == least[0]);
     let mut element = [mine.map_or(f64::INFINITY, |sunk| f64::from(sunk.element))];
     comm.all_min(&mut element);
     let place = exam.solver.locate(element[0], comm);
