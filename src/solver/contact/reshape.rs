@@ -63,9 +63,13 @@ impl Contact {
             self.problem.release_faces();
         }
         let faces = Arc::make_mut(&mut self.layout.faces);
-        changed.for_each(|(face, thinning)| faces.set_thinning(face, thinning));
+        let mut grown = false;
+        for (face, thinning) in changed {
+            grown |= thinning < faces.thinning(face);
+            faces.set_thinning(face, thinning);
+        }
         if told && self.remote.is_none() {
-            self.problem.share_faces(&self.layout.faces);
+            self.problem.share_faces(&self.layout.faces, grown);
         }
     }
 

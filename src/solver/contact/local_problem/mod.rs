@@ -90,6 +90,8 @@ pub struct LocalProblem {
     pair_places: Vec<u32>,
     strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
+    /// Whether a face has become deeper since the last search: what sleeps has reckoned with the depth of before.
+    grown: bool,
     /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many ranks; else empty.
     pub answers: Vec<bool>,
 }
@@ -187,7 +189,11 @@ impl LocalProblem {
                 *past = NO_CONTACT;
             }
         }
+        let before = std::mem::take(&mut self.locator);
         self.locator = Locator::new(found, depth, &self.motion, &self.faces, &self.edges);
+        if !std::mem::replace(&mut self.grown, false) {
+            self.locator.take_over(&before);
+        }
     }
 
     /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.
@@ -195,8 +201,9 @@ impl LocalProblem {
         self.faces = Arc::default();
     }
 
-    /// Faces of the layout that all belong to this local problem, shared with it.
-    pub fn share_faces(&mut self, faces: &Arc<Faces>) {
+    /// Faces of the layout that all belong to this local problem, shared with it. `grown` says whether one of them has become deeper.
+    pub fn share_faces(&mut self, faces: &Arc<Faces>, grown: bool) {
+        self.grown |= grown;
         self.faces = faces.clone();
         self.measure_edges();
     }
@@ -215,6 +222,8 @@ impl LocalProblem {
 
     /// Gives the edges, all of the layout, the shapes that they have now.
     pub fn fold(&mut self, edges: &[Edge]) {
+        let own = &self.edges;
+        self.locator.wake_pairs(|edge| own[edge as usize].shape != edges[edge as usize].shape);
         self.edges.iter_mut().zip(edges).for_each(|(own, now)| own.shape = now.shape);
         self.edge_history = self.edge_history.iter().filter_map(|&past| edge_edge::in_order(past, edges)).collect();
         self.edge_history.sort_by_key(|past| past.pair);

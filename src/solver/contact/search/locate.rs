@@ -74,8 +74,9 @@ pub struct Locator {
     last_path: f64,
     /// Slave nodes, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
-    /// Whether no step has been made yet.
+    /// Whether no step has been made yet, and whether what sleeps has been taken over from the search before.
     fresh: bool,
+    heir: bool,
     capture_boxes: CaptureBoxes,
 }
 
@@ -176,13 +177,56 @@ impl Locator {
         }
     }
 
+    /// Takes over from the search before how long things may wait that it has found as well: slave nodes whose candidates are the
+    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled. The numbers are those of the
+    /// same local problem.
+    pub fn take_over(&mut self, before: &Locator) {
+        (self.heir, self.travelled) = (true, before.travelled);
+        let mut old = 0;
+        for new in 0..self.slave_nodes.len() {
+            while before.slave_nodes.get(old).is_some_and(|&node| node < self.slave_nodes[new]) {
+                old += 1;
+            }
+            if before.slave_nodes.get(old) == Some(&self.slave_nodes[new]) && self.of(new) == before.of(old) {
+                (self.sleep[new], self.quiet_until[new]) = (before.sleep[old], before.quiet_until[old]);
+            }
+        }
+        let mut past = before.edge_pairs.iter().zip(&before.pairs_due).peekable();
+        for (pair, due) in self.edge_pairs.iter().zip(&mut self.pairs_due) {
+            while past.next_if(|(past, _)| *past < pair).is_some() {}
+            if let Some((_, past_due)) = past.next_if(|(past, _)| *past == pair) {
+                *due = *past_due;
+            }
+        }
+    }
+
+    /// The candidates of the `i`-th slave node.
+    fn of(&self, i: usize) -> &[Candidate] {
+        &self.candidates[self.first[i] as usize..self.first[i + 1] as usize]
+    }
+
+    /// Lets pairs be looked at in the next step of which an edge is one of these.
+    pub fn wake_pairs(&mut self, edges: impl Fn(u32) -> bool) {
+        for (pair, due) in self.edge_pairs.iter().zip(&mut self.pairs_due) {
+            if pair.iter().any(|&edge| edges(edge)) {
+                *due = 0.0;
+            }
+        }
+    }
+
     /// Begins a step.
     pub fn step(&mut self, motion: &NodeMotion, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
         // On one rank what counts in the longest path is chosen after the first step's points have been put; on many these
         // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
-        self.last_path = if first { self.longest_path(motion) } else { motion.longest_path() };
+        let heir = std::mem::replace(&mut self.heir, false);
+        self.last_path = match (first, heir) {
+            (false, _) => motion.longest_path(),
+            (true, false) => self.longest_path(motion),
+            // Those that counted before have also gone on since the last step.
+            (true, true) => self.longest_path(motion).max(motion.longest_path()),
+        };
         self.travelled += self.last_path;
     }
 
@@ -313,6 +357,7 @@ impl Locator {
     }
 
     /// Finds which candidates of the `i`-th slave node may sleep, and for how long.
+    #[inline(always)]
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
@@ -359,6 +404,7 @@ impl Locator {
 ///
 /// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
 /// later, as long as nobody has gone half this distance.
+#[inline(always)]
 fn separation([point, face]: [u32; 2], motion: &NodeMotion, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
     let (start, end) = (faces.start(face, motion), faces.end(face, motion));
     let normal = area_normal(&start);
