@@ -15,6 +15,7 @@ use super::press_fit::PressFit;
 use super::ranks::remote::Remote;
 use super::ranks::routing::share_planes;
 use super::search::locate::Reach;
+use super::search::verlet_lists::VerletLists;
 use super::search::{SearchKind, neighbourhood};
 use super::skin::Skin;
 use super::{Contact, Seen, Tally};
@@ -57,6 +58,7 @@ impl Contact {
             problem: LocalProblem::default(),
             remote: None,
             carried: None,
+            lists: VerletLists::default(),
             search: kind(model.contact.control.search).make(),
             decomposition: model.contact.control.decomposition,
             reach: reach(model, &layout),

@@ -133,19 +133,26 @@ impl ContactNodes {
         self.searched = true;
         self.search_boxes.clear();
         for contact_node in 0..self.list.len() as u32 {
-            let (start, path) = self.motion.path(contact_node);
-            let half = scaled(path, 0.5 * steps);
-            let longest = half.iter().fold(0.0, |longest, half| larger(half.abs(), longest));
-            let room = larger(SIDE * longest, least);
-            let centre = subtract(add(start, half), self.motion.origin());
-            let side = half.map(|half| half.abs() + room);
-            self.search_boxes.push(SweptBox::around(subtract(centre, side), add(centre, side)));
+            let of = self.box_ahead(contact_node, steps, least);
+            self.search_boxes.push(of);
         }
     }
 
-    /// Low and high corner of the box in which a contact node stays until the next search, seen from the origin of the points.
-    pub fn reach(&self, contact_node: usize) -> [[f64; 3]; 2] {
-        self.search_boxes[contact_node].corners()
+    /// Box around the path that a contact node would go in `steps` of the present one, with room on all sides for a turn, but at
+    /// least `least`; seen from the origin of the points.
+    pub fn box_ahead(&self, contact_node: u32, steps: f64, least: f64) -> SweptBox {
+        let (start, path) = self.motion.path(contact_node);
+        let half = scaled(path, 0.5 * steps);
+        let longest = half.iter().fold(0.0, |longest, half| larger(half.abs(), longest));
+        let room = larger(SIDE * longest, least);
+        let centre = subtract(add(start, half), self.motion.origin());
+        let side = half.map(|half| half.abs() + room);
+        SweptBox::around(subtract(centre, side), add(centre, side))
+    }
+
+    /// Boxes in which the contact nodes stay until the next search, seen from the origin of the points.
+    pub fn search_boxes(&self) -> &[SweptBox] {
+        &self.search_boxes
     }
 
     /// Normal and friction force on a contact node, forces.

@@ -1,5 +1,6 @@
 //! What the deck lets touch as it is now: points, faces, edges, and interfaces.
 
+use super::check::edge_edge;
 use super::exclusions::Exclusions;
 use super::geometry::edges::{Edge, Shape};
 use super::geometry::faces::Faces;
@@ -57,6 +58,12 @@ impl Layout {
             Shape::Line => self.lines || self.surfaces,
             Shape::Hollow => false,
         }
+    }
+
+    /// How far around itself an edge may meet others, a length.
+    pub fn edge_margin(&self, edge: u32) -> f64 {
+        let one = &self.edges[edge as usize];
+        edge_edge::farthest_reach(&self.faces, one) + one.distance(&self.faces)
     }
 
     /// Whether an edge that stands out meets another.

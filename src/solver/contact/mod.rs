@@ -52,6 +52,7 @@ use pairings::Pairings;
 use press_fit::PressFit;
 use ranks::remote::Remote;
 use search::locate::Reach;
+use search::verlet_lists::VerletLists;
 use search::{Search, neighbourhood};
 use skin::Skin;
 
@@ -84,6 +85,8 @@ pub struct Contact {
     /// Local nodes of each face whose element is here, and of the side across the element from it.
     thicknesses: Vec<(u32, [[u32; 4]; 2])>,
     search: Box<dyn Search>,
+    /// What is near for many searches, on a rank that is alone.
+    lists: VerletLists,
     decomposition: ContactDecomposition,
     reach: Reach,
     planes: Vec<RigidSurface>,
@@ -248,24 +251,21 @@ impl Contact {
 
     /// Finds all candidates anew.
     fn search(&mut self, comm: &mut dyn Communicator) {
-        let Contact { layout, contact_nodes, problem, remote, carried, search, plane_nodes, .. } = self;
+        let Contact { layout, contact_nodes, problem, remote, carried, search, lists, plane_nodes, .. } = self;
         let depth = self.reach.depth;
         self.searches += 1;
         contact_nodes.renew(self.reach.steps, self.reach.least);
         if let Some(remote) = remote {
             let history = carried.take().unwrap_or_else(|| problem.history());
             *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
+        } else if carried.is_some() || self.searches == 1 {
+            *lists = VerletLists::default();
+            let found = neighbourhood::find_alone(&mut **search, layout, contact_nodes);
+            *problem = alone(layout, contact_nodes, plane_nodes, found, depth);
+            problem.restore(carried.take().unwrap_or_default());
         } else {
-            let points = neighbourhood::point_boxes(layout, contact_nodes);
-            let faces = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
-            let edges = neighbourhood::edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
-            let found = neighbourhood::find(&mut **search, [&points, &faces, &edges], |_| true, layout);
-            if carried.is_some() || self.searches == 1 {
-                *problem = alone(layout, contact_nodes, plane_nodes, found, depth);
-                problem.restore(carried.take().unwrap_or_default());
-            } else {
-                problem.renew(found, depth);
-            }
+            let found = lists.find(&mut **search, layout, contact_nodes, (&self.reach, self.mean_size));
+            problem.renew(found, depth);
         }
         let motion = if remote.is_some() { &mut problem.motion } else { &mut contact_nodes.motion };
         motion.count(problem.locator.moving().iter().copied());

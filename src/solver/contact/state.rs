@@ -59,6 +59,7 @@ impl Contact {
             // Of the last search.
             counts: _,
             search: _,
+            lists: _,
             // Of the problem.
             block_ids: _,
             pairings: _,

@@ -17,7 +17,7 @@ use crate::solver::contact::geometry::projection;
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::pairings::{Pairing, Pairings};
 use crate::solver::contact::search::locate::{Candidate, Interface, Locator};
-use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::neighbourhood::{self, Boxes, Extents};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::skin::Skin;
 use crate::solver::elements::Touch;
@@ -406,8 +406,8 @@ fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Co
 /// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
 fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
     let contact_nodes = ContactNodes::still(motion);
-    let all = neighbourhood::point_boxes(layout, &contact_nodes);
-    let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &contact_nodes);
+    let extents = Extents::of_search(layout, &contact_nodes);
+    let (all, boxes) = (extents.points(), extents.faces(0..layout.faces.len() as u32));
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, motion, &layout.faces, &layout.edges);

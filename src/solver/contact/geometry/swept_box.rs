@@ -53,10 +53,32 @@ impl SweptBox {
         SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
 
+    /// The box around some others; around none, one that holds nothing.
+    #[inline(always)]
+    pub fn hull<'a>(boxes: impl Iterator<Item = &'a SweptBox>) -> SweptBox {
+        let mut all = [f32::INFINITY; 8];
+        for one in boxes {
+            for i in 0..8 {
+                all[i] = smaller(all[i], one.0[i]);
+            }
+        }
+        SweptBox(all)
+    }
+
     /// Its low and its high corner.
     pub fn corners(&self) -> [[f64; 3]; 2] {
         let b = self.0.map(f64::from);
         [[b[0], b[1], b[2]], [-b[4], -b[5], -b[6]]]
+    }
+
+    /// Whether another box is within this one; what is not a number is within nothing.
+    pub fn contains(&self, other: &SweptBox) -> bool {
+        self.0.iter().zip(other.0).all(|(own, other)| *own <= other)
+    }
+
+    /// Whether its corners are finite.
+    pub fn is_finite(&self) -> bool {
+        self.0.iter().all(|bound| bound.is_finite())
     }
 
     /// Itself, to be asked whether many others are apart from it.

@@ -5,7 +5,7 @@ use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::Box3;
-use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::neighbourhood::{Boxes, Extents};
 
 /// What has come to this rank for its search.
 pub struct Regional {
@@ -32,9 +32,10 @@ impl Regional {
         let owner_rank = |point: u32| {
             f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
         };
-        let own = neighbourhood::point_boxes(layout, contact_nodes);
-        let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, contact_nodes);
-        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
+        let extents = Extents::of_search(layout, contact_nodes);
+        let own = extents.points();
+        let edges = extents.edges(edges.iter().copied());
+        let faces = extents.faces(faces.iter().copied());
         let [mut to_owner, mut edges_to_owner] = [6, 6].map(|width| Parcels::new(size, width));
         for (&point, of) in own.ids.iter().zip(&own.boxes) {
             to_owner.add(owner_rank(point) as u32, point, &flat(of));

@@ -16,6 +16,7 @@ mod point_in_box;
 mod sizes;
 #[cfg(test)]
 mod tests;
+pub mod verlet_lists;
 
 pub use bvh::Bvh;
 pub use candidates::Candidates;
