@@ -357,7 +357,6 @@ impl Locator {
     }
 
     /// Finds which candidates of the `i`-th slave node may sleep, and for how long.
-    #[inline(always)]
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
@@ -404,7 +403,6 @@ impl Locator {
 ///
 /// Points and corners move straight, so what is apart along one direction at both ends of the step is apart all the time;
 /// later, as long as nobody has gone half this distance.
-#[inline(always)]
 fn separation([point, face]: [u32; 2], motion: &NodeMotion, faces: &Faces, [front, behind]: [f64; 2]) -> f64 {
     let (start, end) = (faces.start(face, motion), faces.end(face, motion));
     let normal = area_normal(&start);
