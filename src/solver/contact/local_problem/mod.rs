@@ -222,8 +222,8 @@ impl LocalProblem {
 
     /// Gives the edges, all of the layout, the shapes that they have now.
     pub fn fold(&mut self, edges: &[Edge]) {
-        let own = &self.edges;
-        self.locator.wake_pairs(|edge| own[edge as usize].shape != edges[edge as usize].shape);
+        let Self { locator, edges: own, .. } = self;
+        locator.wake_pairs(|edge| own[edge as usize].shape != edges[edge as usize].shape);
         self.edges.iter_mut().zip(edges).for_each(|(own, now)| own.shape = now.shape);
         self.edge_history = self.edge_history.iter().filter_map(|&past| edge_edge::in_order(past, edges)).collect();
         self.edge_history.sort_by_key(|past| past.pair);
@@ -257,7 +257,8 @@ impl LocalProblem {
         for (point, pasts) in history.points {
             let here = place(&self.numbering.points, point);
             if let Some(mine) = self.history.get_mut(here as usize) {
-                *mine = tidy(pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past }));
+                *mine = pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past });
+                mine.sort_by_key(|past| past.face == NONE);
             }
         }
         history.edges.sort_by_key(|past| past.pair);
@@ -495,10 +496,4 @@ fn carried_before(
     let left = |past: &&FaceContact| past.face != NONE && contacts.iter().all(|contact| contact.face != past.face);
     let beside = || before.iter().filter(left).find(|past| faces.adjacent(past.face, contact.face));
     same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
-}
-
-/// Contacts with those first whose faces are left.
-fn tidy(mut pasts: [FaceContact; MAX_FACES]) -> [FaceContact; MAX_FACES] {
-    pasts.sort_by_key(|past| past.face == NONE);
-    pasts
 }
