@@ -65,8 +65,7 @@ impl Contact {
         let faces = Arc::make_mut(&mut self.layout.faces);
         let mut grown = false;
         for (face, thinning) in changed {
-            grown |= thinning < faces.thinning(face);
-            faces.set_thinning(face, thinning);
+            grown |= faces.set_thinning(face, thinning);
         }
         if told && self.remote.is_none() {
             self.problem.share_faces(&self.layout.faces, grown);

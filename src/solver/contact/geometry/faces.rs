@@ -139,11 +139,12 @@ impl Faces {
         self.thinning[face as usize]
     }
 
-    /// Sets the depth of a face to that of the start less so many factors of √2.
-    pub fn set_thinning(&mut self, face: u32, thinning: u8) {
+    /// Sets the depth of a face to that of the start less so many factors of √2. Whether it has become deeper.
+    pub fn set_thinning(&mut self, face: u32, thinning: u8) -> bool {
         let face = face as usize;
-        self.thinning[face] = thinning;
+        let before = std::mem::replace(&mut self.thinning[face], thinning);
         self.depth[face] = self.start_depth[face] * libm::exp2(-0.5 * f64::from(thinning));
+        thinning < before
     }
 
     /// The thinning of a face whose element is so thick now that half of it is `depth`. It follows an element that becomes thicker

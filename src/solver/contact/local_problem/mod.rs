@@ -213,8 +213,7 @@ impl LocalProblem {
         for (face, thinning) in changed {
             let here = place(&self.numbering.faces, face);
             if (here as usize) < faces.len() {
-                grown |= thinning < faces.thinning(here);
-                faces.set_thinning(here, thinning);
+                grown |= faces.set_thinning(here, thinning);
             }
         }
         if grown {

@@ -56,7 +56,7 @@ fn struck(speed: f64, quadratic: f64) -> (f64, bool) {
 #[test]
 fn impact_at_the_wave_speed_and_beyond() {
     // Quadratic viscosity sees the blow coming: the step is short and the element stiff, up to three times c.
-    for (speed, least) in [(1.0, 0.6), (1.5, 0.5), (3.0, 0.4)] {
+    for (speed, least) in [(1.0, 0.62), (1.5, 0.54), (3.0, 0.44)] {
         let (compression, failed) = struck(speed, 1.2);
         assert!(!failed && compression > least, "{speed}: {compression}");
     }
