@@ -125,7 +125,7 @@ impl Numbers for SingleRow {
 
 /// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
 #[inline(always)]
-pub fn prefetch<R: Numbers>(rows: &[R]) {
+pub fn prefetch<R>(rows: &[R]) {
     #[cfg(target_arch = "x86_64")]
     for row in rows {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

@@ -41,7 +41,6 @@ use check::planes::PlaneNode;
 use construction::alone;
 use contact_nodes::ContactNodes;
 use enforcement::certificate::Bank;
-use enforcement::constraint::Constraint;
 use enforcement::gain::Gain;
 use enforcement::iterations::{Limits, Outcome};
 use enforcement::mobility::BodyMobility;
@@ -157,7 +156,7 @@ impl Contact {
         self.learn_of(rigid, comm);
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
-        let outcome = self.enforce(nodes, step, comm);
+        let outcome = self.enforce(step, comm);
         self.problem.teach(&mut self.seen, (step.time, self.age));
         self.seen.iterate(&outcome);
         if self.age.is_multiple_of(arcs::EVERY) {
@@ -166,7 +165,7 @@ impl Contact {
         self.book_resultants(step);
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
-        self.bring_forces(comm);
+        self.bring_forces(nodes, comm);
         self.contact_nodes.hand_over(nodes, |holder, force| held[holder as usize].reaction -= force);
     }
 
@@ -191,26 +190,29 @@ impl Contact {
         self.contact_nodes.own_forces()
     }
 
-    /// Finds where the nodes would go, searches if that is due, and brings their motion to the local problem.
-    fn bring_motion(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
-        self.contact_nodes.predict(nodes, step);
+    /// Looks at where the nodes would go, searches if that is due, and brings their motion to the local problem, which keeps the
+    /// nodes until it brings the forces.
+    fn bring_motion(&mut self, nodes: &mut Nodes, step: &StepTimes, comm: &mut dyn Communicator) {
+        self.contact_nodes.survey(nodes, step);
         comm.enter(Traffic::ContactSearch);
         let reshaped = self.reshape(nodes, comm);
+        self.contact_nodes.motion.borrow(nodes);
         if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
             self.search(comm);
         }
         comm.enter(Traffic::ContactMotion);
         let Contact { contact_nodes, problem, remote, .. } = self;
         match remote {
-            Some(remote) => remote.send_motion((contact_nodes, nodes), problem, step.drift, comm),
+            Some(remote) => remote.send_motion(contact_nodes, problem, comm),
             // The points of the local problem are the contact nodes: their motion is lent, not copied.
             None => std::mem::swap(&mut problem.motion, &mut contact_nodes.motion),
         }
     }
 
-    /// Brings the forces that the local problem has found to the contact nodes.
-    fn bring_forces(&mut self, comm: &mut dyn Communicator) {
+    /// Gives the nodes back and brings the forces that the local problem has found to the contact nodes.
+    fn bring_forces(&mut self, nodes: &mut Nodes, comm: &mut dyn Communicator) {
         let Contact { contact_nodes, problem, remote, .. } = self;
+        problem.motion.give_back(nodes);
         match remote {
             Some(remote) => remote.send_forces(contact_nodes, problem, comm),
             None => {
@@ -261,8 +263,11 @@ impl Contact {
                 problem.renew(found, depth);
             }
         }
-        let motion = if remote.is_some() { &mut problem.motion } else { &mut contact_nodes.motion };
-        motion.count(problem.locator.moving().iter().copied());
+        let LocalProblem { motion, locator, numbering, .. } = &mut *problem;
+        if remote.is_some() {
+            motion.count(locator.moving().iter().copied());
+        }
+        contact_nodes.count(locator.moving().iter().map(|&point| numbering.points[point as usize]));
         self.counts = self.problem.locator.counts().map(|count| count as u64);
         self.problem.count_candidates(&mut self.seen.met);
         if self.remote.is_some() {
@@ -270,7 +275,7 @@ impl Contact {
         }
     }
 
-    fn enforce(&mut self, nodes: &Nodes, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
+    fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let coupled = comm.size() > 1 && !self.problem.motion.mobility.bodies.is_empty();
         let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, seen, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
@@ -279,17 +284,8 @@ impl Contact {
         problem.find_constraints(&setting, step, &mut seen.met);
         match remote {
             Some(remote) => problem.find_forces(&setting, step, bank, &mut remote.others(comm)),
-            None => {
-                // Of the many contact nodes only few take part.
-                let LocalProblem { constraints, motion, .. } = &mut *problem;
-                for (point, _) in constraints.iter().flat_map(Constraint::parts) {
-                    motion.set_velocity_before(point as u32, self.contact_nodes.velocity_before(point as u32, nodes));
-                }
-                match coupled {
-                    true => problem.find_forces(&setting, step, bank, &mut Elsewhere(comm)),
-                    false => problem.find_forces(&setting, step, bank, &mut NoOtherRanks),
-                }
-            }
+            None if coupled => problem.find_forces(&setting, step, bank, &mut Elsewhere(comm)),
+            None => problem.find_forces(&setting, step, bank, &mut NoOtherRanks),
         }
     }
 

@@ -26,14 +26,13 @@ const THINNINGS: u32 = THINNEST as u32 + 1;
 
 impl Contact {
     /// Counts the step, and when it is time looks which edges stand out now and how thick elements are. Whether edges have
-    /// changed, so that all ranks must search; on many ranks history is on its way then. All ranks call it, with the present
-    /// positions in the contact nodes.
+    /// changed, so that all ranks must search; on many ranks history is on its way then. All ranks call it.
     pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
         if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
             return false;
         }
-        let folded = !self.layout.edges.is_empty() && self.fold(comm);
+        let folded = !self.layout.edges.is_empty() && self.fold(nodes, comm);
         self.thin(nodes, comm);
         folded
     }
@@ -81,8 +80,8 @@ impl Contact {
     }
 
     /// Gives edges the shapes that they have now. Whether any has changed.
-    fn fold(&mut self, comm: &mut dyn Communicator) -> bool {
-        let mut changed = self.changes(comm);
+    fn fold(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
+        let mut changed = self.changes(nodes, comm);
         self.with_others(&mut changed, comm);
         if changed.is_empty() {
             return false;
@@ -102,12 +101,14 @@ impl Contact {
     }
 
     /// Edges whose first face is here and that have another shape now, with the code of it: edge x [`SHAPES`] + code.
-    fn changes(&self, comm: &mut dyn Communicator) -> Vec<u32> {
-        let elsewhere = self.sides_elsewhere(comm);
+    fn changes(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<u32> {
+        let elsewhere = self.sides_elsewhere(nodes, comm);
         let mut changed = Vec::new();
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
-            let Some(first) = self.side(edge.faces[0]) else { continue };
-            let Some(second) = self.side(edge.faces[1]).or_else(|| elsewhere.get(&number).copied()) else { continue };
+            let Some(first) = self.side(edge.faces[0], nodes) else { continue };
+            let Some(second) = self.side(edge.faces[1], nodes).or_else(|| elsewhere.get(&number).copied()) else {
+                continue;
+            };
             let shape = edge.shape_between(first, second, &self.layout.faces);
             if shape != edge.shape {
                 changed.push(SHAPES * number + shape.code());
@@ -117,7 +118,7 @@ impl Contact {
     }
 
     /// A face of an element that is here, as it is now.
-    fn side(&self, face: u32) -> Option<Side> {
+    fn side(&self, face: u32, nodes: &Nodes) -> Option<Side> {
         let element = self.layout.faces.number[face as usize] / 6;
         // On one rank every element is here.
         if self.remote.is_some() {
@@ -125,22 +126,22 @@ impl Contact {
         }
         let mut corners = [[0.0; 3]; 4];
         for (corner, &point) in corners.iter_mut().zip(&self.layout.faces.corners[face as usize]) {
-            *corner = self.contact_nodes.motion.start(self.contact_nodes.of(point)? as u32);
+            *corner = self.contact_nodes.position(self.contact_nodes.of(point)?, nodes);
         }
         Some(edges::side(&corners))
     }
 
     /// Second faces of edges whose first face is here and that are themselves on another rank.
-    fn sides_elsewhere(&self, comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
+    fn sides_elsewhere(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
         let Some(remote) = &self.remote else { return BTreeMap::new() };
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(comm.size(), 6);
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
             let holders = remote.holders(edge.ends[0]);
-            if holders.len() < 2 || self.side(edge.faces[0]).is_some() {
+            if holders.len() < 2 || self.side(edge.faces[0], nodes).is_some() {
                 continue;
             }
-            if let Some(([a, b, c], [d, e, f])) = self.side(edge.faces[1]) {
+            if let Some(([a, b, c], [d, e, f])) = self.side(edge.faces[1], nodes) {
                 let others = holders.iter().filter(|&&holder| holder != rank);
                 others.for_each(|&holder| parcels.add(holder, number, &[a, b, c, d, e, f]));
             }

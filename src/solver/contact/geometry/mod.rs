@@ -4,6 +4,7 @@ pub mod crossing;
 pub mod edges;
 pub mod faces;
 pub mod motion;
+pub mod paths;
 pub mod projection;
 pub mod strip;
 pub mod surface;

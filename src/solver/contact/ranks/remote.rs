@@ -24,7 +24,6 @@ use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
-use crate::solver::nodes::Nodes;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
@@ -108,30 +107,25 @@ impl Remote {
         &self.holders[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
     }
 
-    /// Brings the motion of a step to the owner ranks.
+    /// Brings the motion of a step to the owner ranks. What is a node here stays where it is.
     pub fn send_motion(
         &mut self,
-        (contact_nodes, nodes): (&mut ContactNodes, &Nodes),
+        contact_nodes: &mut ContactNodes,
         problem: &mut LocalProblem,
-        drift: f64,
         comm: &mut dyn Communicator,
     ) {
-        problem.motion.begin(drift);
-        self.motion.exchange_others(
-            &mut (contact_nodes, problem),
-            |(contact_nodes, _), contact_node| {
-                let ([x, y, z], [u, v, w]) =
-                    (contact_nodes.motion.start(contact_node), contact_nodes.motion.velocity(contact_node));
-                let [p, q, r] = contact_nodes.velocity_before(contact_node, nodes);
+        let (from, to) = (&mut contact_nodes.motion, &mut problem.motion);
+        self.motion.send(
+            |contact_node| {
+                let ([x, y, z], [u, v, w]) = (from.start(contact_node), from.velocity(contact_node));
+                let [p, q, r] = from.velocity_before(contact_node);
                 [x, y, z, u, v, w, p, q, r]
             },
-            |(_, problem), point, [x, y, z, u, v, w, p, q, r]| {
-                problem.motion.set(point as usize, [x, y, z], [u, v, w], [p, q, r]);
-            },
-            |(contact_nodes, problem), contact_node, point| {
-                problem.motion.copy(point as usize, &contact_nodes.motion, contact_node as usize);
-                problem.motion.set_velocity_before(point, contact_nodes.velocity_before(contact_node, nodes));
-            },
+            comm,
+        );
+        to.borrow_from(from);
+        self.motion.receive(
+            |point, [x, y, z, u, v, w, p, q, r]| to.set(point as usize, [x, y, z], [u, v, w], [p, q, r]),
             comm,
         );
     }
@@ -211,7 +205,11 @@ impl Remote {
         let is_own = |plane_node: &&PlaneNode| regional.points.ids.binary_search(&plane_node.point).is_ok();
         let plane_nodes: Vec<PlaneNode> = plane_nodes.iter().filter(is_own).copied().collect();
         let numbering = numbering(layout, &found, &plan, &plane_nodes);
-        let motion = NodeMotion::new(numbering.points.len(), layout.origin);
+        let node = |&point: &u32| {
+            let own = self.node_owner[point as usize] == comm.rank() as u32;
+            contact_nodes.of(point).filter(|_| own).map(|contact_node| contact_nodes.list[contact_node].node)
+        };
+        let motion = NodeMotion::of_some(numbering.points.iter().map(node), layout.origin);
         let mut problem = LocalProblem::new(numbering, found, depth, layout, &plane_nodes);
         problem.motion = motion;
         self.connect((layout, contact_nodes), &mut problem, &plan, &regional, &plane_nodes, comm);

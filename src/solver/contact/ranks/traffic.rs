@@ -32,7 +32,7 @@ impl MessagePattern {
         }
     }
 
-    /// Sends `W` numbers of every entry.
+    /// Sends `W` numbers of every entry to where it goes, on this rank too.
     pub fn exchange<const W: usize, D: ?Sized>(
         &mut self,
         data: &mut D,
@@ -40,37 +40,32 @@ impl MessagePattern {
         take: impl Fn(&mut D, u32, [f64; W]),
         comm: &mut dyn Communicator,
     ) {
-        let keep = |data: &mut D, from, to| {
+        self.send(|entry| give(data, entry), comm);
+        for &(from, to) in &self.own {
             let values = give(data, from);
             take(data, to, values);
-        };
-        self.exchange_others(data, &give, &take, keep, comm);
+        }
+        self.receive(|entry, values| take(data, entry, values), comm);
     }
 
-    /// The same, where what stays here has a shorter way: `keep` brings an entry to another.
-    pub fn exchange_others<const W: usize, D: ?Sized>(
-        &mut self,
-        data: &mut D,
-        give: impl Fn(&D, u32) -> [f64; W],
-        take: impl Fn(&mut D, u32, [f64; W]),
-        keep: impl Fn(&mut D, u32, u32),
-        comm: &mut dyn Communicator,
-    ) {
+    /// Sends `W` numbers of every entry to other ranks; [`MessagePattern::receive`] must follow.
+    pub fn send<const W: usize>(&mut self, give: impl Fn(u32) -> [f64; W], comm: &mut dyn Communicator) {
         for ((peer, send), receive) in self.peers.iter_mut().zip(&self.send).zip(&self.receive) {
             peer.send.clear();
-            peer.send.extend(send.iter().flat_map(|&entry| give(data, entry)));
+            peer.send.extend(send.iter().flat_map(|&entry| give(entry)));
             peer.receive.resize(W * receive.len(), 0.0);
         }
         comm.start_exchange(&mut self.peers);
-        for &(from, to) in &self.own {
-            keep(data, from, to);
-        }
+    }
+
+    /// Takes what other ranks have sent.
+    pub fn receive<const W: usize>(&mut self, mut take: impl FnMut(u32, [f64; W]), comm: &mut dyn Communicator) {
         comm.finish_exchange(&mut self.peers);
         for (peer, receive) in self.peers.iter().zip(&self.receive) {
             for (&entry, values) in receive.iter().zip(peer.receive.chunks_exact(W)) {
                 let mut row = [0.0; W];
                 row.copy_from_slice(values);
-                take(data, entry, row);
+                take(entry, row);
             }
         }
     }

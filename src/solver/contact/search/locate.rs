@@ -5,7 +5,8 @@ use super::neighbourhood::SearchResult;
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::{NodeMotion, Paths};
+use crate::solver::contact::geometry::motion::NodeMotion;
+use crate::solver::contact::geometry::paths::Paths;
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::vector::{dot, subtract};
@@ -132,12 +133,8 @@ impl CaptureBoxes {
     fn of(&mut self, face: u32, faces: &Faces, motion: &NodeMotion, margin: f64) -> SweptBox {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
-            let [a, b, c, d] = faces.corners[face as usize];
-            let swept = |point: u32| &motion.swept_boxes[point as usize];
-            *bounds = SweptBox::joined(
-                [swept(a), swept(b), swept(c), swept(d)],
-                (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,
-            );
+            let margin = margin * faces.depth[face as usize] + faces.reach[face as usize];
+            *bounds = motion.joined_box(faces.corners[face as usize], margin as f32);
             *step = self.step;
         }
         *bounds
@@ -235,7 +232,7 @@ impl Locator {
         // points have not been anywhere before.
         let first = std::mem::replace(&mut self.fresh, false);
         let heir = std::mem::replace(&mut self.heir, false);
-        let ahead = || Paths::ahead(self.moving.iter().copied(), motion);
+        let ahead = || motion.paths_ahead(self.moving.iter().copied());
         self.paths = match (first, heir) {
             (false, _) => motion.paths(),
             (true, false) => ahead(),
@@ -288,7 +285,7 @@ impl Locator {
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = motion.swept_boxes[self.slave_nodes[i] as usize];
+        let own = motion.swept_box(self.slave_nodes[i]);
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
         // No closure: it would be compiled apart, without the vector instructions of the caller.
         let mut next = 64;
@@ -368,7 +365,7 @@ impl Locator {
     fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
-        let own = motion.swept_boxes[point as usize];
+        let own = motion.swept_box(point);
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.paths.half_range, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
