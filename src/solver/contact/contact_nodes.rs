@@ -1,11 +1,10 @@
 //! The contact nodes of this rank: where they would go, and what contact does to them.
 
-use super::geometry::motion::{NodeMotion, along, four, larger, position_of, velocity_of};
-use super::geometry::paths::PathRange;
-use super::geometry::swept_box::{Outside, SweptBox};
+use super::geometry::motion::{NodeMotion, larger};
+use super::geometry::swept_box::SweptBox;
 use super::layout::{ABSENT, inverse};
 use super::node_result::NodeResult;
-use crate::lanes::{Vectors, prefetch};
+use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
@@ -23,9 +22,6 @@ pub struct ContactNode {
 /// Room of a contact node's box on all sides, as a part of half the path that the box is made for: at full
 /// speed a node turns little.
 const SIDE: f64 = 0.25;
-
-/// Contact nodes ahead whose lines are asked of the memory: they are scattered among all nodes, which no hardware foresees.
-const SOON: usize = 8;
 
 /// Contact nodes of this rank, in the order of their numbers in the layout.
 #[derive(Debug, Clone, Default)]
@@ -124,13 +120,15 @@ impl ContactNodes {
     /// leaves the box that the last search gave it.
     pub fn survey(&mut self, nodes: &Nodes, step: &StepTimes) {
         self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
-        let (range, leaves) = match self.motion.instructions().vectors() {
+        let all = self.motion.is_crowded();
+        let last_drift = self.motion.drift();
+        self.motion.begin([step.drift, step.kick]);
+        let leaves = match self.motion.instructions().vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, step) },
-            _ => self.survey_each(nodes, step),
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, last_drift, all) },
+            _ => self.survey_each(nodes, last_drift, all),
         };
-        self.motion.begin_step([step.drift, step.kick], range);
         self.expired = leaves || !self.searched;
     }
 
@@ -141,31 +139,19 @@ impl ContactNodes {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn survey_avx2(&self, nodes: &Nodes, step: &StepTimes) -> (PathRange, bool) {
-        self.survey_each(nodes, step)
+    unsafe fn survey_avx2(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
+        self.survey_each(nodes, last_drift, all)
     }
 
-    // Inlined, so that it is compiled for the instructions of its caller. Most of them sleep: they are looked at where the elements
-    // have them, and nothing is written.
+    // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn survey_each(&self, nodes: &Nodes, step: &StepTimes) -> (PathRange, bool) {
-        let (last_drift, origin) = (self.motion.drift(), four(self.motion.origin()));
-        let (mut range, mut outside) = (PathRange::default(), Outside::default());
-        let soon = self.list.iter().skip(SOON).chain(self.list.last().into_iter().cycle());
-        for (((contact_node, soon), &counts), search_box) in
-            self.list.iter().zip(soon).zip(&self.counts).zip(&self.search_boxes)
-        {
-            prefetch(&nodes.rows[soon.node as usize..][..1]);
-            prefetch(&nodes.forces[soon.node as usize..][..1]);
-            let (row, force) = (&nodes.rows[contact_node.node as usize], &nodes.forces[contact_node.node as usize]);
-            let (start, velocity) = (position_of(row), velocity_of(row, force, step.kick));
-            let [.., u, v, w, _] = row.0;
-            let gone = [u * last_drift, v * last_drift, w * last_drift, 0.0];
-            range.take([gone, velocity.map(|velocity| velocity * step.drift)], counts);
-            let [from, to] = [start, along(start, velocity, step.drift)].map(|at| along(at, origin, -1.0));
-            outside.take(&SweptBox::of_path(from, to), search_box);
+    fn survey_each(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
+        let of_each = (&self.counts[..], &self.search_boxes[..]);
+        if all {
+            self.motion.survey::<true>(nodes, last_drift, of_each)
+        } else {
+            self.motion.survey::<false>(nodes, last_drift, of_each)
         }
-        (range, outside.any())
     }
 
     /// Chooses the points that count among the paths, as far as they are here.
@@ -181,6 +167,7 @@ impl ContactNodes {
     /// all sides for a turn, but at least `least`.
     pub fn renew(&mut self, steps: f64, least: f64) {
         self.searched = true;
+        self.motion.count_anew();
         self.search_boxes.clear();
         for contact_node in 0..self.list.len() as u32 {
             let (start, path) = self.motion.path(contact_node);

@@ -11,6 +11,7 @@ use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::area_normal;
+use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::pairings::Pairing;
 use crate::solver::contact::search::Box3;
 use crate::vector::{add, cross, dot, scaled, subtract};
@@ -162,7 +163,10 @@ impl EdgeCheck<'_> {
     fn apart(&self, pair: [u32; 2]) -> f64 {
         let margins = pair.map(|edge| self.reaches[edge as usize]);
         let distance = self.distance(pair);
-        let bounds = |edge: u32, margin: f64| self.motion.joined_box(self.edges[edge as usize].ends, margin as f32);
+        let bounds = |edge: u32, margin: f64| {
+            let [a, b] = self.edges[edge as usize].ends.map(|end| self.motion.swept_box(end));
+            SweptBox::joined([a, b, a, b], margin as f32)
+        };
         f64::from(bounds(pair[0], margins[0].max(margins[1]) + distance).distance(&bounds(pair[1], 0.0)))
     }
 

@@ -161,7 +161,7 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded 
         return crowded;
     }
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
-    motion.begin(0.0);
+    motion.begin([0.0; 2]);
     for (point, &node) in layout.nodes.iter().enumerate() {
         motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
     }
@@ -198,7 +198,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     let mut farthest = vec![0.0; motion.len()];
     let mut stuck = Stuck::default();
     for round in 0..=ROUNDS {
-        motion.begin(0.0);
+        motion.begin([0.0; 2]);
         for (point, &node) in layout.nodes.iter().enumerate() {
             motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
         }
@@ -411,14 +411,16 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
-    locator.step(motion, &layout.faces);
-    let check = NodeFaceCheck { motion, faces: &layout.faces, longest_path: locator.longest_path() };
+    let mut motion = contact_nodes.motion;
+    locator.step(&motion, &layout.faces);
+    let longest_path = locator.longest_path();
     let (mut contacts, mut found) = (Vec::new(), Vec::new());
     let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.slave_nodes().len() {
         let point = locator.slave_nodes()[i];
-        locator.locate(i, motion, &layout.faces, &NO_CONTACT, &mut near);
+        locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
         let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
+        let check = NodeFaceCheck { motion: &motion, faces: &layout.faces, longest_path };
         check.point(point, &faces, &vec![true; faces.len()], &NO_CONTACT, &mut contacts);
         for contact in &mut contacts {
             contact.tolerated = 0.0;

@@ -3,13 +3,13 @@
 //! Nodes are told by their numbers, which are those of a local problem or of the contact nodes of a rank; such a number is
 //! called a point everywhere in contact, because nodes of the mesh have other numbers.
 //!
-//! Points that are nodes of this rank stay where the elements have them: [`NodeMotion`] borrows the nodes for the time of a step
-//! and finds a velocity when it is asked for. Most points sleep, and so cost nothing here. Only what comes from other ranks, or
-//! is not at a node at all, has a place of its own.
+//! Points that are nodes of this rank stay where the elements have them: [`NodeMotion`] borrows the nodes for the time of a step.
+//! Most of them sleep, and so cost nothing here. What is awake is asked for many times: its motion is found once in the step
+//! ([`NodeMotion::place`]) and kept; where that has not been done, it is found when it is asked for.
 
 use super::paths::{PathRange, Paths};
-use super::swept_box::SweptBox;
-use crate::lanes::{Force, InstructionSet, Row};
+use super::swept_box::{Outside, SweptBox};
+use crate::lanes::{Force, InstructionSet, Row, prefetch};
 use crate::solver::contact::enforcement::mobility::Mobility;
 use crate::solver::nodes::Nodes;
 
@@ -19,17 +19,41 @@ pub type Four = [f64; 4];
 /// Bit of a place that is none among the nodes of this rank.
 const APART: u32 = 1 << 31;
 
+/// Points ahead whose lines are asked of the memory: their nodes are scattered among all, which no hardware foresees.
+const SOON: usize = 8;
+
 /// Part of the longest path by which the path of a point of a rigid body may differ from its velocity times the step, along any
 /// axis: half of the largest turn in a step, a tenth, of a velocity that is at most √3 of what it is along an axis.
 const TURNED: f64 = 0.1;
 
-/// Motion of a point that is no node of this rank.
+/// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.
 #[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
 struct PointMotion {
-    /// Position at the present state.
+    /// Position at the present state; the last number is the mark of the step for which this holds.
     start: Four,
     /// Velocity over the coming step as it would be without contact.
     velocity: Four,
+}
+
+impl PointMotion {
+    /// Of a node of this rank.
+    #[inline(always)]
+    fn of_node(Row([x, y, z, _, velocity @ ..]): &Row, Force(force): &Force, kick: f64, mark: f64) -> PointMotion {
+        let velocity = std::array::from_fn(|i| velocity[i] + kick * (force[i] * velocity[3]));
+        PointMotion { start: [*x, *y, *z, mark], velocity }
+    }
+
+    /// Positions at the start and at the end of a step of length `drift`.
+    #[inline(always)]
+    fn ends(&self, drift: f64) -> [Four; 2] {
+        [self.start, std::array::from_fn(|i| self.start[i] + self.velocity[i] * drift)]
+    }
+}
+
+/// What a point that is no node of this rank has beside.
+#[derive(Debug, Clone, Copy, Default)]
+struct Apart {
     /// Velocity over the step before, length per time.
     before: [f64; 3],
     /// Whether it counts among the paths: all bits or none.
@@ -44,7 +68,13 @@ pub struct NodeMotion {
     forces: Vec<Force>,
     /// For each point its node on this rank, or its place among those apart, with the bit [`APART`].
     places: Vec<u32>,
-    apart: Vec<PointMotion>,
+    apart: Vec<Apart>,
+    /// Motions that have been found in the step, and boxes around their paths, seen from the origin.
+    motions: Vec<PointMotion>,
+    swept_boxes: Vec<SweptBox>,
+    /// Mark of the step, which grows from step to step, and how many motions have been found one by one in it.
+    mark: f64,
+    found: usize,
     /// 1/m along each axis, m the mass of the point; 0 where a constraint says how it moves.
     pub inverse_mass: Vec<[f64; 3]>,
     /// Points of rigid bodies, of which the inverse mass says nothing.
@@ -81,22 +111,10 @@ pub fn three([x, y, z, _]: Four) -> [f64; 3] {
     [x, y, z]
 }
 
-/// a + t b.
+/// The difference of two whole vectors.
 #[inline(always)]
-pub fn along(a: Four, b: Four, t: f64) -> Four {
-    std::array::from_fn(|i| a[i] + b[i] * t)
-}
-
-/// Position of a node at the present state.
-#[inline(always)]
-pub fn position_of(Row([x, y, z, m, ..]): &Row) -> Four {
-    [*x, *y, *z, *m]
-}
-
-/// Velocity of a node over the coming step without contact, `kick` being the time for which forces act until then.
-#[inline(always)]
-pub fn velocity_of(row: &Row, force: &Force, kick: f64) -> Four {
-    std::array::from_fn(|i| row.0[4 + i] + kick * (force.0[i] * row.0[7]))
+fn seen_from(origin: Four, at: Four) -> Four {
+    std::array::from_fn(|i| at[i] - origin[i])
 }
 
 impl NodeMotion {
@@ -104,7 +122,7 @@ impl NodeMotion {
     pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
         NodeMotion {
             places: (0..count as u32).map(|place| APART | place).collect(),
-            apart: vec![PointMotion::default(); count],
+            apart: vec![Apart::default(); count],
             ..NodeMotion::of_nodes(std::iter::repeat_n(0, count), origin)
         }
     }
@@ -115,6 +133,8 @@ impl NodeMotion {
         NodeMotion {
             origin,
             inverse_mass: vec![[0.0; 3]; places.len()],
+            motions: vec![PointMotion::default(); places.len()],
+            swept_boxes: vec![SweptBox::EVERYTHING; places.len()],
             places,
             instructions: InstructionSet::detect(),
             ..Default::default()
@@ -131,7 +151,7 @@ impl NodeMotion {
             })
         };
         let motion = NodeMotion::of_nodes(nodes.map(place), origin);
-        NodeMotion { apart: vec![PointMotion::default(); apart as usize], ..motion }
+        NodeMotion { apart: vec![Apart::default(); apart as usize], ..motion }
     }
 
     /// Near which they are; see [`NodeMotion::new`].
@@ -154,14 +174,11 @@ impl NodeMotion {
         self.places.is_empty()
     }
 
-    /// Begins a step of length `drift`, a time, for points whose velocities are known.
-    pub fn begin(&mut self, drift: f64) {
-        (self.drift, self.range) = (drift, PathRange::default());
-    }
-
-    /// Begins a step in which forces act for `kick` until velocities are those of the step; nodes of this rank go so far as `range` says.
-    pub fn begin_step(&mut self, [drift, kick]: [f64; 2], range: PathRange) {
-        (self.drift, self.kick, self.range) = (drift, kick, range);
+    /// Begins a step of length `drift`, a time, in which forces act for `kick` until velocities are those of the step. Points that
+    /// are apart must be set anew.
+    pub fn begin(&mut self, [drift, kick]: [f64; 2]) {
+        (self.drift, self.kick, self.range) = (drift, kick, PathRange::default());
+        (self.mark, self.found) = (self.mark + 1.0, 0);
     }
 
     /// Length of the step that was begun last, a time.
@@ -174,10 +191,11 @@ impl NodeMotion {
         (self.rows, self.forces) = (std::mem::take(&mut nodes.rows), std::mem::take(&mut nodes.forces));
     }
 
-    /// Takes over nodes that another has borrowed, and the step that it has begun.
+    /// Begins the step that another has begun, with the nodes that it has borrowed.
     pub fn borrow_from(&mut self, other: &mut NodeMotion) {
         (self.rows, self.forces) = (std::mem::take(&mut other.rows), std::mem::take(&mut other.forces));
-        self.begin_step([other.drift, other.kick], other.range);
+        self.begin([other.drift, other.kick]);
+        self.range = other.range;
     }
 
     /// Gives the nodes back.
@@ -189,10 +207,66 @@ impl NodeMotion {
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
         let Some(own) = self.apart.get_mut((self.places[point] & !APART) as usize) else { return };
-        let (start, velocity) = (four(start), four(velocity));
-        let gone = std::array::from_fn(|i| start[i] - own.start[i]);
+        own.before = before;
+        let ([x, y, z], velocity) = (start, four(velocity));
+        let gone = seen_from(self.motions[point].start, four(start));
         self.range.take([gone, velocity.map(|velocity| velocity * self.drift)], own.counts);
-        *own = PointMotion { start, velocity, before, ..*own };
+        self.keep(point, PointMotion { start: [x, y, z, self.mark], velocity });
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, point: usize, motion: PointMotion) {
+        let [from, to] = motion.ends(self.drift).map(|at| seen_from(four(self.origin), at));
+        (self.motions[point], self.swept_boxes[point]) = (motion, SweptBox::of_path(from, to));
+    }
+
+    /// Finds the motion of a point for the rest of the step.
+    #[inline(always)]
+    pub fn place(&mut self, point: u32) {
+        if self.motions[point as usize].start[3] != self.mark {
+            self.found += 1;
+            self.keep(point as usize, self.of_node(point));
+        }
+    }
+
+    /// Whether so many motions were found one by one in the last step that it costs less to find all of them together; then they
+    /// are until [`NodeMotion::count_anew`].
+    pub fn is_crowded(&self) -> bool {
+        2 * self.found > self.len()
+    }
+
+    /// Lets motions be found one by one in the next step, and counts them.
+    pub fn count_anew(&mut self) {
+        self.found = 0;
+    }
+
+    /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
+    /// leaves its search box. `counts` is all bits or none for each; `soon` gives nodes whose lines will be asked for soon. With
+    /// `ALL` it finds all motions.
+    #[inline(always)]
+    pub fn survey<const ALL: bool>(&mut self, nodes: &Nodes, last_drift: f64, of_each: (&[u64], &[SweptBox])) -> bool {
+        let (mut range, mut outside) = (PathRange::default(), Outside::default());
+        let soon = self.places.iter().skip(SOON).chain(self.places.last().into_iter().cycle());
+        let places = self.places.iter().zip(soon).zip(self.motions.iter_mut().zip(&mut self.swept_boxes));
+        for (((&node, &soon), (own, own_box)), (&counts, search_box)) in places.zip(of_each.0.iter().zip(of_each.1)) {
+            prefetch(&nodes.rows[soon as usize..][..1]);
+            prefetch(&nodes.forces[soon as usize..][..1]);
+            let row = &nodes.rows[node as usize];
+            let motion = PointMotion::of_node(row, &nodes.forces[node as usize], self.kick, self.mark);
+            let gone = [4, 5, 6, 3].map(|i| row.0[i] * last_drift);
+            range.take([gone, motion.velocity.map(|velocity| velocity * self.drift)], counts);
+            let [from, to] = motion.ends(self.drift).map(|at| seen_from(four(self.origin), at));
+            let swept_box = SweptBox::of_path(from, to);
+            outside.take(&swept_box, search_box);
+            if ALL {
+                (*own, *own_box) = (motion, swept_box);
+            }
+        }
+        self.range = range;
+        if ALL {
+            self.found = self.len();
+        }
+        outside.any()
     }
 
     /// Chooses the points, of those apart, that count among the paths.
@@ -212,8 +286,7 @@ impl NodeMotion {
     pub fn paths_ahead(&self, points: impl Iterator<Item = u32>) -> Paths {
         let mut range = PathRange::default();
         for point in points {
-            let (start, end) = (self.start_four(point), self.end_four(point));
-            range.take([Four::default(), std::array::from_fn(|i| end[i] - start[i])], u64::MAX);
+            range.take([Four::default(), self.of(point).velocity.map(|velocity| velocity * self.drift)], u64::MAX);
         }
         self.room_to_turn(range.paths())
     }
@@ -224,47 +297,33 @@ impl NodeMotion {
         Paths { longest: paths.longest + room, half_range: paths.half_range + room }
     }
 
-    /// The point's node here with its force, or what is known of it apart.
+    /// The motion of a node of this rank.
     #[inline(always)]
-    fn source(&self, point: u32) -> Result<(&Row, &Force), &PointMotion> {
-        let place = self.places[point as usize];
-        match (self.rows.get(place as usize), self.forces.get(place as usize)) {
-            (Some(row), Some(force)) => Ok((row, force)),
-            _ => Err(&self.apart[(place & !APART) as usize]),
-        }
-    }
-
-    /// Position at the present state, as a whole vector.
-    #[inline(always)]
-    pub fn start_four(&self, point: u32) -> Four {
-        match self.source(point) {
-            Ok((row, _)) => position_of(row),
-            Err(own) => own.start,
+    fn of_node(&self, point: u32) -> PointMotion {
+        let node = self.places[point as usize] as usize;
+        match (self.rows.get(node), self.forces.get(node)) {
+            (Some(row), Some(force)) => PointMotion::of_node(row, force, self.kick, self.mark),
+            // What is apart holds until it is set anew.
+            _ => self.motions[point as usize],
         }
     }
 
     #[inline(always)]
-    fn velocity_four(&self, point: u32) -> Four {
-        match self.source(point) {
-            Ok((row, force)) => velocity_of(row, force, self.kick),
-            Err(own) => own.velocity,
-        }
+    fn of(&self, point: u32) -> PointMotion {
+        let own = &self.motions[point as usize];
+        if own.start[3] == self.mark { *own } else { self.of_node(point) }
     }
 
-    /// Position at the present state and at the end of the step without contact.
+    /// Position at the present state and at the end of the step without contact, as whole vectors.
     #[inline(always)]
     pub fn both_four(&self, point: u32) -> [Four; 2] {
-        let [start, velocity] = match self.source(point) {
-            Ok((row, force)) => [position_of(row), velocity_of(row, force, self.kick)],
-            Err(own) => [own.start, own.velocity],
-        };
-        [start, along(start, velocity, self.drift)]
+        self.of(point).ends(self.drift)
     }
 
     /// Position at the present state.
     #[inline]
     pub fn start(&self, point: u32) -> [f64; 3] {
-        three(self.start_four(point))
+        three(self.of(point).start)
     }
 
     /// Position at the end of the step without contact.
@@ -282,15 +341,16 @@ impl NodeMotion {
     /// Velocity over the coming step as it would be without contact.
     #[inline]
     pub fn velocity(&self, point: u32) -> [f64; 3] {
-        three(self.velocity_four(point))
+        three(self.of(point).velocity)
     }
 
     /// Velocity over the step before.
     #[inline]
     pub fn velocity_before(&self, point: u32) -> [f64; 3] {
-        match self.source(point) {
-            Ok((Row([.., u, v, w, _]), _)) => [*u, *v, *w],
-            Err(own) => own.before,
+        let place = self.places[point as usize];
+        match self.rows.get(place as usize) {
+            Some(Row([.., u, v, w, _])) => [*u, *v, *w],
+            None => self.apart[(place & !APART) as usize].before,
         }
     }
 
@@ -300,25 +360,10 @@ impl NodeMotion {
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])
     }
 
-    /// Box around the path of a point, seen from the origin.
+    /// Box around the path of a point that has been placed, seen from the origin.
     #[inline(always)]
-    pub fn swept_box(&self, point: u32) -> SweptBox {
-        let origin = four(self.origin);
-        let [start, end] = self.both_four(point).map(|at| along(at, origin, -1.0));
-        SweptBox::of_path(start, end)
-    }
-
-    /// Box around the paths of some points, seen from the origin and grown by a margin.
-    #[inline(always)]
-    pub fn joined_box<const N: usize>(&self, points: [u32; N], margin: f32) -> SweptBox {
-        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        for at in points.map(|point| self.both_four(point)).as_flattened() {
-            for i in 0..4 {
-                (low[i], high[i]) = (smaller(low[i], at[i]), larger(high[i], at[i]));
-            }
-        }
-        let origin = four(self.origin);
-        SweptBox::of_path(along(low, origin, -1.0), along(high, origin, -1.0)).grown(margin)
+    pub fn swept_box(&self, point: u32) -> &SweptBox {
+        &self.swept_boxes[point as usize]
     }
 }
 
@@ -329,7 +374,7 @@ mod tests {
     fn paths(velocities: &[[f64; 3]]) -> Paths {
         let mut motion = NodeMotion::new(velocities.len(), [0.0; 3]);
         motion.count(0..velocities.len() as u32);
-        motion.begin(2.0);
+        motion.begin([2.0, 0.0]);
         (velocities.iter().enumerate()).for_each(|(point, velocity)| motion.set(point, [0.0; 3], *velocity, [0.0; 3]));
         motion.paths()
     }

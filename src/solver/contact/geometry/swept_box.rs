@@ -6,7 +6,8 @@ use super::motion::{Four, four};
 /// Part by which a coordinate is moved outwards: more than what rounding to single precision and one sum can take away.
 const OUTWARDS: f32 = 4e-7;
 
-/// A box along the axes: its low corner, then its high corner with the sign changed, so that growing is a difference in all places.
+/// A box along the axes: its low corner, then its high corner with the sign changed, so that joining is a minimum and
+/// growing a difference in all places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweptBox([f32; 8]);
 
@@ -45,10 +46,11 @@ impl SweptBox {
         SweptBox(bounds)
     }
 
-    /// Itself, grown by a margin on all sides.
+    /// The box around four others, grown by a margin.
     #[inline(always)]
-    pub fn grown(&self, margin: f32) -> SweptBox {
-        SweptBox(self.0.map(|bound| bound - margin * (1.0 + OUTWARDS)))
+    pub fn joined([a, b, c, d]: [&SweptBox; 4], margin: f32) -> SweptBox {
+        let margin = margin * (1.0 + OUTWARDS);
+        SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
 
     /// Its low and its high corner.
@@ -125,9 +127,9 @@ mod tests {
         ) {
             let place = SweptBox::around(a, a);
             prop_assert!(place.meets(&SweptBox::around(a, b)) && SweptBox::around(b, a).meets(&place));
-            // What is exactly the margin away.
+            // A face with one corner exactly the margin away.
             let away = SweptBox::around([a[0] + f64::from(margin), a[1], a[2]], [a[0] + f64::from(margin), a[1], a[2]]);
-            prop_assert!(away.grown(margin).meets(&place));
+            prop_assert!(SweptBox::joined([&away; 4], margin).meets(&place));
         }
 
         #[test]

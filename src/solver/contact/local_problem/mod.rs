@@ -374,7 +374,7 @@ impl LocalProblem {
         let StepInput { pairings, remaining, .. } = *setting;
         let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
         let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
-        let check = NodeFaceCheck { motion, faces, longest_path: locator.longest_path() };
+        let longest_path = locator.longest_path();
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
                 continue;
@@ -394,6 +394,7 @@ impl LocalProblem {
             strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
             // The history of the many that nothing holds need not be fetched.
             let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
+            let check = NodeFaceCheck { motion, faces, longest_path };
             check.point(point, near_faces, strict, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;
@@ -425,7 +426,6 @@ impl LocalProblem {
         let LocalProblem { motion, faces, locator, edges, edge_reaches, edge_history, .. } = self;
         let LocalProblem { pair_places, constraints, blocks_around: [_, around], .. } = self;
         let blocks = |edge: u32| edges[edge as usize].faces.iter().fold(0, |set, &face| set | around[face as usize]);
-        let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
         locator.pairs_to_check(lines, before.iter().map(|past| &past.pair), pair_places);
@@ -439,7 +439,8 @@ impl LocalProblem {
             let past = past.next_if(|past| past.pair == pair);
             // Neither edge is the master.
             let pairing = || Pairing { share: 0.5, ..pairings.of(Rule::Blocks, block(pair[0]), block(pair[1])) };
-            match check.pair(pair, past, pairing) {
+            pair.iter().flat_map(|&edge| edges[edge as usize].ends).for_each(|end| motion.place(end));
+            match (EdgeCheck { motion, faces, edges, reaches: edge_reaches }).pair(pair, past, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
                     met.meet(blocks(pair[0]), blocks(pair[1]));

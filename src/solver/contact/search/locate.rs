@@ -130,11 +130,15 @@ impl CaptureBoxes {
 
     /// Capture box of a face: its corners at the beginning and at the end of the step, and a little around.
     #[inline(always)]
-    fn of(&mut self, face: u32, faces: &Faces, motion: &NodeMotion, margin: f64) -> SweptBox {
+    fn of(&mut self, face: u32, faces: &Faces, motion: &mut NodeMotion, margin: f64) -> SweptBox {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
-            let margin = margin * faces.depth[face as usize] + faces.reach[face as usize];
-            *bounds = motion.joined_box(faces.corners[face as usize], margin as f32);
+            let [a, b, c, d] = faces.corners[face as usize];
+            [a, b, c, d].into_iter().for_each(|corner| motion.place(corner));
+            *bounds = SweptBox::joined(
+                [motion.swept_box(a), motion.swept_box(b), motion.swept_box(c), motion.swept_box(d)],
+                (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,
+            );
             *step = self.step;
         }
         *bounds
@@ -264,12 +268,13 @@ impl Locator {
     }
 
     /// Finds the candidates of the `i`-th slave node whose boxes over this step meet that of the point, and those that
-    /// have held it before; of a point that nothing holds, without those that it cannot touch for a while.
+    /// have held it before; of a point that nothing holds, without those that it cannot touch for a while. Places the point and the
+    /// corners of what it looks at.
     #[inline(always)]
     pub fn locate(
         &mut self,
         i: usize,
-        motion: &NodeMotion,
+        motion: &mut NodeMotion,
         faces: &Faces,
         past: &[FaceContact; MAX_FACES],
         near: &mut Vec<Candidate>,
@@ -285,7 +290,8 @@ impl Locator {
         if awake == 0 && candidates.len() <= 64 {
             return;
         }
-        let own = motion.swept_box(self.slave_nodes[i]);
+        motion.place(self.slave_nodes[i]);
+        let own = *motion.swept_box(self.slave_nodes[i]);
         let reach = faces.node_reach[self.slave_nodes[i] as usize] * ROUNDED_UP;
         // No closure: it would be compiled apart, without the vector instructions of the caller.
         let mut next = 64;
@@ -362,10 +368,11 @@ impl Locator {
     }
 
     /// Finds which candidates of the `i`-th slave node may sleep, and for how long.
-    fn plan_sleep(&mut self, i: usize, motion: &NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
+    fn plan_sleep(&mut self, i: usize, motion: &mut NodeMotion, faces: &Faces, past: &[FaceContact; MAX_FACES]) {
         let point = self.slave_nodes[i];
         let held = past[0].face != NONE;
-        let own = motion.swept_box(point);
+        motion.place(point);
+        let own = *motion.swept_box(point);
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.paths.half_range, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
