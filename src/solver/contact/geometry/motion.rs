@@ -44,10 +44,17 @@ impl PointMotion {
         PointMotion { start: [*x, *y, *z, mark], velocity }
     }
 
-    /// Positions at the start and at the end of a step of length `drift`.
+    /// Position at the end of a step of length `drift`.
     #[inline(always)]
-    fn ends(&self, drift: f64) -> [Four; 2] {
-        [self.start, std::array::from_fn(|i| self.start[i] + self.velocity[i] * drift)]
+    fn end(&self, drift: f64) -> Four {
+        std::array::from_fn(|i| self.start[i] + self.velocity[i] * drift)
+    }
+
+    /// Box around the path to that end, seen from an origin.
+    #[inline(always)]
+    fn box_to(&self, drift: f64, origin: Four) -> SweptBox {
+        let end = self.end(drift);
+        SweptBox::of_path(seen_from(origin, self.start), seen_from(origin, end))
     }
 }
 
@@ -75,6 +82,8 @@ pub struct NodeMotion {
     /// Mark of the step, which grows from step to step, and how many motions have been found one by one in it.
     mark: f64,
     found: usize,
+    /// Whether all have been found together.
+    all_found: bool,
     /// 1/m along each axis, m the mass of the point; 0 where a constraint says how it moves.
     pub inverse_mass: Vec<[f64; 3]>,
     /// Points of rigid bodies, of which the inverse mass says nothing.
@@ -178,7 +187,7 @@ impl NodeMotion {
     /// are apart must be set anew.
     pub fn begin(&mut self, [drift, kick]: [f64; 2]) {
         (self.drift, self.kick, self.range) = (drift, kick, PathRange::default());
-        (self.mark, self.found) = (self.mark + 1.0, 0);
+        (self.mark, self.found, self.all_found) = (self.mark + 1.0, 0, false);
     }
 
     /// Length of the step that was begun last, a time.
@@ -216,16 +225,29 @@ impl NodeMotion {
 
     #[inline(always)]
     fn keep(&mut self, point: usize, motion: PointMotion) {
-        let [from, to] = motion.ends(self.drift).map(|at| seen_from(four(self.origin), at));
-        (self.motions[point], self.swept_boxes[point]) = (motion, SweptBox::of_path(from, to));
+        (self.motions[point], self.swept_boxes[point]) = (motion, motion.box_to(self.drift, four(self.origin)));
     }
 
     /// Finds the motion of a point for the rest of the step.
     #[inline(always)]
     pub fn place(&mut self, point: u32) {
-        if self.motions[point as usize].start[3] != self.mark {
-            self.found += 1;
-            self.keep(point as usize, self.of_node(point));
+        self.place_all([point]);
+    }
+
+    /// Finds the motions of some points for the rest of the step.
+    #[inline(always)]
+    pub fn place_all<const N: usize>(&mut self, points: [u32; N]) {
+        if self.all_found {
+            return;
+        }
+        // No iterator: it would be compiled apart, without the vector instructions of the caller.
+        let mut i = 0;
+        while i < N {
+            if self.motions[points[i] as usize].start[3] != self.mark {
+                self.found += 1;
+                self.keep(points[i] as usize, self.of_node(points[i]));
+            }
+            i += 1;
         }
     }
 
@@ -255,8 +277,7 @@ impl NodeMotion {
             let motion = PointMotion::of_node(row, &nodes.forces[node as usize], self.kick, self.mark);
             let gone = [4, 5, 6, 3].map(|i| row.0[i] * last_drift);
             range.take([gone, motion.velocity.map(|velocity| velocity * self.drift)], counts);
-            let [from, to] = motion.ends(self.drift).map(|at| seen_from(four(self.origin), at));
-            let swept_box = SweptBox::of_path(from, to);
+            let swept_box = motion.box_to(self.drift, four(self.origin));
             outside.take(&swept_box, search_box);
             if ALL {
                 (*own, *own_box) = (motion, swept_box);
@@ -264,7 +285,7 @@ impl NodeMotion {
         }
         self.range = range;
         if ALL {
-            self.found = self.len();
+            (self.found, self.all_found) = (self.len(), true);
         }
         outside.any()
     }
@@ -286,7 +307,8 @@ impl NodeMotion {
     pub fn paths_ahead(&self, points: impl Iterator<Item = u32>) -> Paths {
         let mut range = PathRange::default();
         for point in points {
-            range.take([Four::default(), self.of(point).velocity.map(|velocity| velocity * self.drift)], u64::MAX);
+            let ahead = self.of(point, |motion| motion.velocity.map(|velocity| velocity * self.drift));
+            range.take([Four::default(), ahead], u64::MAX);
         }
         self.room_to_turn(range.paths())
     }
@@ -298,7 +320,7 @@ impl NodeMotion {
     }
 
     /// The motion of a node of this rank.
-    #[inline(always)]
+    #[inline(never)]
     fn of_node(&self, point: u32) -> PointMotion {
         let node = self.places[point as usize] as usize;
         match (self.rows.get(node), self.forces.get(node)) {
@@ -308,26 +330,28 @@ impl NodeMotion {
         }
     }
 
+    /// What `of` says of the motion of a point. Nearly always that has been found.
     #[inline(always)]
-    fn of(&self, point: u32) -> PointMotion {
+    fn of<T>(&self, point: u32, of: impl Fn(&PointMotion) -> T) -> T {
         let own = &self.motions[point as usize];
-        if own.start[3] == self.mark { *own } else { self.of_node(point) }
-    }
-
-    /// Position at the present state and at the end of the step without contact, as whole vectors.
-    #[inline(always)]
-    pub fn both_four(&self, point: u32) -> [Four; 2] {
-        self.of(point).ends(self.drift)
+        let found;
+        let motion = if own.start[3] == self.mark {
+            own
+        } else {
+            found = self.of_node(point);
+            &found
+        };
+        of(motion)
     }
 
     /// Position at the present state.
-    #[inline]
+    #[inline(always)]
     pub fn start(&self, point: u32) -> [f64; 3] {
-        three(self.of(point).start)
+        self.of(point, |motion| three(motion.start))
     }
 
     /// Position at the end of the step without contact.
-    #[inline]
+    #[inline(always)]
     pub fn end(&self, point: u32) -> [f64; 3] {
         three(self.end_four(point))
     }
@@ -335,17 +359,17 @@ impl NodeMotion {
     /// The same as a whole vector.
     #[inline(always)]
     pub fn end_four(&self, point: u32) -> Four {
-        self.both_four(point)[1]
+        self.of(point, |motion| motion.end(self.drift))
     }
 
     /// Velocity over the coming step as it would be without contact.
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, point: u32) -> [f64; 3] {
-        three(self.of(point).velocity)
+        self.of(point, |motion| three(motion.velocity))
     }
 
     /// Velocity over the step before.
-    #[inline]
+    #[inline(always)]
     pub fn velocity_before(&self, point: u32) -> [f64; 3] {
         let place = self.places[point as usize];
         match self.rows.get(place as usize) {
@@ -355,8 +379,9 @@ impl NodeMotion {
     }
 
     /// Where a point is, and how far it goes in the step.
+    #[inline(always)]
     pub fn path(&self, point: u32) -> ([f64; 3], [f64; 3]) {
-        let [start, end] = self.both_four(point).map(three);
+        let [start, end] = self.of(point, |motion| [three(motion.start), three(motion.end(self.drift))]);
         (start, [end[0] - start[0], end[1] - start[1], end[2] - start[2]])
     }
 

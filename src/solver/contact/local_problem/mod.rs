@@ -439,7 +439,8 @@ impl LocalProblem {
             let past = past.next_if(|past| past.pair == pair);
             // Neither edge is the master.
             let pairing = || Pairing { share: 0.5, ..pairings.of(Rule::Blocks, block(pair[0]), block(pair[1])) };
-            pair.iter().flat_map(|&edge| edges[edge as usize].ends).for_each(|end| motion.place(end));
+            let [[a, b], [c, d]] = pair.map(|edge| edges[edge as usize].ends);
+            motion.place_all([a, b, c, d]);
             match (EdgeCheck { motion, faces, edges, reaches: edge_reaches }).pair(pair, past, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);

@@ -134,7 +134,7 @@ impl CaptureBoxes {
         let (step, bounds) = &mut self.faces[face as usize];
         if *step != self.step {
             let [a, b, c, d] = faces.corners[face as usize];
-            [a, b, c, d].into_iter().for_each(|corner| motion.place(corner));
+            motion.place_all([a, b, c, d]);
             *bounds = SweptBox::joined(
                 [motion.swept_box(a), motion.swept_box(b), motion.swept_box(c), motion.swept_box(d)],
                 (margin * faces.depth[face as usize] + faces.reach[face as usize]) as f32,

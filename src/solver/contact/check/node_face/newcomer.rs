@@ -101,7 +101,9 @@ impl NodeFaceCheck<'_> {
     /// faces pushed outwards.
     fn first_touch(&self, point: u32, face: u32) -> Option<f64> {
         let (path, distance) = (self.motion.path(point), self.faces.distance(point, face));
-        let corners = self.faces.corners[face as usize].map(|corner| self.motion.path(corner));
+        // Written out, as `map` would be a call for every corner.
+        let [a, b, c, d] = self.faces.corners[face as usize];
+        let corners = [self.motion.path(a), self.motion.path(b), self.motion.path(c), self.motion.path(d)];
         let outside = (distance > 0.0).then(|| projection::pushed_out(&corners, distance));
         let touched = outside.and_then(|outside| projection::first_crossing(&outside, path));
         touched.or_else(|| projection::first_crossing(&corners, path))
