@@ -123,9 +123,26 @@ impl Numbers for SingleRow {
     }
 }
 
+/// Asks the memory for the lines of values that will be needed later, into the second cache: many more may be on their way to that than to the
+/// first.
+#[inline(always)]
+pub fn prefetch_later<A, B>(one: &A, other: &B) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(one).cast());
+            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(other).cast());
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (one, other);
+}
+
 /// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
 #[inline(always)]
-pub fn prefetch<R>(rows: &[R]) {
+pub fn prefetch<R: Numbers>(rows: &[R]) {
     #[cfg(target_arch = "x86_64")]
     for row in rows {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

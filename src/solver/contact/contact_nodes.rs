@@ -154,13 +154,10 @@ impl ContactNodes {
         }
     }
 
-    /// Chooses the points that count among the paths, as far as they are here.
-    pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
+    /// Chooses the contact nodes that count among the paths.
+    pub fn count(&mut self, chosen: impl Iterator<Item = usize>) {
         self.counts.fill(0);
-        let (places, counts) = (&self.places, &mut self.counts);
-        for place in chosen.map(|point| places[point as usize]).filter(|&place| place != ABSENT) {
-            counts[place as usize] = u64::MAX;
-        }
+        chosen.for_each(|contact_node| self.counts[contact_node] = u64::MAX);
     }
 
     /// Gives every contact node a new search box: around the path that it would go in `steps` of the present one, with room on

@@ -46,6 +46,7 @@ use enforcement::iterations::{Limits, Outcome};
 use enforcement::mobility::BodyMobility;
 use enforcement::other_ranks::{Elsewhere, NoOtherRanks};
 use enforcement::resultants::Resultants;
+use geometry::paths::PathRange;
 use layout::{ABSENT, Layout};
 use local_problem::{History, LocalProblem, StepInput};
 use pairings::Pairings;
@@ -197,8 +198,11 @@ impl Contact {
         comm.enter(Traffic::ContactSearch);
         let reshaped = self.reshape(nodes, comm);
         self.contact_nodes.motion.borrow(nodes);
-        if !self.layout.interfaces.is_empty() && (self.expired(comm) || reshaped) {
-            self.search(comm);
+        if !self.layout.interfaces.is_empty() {
+            let expired = self.expired(comm);
+            if expired || reshaped {
+                self.search(comm);
+            }
         }
         comm.enter(Traffic::ContactMotion);
         let Contact { contact_nodes, problem, remote, .. } = self;
@@ -234,15 +238,19 @@ impl Contact {
         }
     }
 
-    /// Whether any rank needs a search.
-    fn expired(&self, comm: &mut dyn Communicator) -> bool {
+    /// Whether any rank needs a search. All ranks hear how far nodes go on any of them: what sleeps on one may be nodes of another.
+    fn expired(&mut self, comm: &mut dyn Communicator) -> bool {
         let expired = self.contact_nodes.expired;
         if self.remote.is_none() {
             return expired;
         }
-        let mut vote = [-f64::from(u8::from(expired))];
-        comm.all_min(&mut vote);
-        vote[0] < 0.0
+        let range = self.contact_nodes.motion.range();
+        let [a, b, c, d, e, f, g] = range.to_array();
+        let mut least = [a, b, c, d, e, f, g, -f64::from(u8::from(expired))];
+        comm.all_min(&mut least);
+        let [a, b, c, d, e, f, g, vote] = least;
+        *range = PathRange::from_array([a, b, c, d, e, f, g]);
+        vote < 0.0
     }
 
     /// Finds all candidates anew.
@@ -252,8 +260,13 @@ impl Contact {
         self.searches += 1;
         contact_nodes.renew(self.reach.steps, self.reach.least);
         if let Some(remote) = remote {
+            let is_heir = carried.is_none() && self.searches > 1;
             let history = carried.take().unwrap_or_else(|| problem.history());
-            *problem = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
+            let new = remote.decompose(&mut **search, (layout, plane_nodes, depth), contact_nodes, history, comm);
+            let old = std::mem::replace(problem, new);
+            if is_heir {
+                problem.locator.take_over(&old.locator, [&problem.numbering, &old.numbering]);
+            }
         } else {
             let found = neighbourhood::find_alone(&mut **search, layout, contact_nodes);
             if carried.is_some() || self.searches == 1 {
@@ -263,11 +276,10 @@ impl Contact {
                 problem.renew(found, depth);
             }
         }
-        let LocalProblem { motion, locator, numbering, .. } = &mut *problem;
-        if remote.is_some() {
-            motion.count(locator.moving().iter().copied());
-        }
-        contact_nodes.count(locator.moving().iter().map(|&point| numbering.points[point as usize]));
+        let LocalProblem { locator, numbering, .. } = &mut *problem;
+        let moving = locator.moving().iter().map(|&point| numbering.points[point as usize]);
+        let moving = moving.filter_map(|point| contact_nodes.of(point)).collect::<Vec<usize>>();
+        contact_nodes.count(moving.into_iter().chain(remote.iter().flat_map(Remote::sent)));
         self.counts = self.problem.locator.counts().map(|count| count as u64);
         self.problem.count_candidates(&mut self.seen.met);
         if self.remote.is_some() {

@@ -9,7 +9,7 @@
 
 use super::paths::{PathRange, Paths};
 use super::swept_box::{Outside, SweptBox};
-use crate::lanes::{Force, InstructionSet, Row, prefetch};
+use crate::lanes::{Force, InstructionSet, Row, prefetch_later};
 use crate::solver::contact::enforcement::mobility::Mobility;
 use crate::solver::nodes::Nodes;
 
@@ -19,8 +19,9 @@ pub type Four = [f64; 4];
 /// Bit of a place that is none among the nodes of this rank.
 const APART: u32 = 1 << 31;
 
-/// Points ahead whose lines are asked of the memory: their nodes are scattered among all, which no hardware foresees.
-const SOON: usize = 8;
+/// Points ahead whose lines are asked of the memory: their nodes are scattered among all, which no hardware foresees. With 8 and 64 a large
+/// can cost 87 and 70 ns a contact node and step.
+const SOON: usize = 64;
 
 /// Part of the longest path by which the path of a point of a rigid body may differ from its velocity times the step, along any
 /// axis: half of the largest turn in a step, a tenth, of a velocity that is at most √3 of what it is along an axis.
@@ -58,15 +59,6 @@ impl PointMotion {
     }
 }
 
-/// What a point that is no node of this rank has beside.
-#[derive(Debug, Clone, Copy, Default)]
-struct Apart {
-    /// Velocity over the step before, length per time.
-    before: [f64; 3],
-    /// Whether it counts among the paths: all bits or none.
-    counts: u64,
-}
-
 /// Motion of points, by their numbers.
 #[derive(Debug, Clone, Default)]
 pub struct NodeMotion {
@@ -75,7 +67,8 @@ pub struct NodeMotion {
     forces: Vec<Force>,
     /// For each point its node on this rank, or its place among those apart, with the bit [`APART`].
     places: Vec<u32>,
-    apart: Vec<Apart>,
+    /// Velocities of these over the step before, length per time.
+    apart: Vec<[f64; 3]>,
     /// Motions that have been found in the step, and boxes around their paths, seen from the origin.
     motions: Vec<PointMotion>,
     swept_boxes: Vec<SweptBox>,
@@ -131,7 +124,7 @@ impl NodeMotion {
     pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
         NodeMotion {
             places: (0..count as u32).map(|place| APART | place).collect(),
-            apart: vec![Apart::default(); count],
+            apart: vec![[0.0; 3]; count],
             ..NodeMotion::of_nodes(std::iter::repeat_n(0, count), origin)
         }
     }
@@ -160,7 +153,7 @@ impl NodeMotion {
             })
         };
         let motion = NodeMotion::of_nodes(nodes.map(place), origin);
-        NodeMotion { apart: vec![Apart::default(); apart as usize], ..motion }
+        NodeMotion { apart: vec![[0.0; 3]; apart as usize], ..motion }
     }
 
     /// Near which they are; see [`NodeMotion::new`].
@@ -215,12 +208,11 @@ impl NodeMotion {
     /// Sets the position of a point that is apart, and its velocities over the coming step and over the step `before`.
     #[inline]
     pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
-        let Some(own) = self.apart.get_mut((self.places[point] & !APART) as usize) else { return };
-        own.before = before;
-        let ([x, y, z], velocity) = (start, four(velocity));
-        let gone = seen_from(self.motions[point].start, four(start));
-        self.range.take([gone, velocity.map(|velocity| velocity * self.drift)], own.counts);
-        self.keep(point, PointMotion { start: [x, y, z, self.mark], velocity });
+        if let Some(own) = self.apart.get_mut((self.places[point] & !APART) as usize) {
+            *own = before;
+        }
+        let [x, y, z] = start;
+        self.keep(point, PointMotion { start: [x, y, z, self.mark], velocity: four(velocity) });
     }
 
     #[inline(always)]
@@ -271,8 +263,7 @@ impl NodeMotion {
         let soon = self.places.iter().skip(SOON).chain(self.places.last().into_iter().cycle());
         let places = self.places.iter().zip(soon).zip(self.motions.iter_mut().zip(&mut self.swept_boxes));
         for (((&node, &soon), (own, own_box)), (&counts, search_box)) in places.zip(of_each.0.iter().zip(of_each.1)) {
-            prefetch(&nodes.rows[soon as usize..][..1]);
-            prefetch(&nodes.forces[soon as usize..][..1]);
+            prefetch_later(&nodes.rows[soon as usize], &nodes.forces[soon as usize]);
             let row = &nodes.rows[node as usize];
             let motion = PointMotion::of_node(row, &nodes.forces[node as usize], self.kick, self.mark);
             let gone = [4, 5, 6, 3].map(|i| row.0[i] * last_drift);
@@ -290,15 +281,12 @@ impl NodeMotion {
         outside.any()
     }
 
-    /// Chooses the points, of those apart, that count among the paths.
-    pub fn count(&mut self, chosen: impl Iterator<Item = u32>) {
-        self.apart.iter_mut().for_each(|own| own.counts = 0);
-        for place in chosen.map(|point| self.places[point as usize]).filter(|place| place & APART != 0) {
-            self.apart[(place & !APART) as usize].counts = u64::MAX;
-        }
+    /// Between which paths those are that points which count have gone in the last step or will go in this one.
+    pub fn range(&mut self) -> &mut PathRange {
+        &mut self.range
     }
 
-    /// How far points that count have gone in the last step or will go in this one.
+    /// How far points that count have gone in the last step or will go in this one, on any rank.
     pub fn paths(&self) -> Paths {
         self.room_to_turn(self.range.paths())
     }
@@ -374,7 +362,7 @@ impl NodeMotion {
         let place = self.places[point as usize];
         match self.rows.get(place as usize) {
             Some(Row([.., u, v, w, _])) => [*u, *v, *w],
-            None => self.apart[(place & !APART) as usize].before,
+            None => self.apart[(place & !APART) as usize],
         }
     }
 
@@ -389,34 +377,5 @@ impl NodeMotion {
     #[inline(always)]
     pub fn swept_box(&self, point: u32) -> &SweptBox {
         &self.swept_boxes[point as usize]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn paths(velocities: &[[f64; 3]]) -> Paths {
-        let mut motion = NodeMotion::new(velocities.len(), [0.0; 3]);
-        motion.count(0..velocities.len() as u32);
-        motion.begin([2.0, 0.0]);
-        (velocities.iter().enumerate()).for_each(|(point, velocity)| motion.set(point, [0.0; 3], *velocity, [0.0; 3]));
-        motion.paths()
-    }
-
-    /// A body that runs into another at rest nears it by its path; two that run into each other by the sum; what flies
-    /// together counts as if something were at rest.
-    #[test]
-    fn half_of_the_range_is_how_far_either_goes() {
-        for (velocities, longest, half_range) in [
-            ([[3.0, 0.0, 1.0], [0.0; 3]], 6.0, 3.0),
-            ([[3.0, 0.0, 1.0], [-1.0, 0.0, 0.5]], 6.0, 4.0),
-            ([[0.0, -3.0, 0.0], [0.0, -3.0, 0.0]], 6.0, 3.0),
-        ] {
-            let found = paths(&velocities);
-            assert_eq!([found.longest, found.half_range], [longest, half_range]);
-        }
-        let nowhere = paths(&[[0.0, f64::NAN, 0.0], [0.0; 3]]);
-        assert_eq!([nowhere.longest, nowhere.half_range], [f64::INFINITY; 2]);
     }
 }

@@ -1,6 +1,6 @@
 //! How far nodes go in a step: what tells how long things that are apart need not be looked at.
 
-use super::motion::{Four, larger, smaller, three};
+use super::motion::{Four, four, larger, smaller, three};
 
 /// Between which paths along each axis all paths are, no path among them: lengths. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
@@ -21,6 +21,19 @@ impl PathRange {
             self.low[i] = smaller(smaller(gone, ahead), self.low[i]);
             self.high[i] = larger(larger(gone, ahead), self.high[i]);
         }
+    }
+
+    /// As numbers of which the least of all ranks are those of all paths.
+    pub fn to_array(self) -> [f64; 7] {
+        let (low, high) = (self.low, self.high);
+        let sound = self.poison[..3] == [0.0; 3];
+        [low[0], low[1], low[2], -high[0], -high[1], -high[2], if sound { 0.0 } else { -1.0 }]
+    }
+
+    /// From these.
+    pub fn from_array([a, b, c, d, e, f, sound]: [f64; 7]) -> PathRange {
+        let poison = if sound < 0.0 { f64::NAN } else { 0.0 };
+        PathRange { low: four([a, b, c]), high: four([-d, -e, -f]), poison: [poison; 4] }
     }
 
     /// How far they go at most.
@@ -56,5 +69,29 @@ impl Paths {
     /// Of both.
     pub fn and(self, other: Paths) -> Paths {
         Paths { longest: self.longest.max(other.longest), half_range: self.half_range.max(other.half_range) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body that runs into another at rest nears it by its path; two that run into each other by the sum; what flies
+    /// together counts as if something were at rest. What does not count is not there.
+    #[test]
+    fn half_of_the_range_is_how_far_either_goes() {
+        let paths = |[one, other]: [[f64; 3]; 2]| {
+            let mut range = PathRange::default();
+            range.take([[0.0; 4], four(one)], u64::MAX);
+            range.take([four(other), [0.0; 4]], u64::MAX);
+            range.take([[100.0; 4], [f64::NAN; 4]], 0);
+            let through = PathRange::from_array(range.to_array()).paths();
+            assert_eq!([through.longest, through.half_range], [range.paths().longest, range.paths().half_range]);
+            [through.longest, through.half_range]
+        };
+        assert_eq!(paths([[6.0, 0.0, 2.0], [0.0; 3]]), [6.0, 3.0]);
+        assert_eq!(paths([[6.0, 0.0, 2.0], [-2.0, 0.0, 1.0]]), [6.0, 4.0]);
+        assert_eq!(paths([[0.0, -6.0, 0.0], [0.0, -6.0, 0.0]]), [6.0, 3.0]);
+        assert_eq!(paths([[0.0, f64::NAN, 0.0], [0.0; 3]]), [f64::INFINITY; 2]);
     }
 }

@@ -189,7 +189,7 @@ impl LocalProblem {
         }
         let before = std::mem::take(&mut self.locator);
         self.locator = Locator::new(found, depth, self.numbering.points.len(), &self.faces, &self.edges);
-        self.locator.take_over(&before);
+        self.locator.take_over(&before, [&self.numbering; 2]);
     }
 
     /// Lets go of faces that it shares with the layout, so that they can be changed without a copy; until they are shared again.

@@ -130,6 +130,11 @@ impl Remote {
         );
     }
 
+    /// Contact nodes whose motion goes to other ranks.
+    pub fn sent(&self) -> impl Iterator<Item = usize> + '_ {
+        self.motion.sent().map(|contact_node| contact_node as usize)
+    }
+
     /// Brings the forces that contact has found to the nodes.
     pub fn send_forces(
         &mut self,

@@ -32,6 +32,11 @@ impl MessagePattern {
         }
     }
 
+    /// Entries that go to other ranks.
+    pub fn sent(&self) -> impl Iterator<Item = u32> + '_ {
+        self.send.iter().flatten().copied()
+    }
+
     /// Sends `W` numbers of every entry to where it goes, on this rank too.
     pub fn exchange<const W: usize, D: ?Sized>(
         &mut self,

@@ -9,6 +9,7 @@ use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::paths::Paths;
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
+use crate::solver::contact::local_problem::Numbering;
 use crate::vector::{dot, subtract};
 
 /// Nodes and faces that may touch.
@@ -180,27 +181,37 @@ impl Locator {
     }
 
     /// Takes over from the search before how long things may wait that it has found as well: slave nodes whose candidates are the
-    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from here on. The numbers are
-    /// those of the same local problem.
-    pub fn take_over(&mut self, before: &Locator) {
+    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from here on. The numbers
+    /// are those of `new` and of `old` local problems, in the same order.
+    pub fn take_over(&mut self, before: &Locator, [new, old]: [&Numbering; 2]) {
         self.heir = true;
         let travelled = before.travelled;
         if !travelled.is_finite() {
             return;
         }
-        let mut old = 0;
-        for new in 0..self.slave_nodes.len() {
-            while before.slave_nodes.get(old).is_some_and(|&node| node < self.slave_nodes[new]) {
-                old += 1;
+        let mut past = 0;
+        for i in 0..self.slave_nodes.len() {
+            let point = new.points[self.slave_nodes[i] as usize];
+            let old_point = |past: usize| before.slave_nodes.get(past).map(|&node| old.points[node as usize]);
+            while old_point(past).is_some_and(|old_point| old_point < point) {
+                past += 1;
             }
-            if before.slave_nodes.get(old) == Some(&self.slave_nodes[new]) && self.of(new) == before.of(old) {
-                let SleepState { due, awake, held } = before.sleep[old];
-                self.sleep[new] = SleepState { due: due - travelled, awake, held };
-                self.quiet_until[new] = before.quiet_until[old] - travelled;
+            let number = |numbering: &Numbering, candidate: &Candidate| {
+                (numbering.faces[candidate.face as usize], candidate.interface)
+            };
+            let same = |now: &[Candidate], past: &[Candidate]| {
+                now.len() == past.len() && now.iter().zip(past).all(|(now, past)| number(new, now) == number(old, past))
+            };
+            if old_point(past) == Some(point) && same(self.of(i), before.of(past)) {
+                let SleepState { due, awake, held } = before.sleep[past];
+                self.sleep[i] = SleepState { due: due - travelled, awake, held };
+                self.quiet_until[i] = before.quiet_until[past] - travelled;
             }
         }
-        let mut past = before.edge_pairs.iter().zip(&before.pairs_due).peekable();
+        let number = |numbering: &Numbering, pair: &[u32; 2]| pair.map(|edge| numbering.edges[edge as usize]);
+        let mut past = before.edge_pairs.iter().map(|pair| number(old, pair)).zip(&before.pairs_due).peekable();
         for (pair, due) in self.edge_pairs.iter().zip(&mut self.pairs_due) {
+            let pair = number(new, pair);
             while past.next_if(|(past, _)| *past < pair).is_some() {}
             if let Some((_, past_due)) = past.next_if(|(past, _)| *past == pair) {
                 *due = past_due - travelled;
@@ -232,8 +243,7 @@ impl Locator {
     /// Begins a step.
     pub fn step(&mut self, motion: &NodeMotion, faces: &Faces) {
         self.capture_boxes.next_step(faces.len());
-        // On one rank what counts in the longest path is chosen after the first step's points have been put; on many these
-        // points have not been anywhere before.
+        // What counts in the longest path is chosen after the first step's nodes have been looked at.
         let first = std::mem::replace(&mut self.fresh, false);
         let heir = std::mem::replace(&mut self.heir, false);
         let ahead = || motion.paths_ahead(self.moving.iter().copied());
