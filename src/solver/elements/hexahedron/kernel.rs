@@ -42,6 +42,8 @@ pub struct Settings {
     pub viscosity: BulkViscosity,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
+    /// Whether the spin of the frame takes the stretch in the middle of the step instead of that at its start.
+    pub second_order_spin: bool,
 }
 
 impl Settings {
@@ -116,11 +118,12 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (ii) frame, stretch and strain increment
     let (motion, stretch) = if V::SINGLE {
-        carried::advance::<V, K>(&velocity_gradient, state, part, time_step)
+        carried::advance::<V, K>(&velocity_gradient, state, part, settings)
     } else {
         let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
         let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
-        let motion = kinematics::advance::<V, false>(&velocity_gradient, &mut frame, &mut stretch, time_step);
+        let second_order = settings.second_order_spin;
+        let motion = kinematics::advance(&velocity_gradient, &mut frame, &mut stretch, time_step, second_order);
         store(frame, state, rows::FRAME, part);
         store(stretch.to_array(), state, rows::STRETCH, part);
         (motion, stretch)
