@@ -15,7 +15,7 @@
 //! and U does not change at all, whatever the angle. Stress, back stress and hourglass forces live in the same
 //! frame. The frame starts along the element's own axes, so that hourglass modes mean bending and torsion.
 //!
-//! With U at the start of the step the error of ω falls with the step. [`increment_of_second_order`] corrects it to that of the
+//! With U at the start of the step the error of ω falls with the step. `increment_of_second_order` corrects it to that of the
 //! middle, by the same inverse: the error falls with the square of the step.
 
 use crate::lanes::{Lanes, Matrix3, Sym3, array, multiply, multiply_transposed};
@@ -164,59 +164,60 @@ fn increment<V: Lanes>(
     let d = Sym3::of(&l);
     let half = V::splat(0.5);
     let w = [(l[2][1] - l[1][2]) * half, (l[0][2] - l[2][0]) * half, (l[1][0] - l[0][1]) * half];
-    if second_order { increment_of_second_order(&d, &w, stretch) } else { increment_of_first_order(&d, &w, stretch) }
-}
-
-/// The spin takes the stretch at the start of the step. `d` is Δt d, `w` is Δt w, both in the frame at the start of the step.
-#[inline(always)]
-fn increment_of_first_order<V: Lanes>(d: &Sym3<V>, w: &[V; 3], u: &Sym3<V>) -> Increment<V> {
-    let half = V::splat(0.5);
-    let correction = SpinInverse::of(u).times(&unsymmetric(u, d));
+    let inverse = SpinInverse::of(stretch);
+    let correction = inverse.times(&unsymmetric(stretch, &d));
     let half_turn = array![i in 3 => (w[i] - correction[i]) * half];
-    let strain = at_half_turn(d, &half_turn);
-    let growth = stretch_increment(u, &strain, &correction);
-    Increment { strain, half_turn, growth }
+    let strain = at_half_turn(&d, &half_turn);
+    if second_order {
+        let further = of_second_order(stretch, &inverse, [&d, &strain], [&w, &correction]);
+        let half_turn = array![i in 3 => half_turn[i] + further.half_turn[i]];
+        return Increment { strain, half_turn, growth: further.growth };
+    }
+    Increment { strain, half_turn, growth: stretch_increment(stretch, &strain, &correction) }
 }
 
-/// The spin takes the stretch U½ in the middle of the step, found from half of all increments. There the first order's c leaves
-/// an increment P of the stretch that is not symmetric; what makes it so is small, and by the inverse at the start of the step good
-/// enough: no second division is needed.
+/// What a spin of second order makes of one of first order.
+struct Further<V> {
+    /// What is to be added to the half turn.
+    half_turn: [V; 3],
+    /// What is to be added to the stretch.
+    growth: Sym3<V>,
+}
+
+/// The spin takes the stretch U½ in the middle of the step, found from half of all increments. With the c of the step's start the
+/// increment P of the stretch is not symmetric there; what makes it so, δ, is small, so that it may be found with the inverse at the
+/// start of the step: no second division is needed.
 ///
 /// ```text
 /// h = ½ Δt d,  c = (tr(U) I − U)⁻¹ axial(U h),  U½ = U + (h + skew c) U
-/// e = h seen from the frame turned by half of ½Δt w − c,  P = (e + skew c) U½
+/// e = h seen from the frame turned half-way, by ½Δt w − c,  P = (e + skew c) U½
 /// δ = −(tr(U) I − U)⁻¹ axial(P),  half turn = ½Δt w − c − δ − ½Δt w × c
 /// U ← U + 2 sym(P + skew(δ) U½)
 /// ```
 ///
-/// c and δ are seen from the frame turned half-way, w from that at the start: hence the product w × c.
+/// c and δ are seen from the frame turned half-way, w from that at the start: hence the product w × c. Given are `d` = 2h, `strain` = 2e,
+/// `w` = Δt w and `c` twice what it is above.
 #[inline(always)]
-fn increment_of_second_order<V: Lanes>(d: &Sym3<V>, w: &[V; 3], u: &Sym3<V>) -> Increment<V> {
-    let half = V::splat(0.5);
-    let h = d.zip(*d, |a, _| a * half);
-    let w: [V; 3] = array![i in 3 => w[i] * half];
-    let inverse = SpinInverse::of(u);
-    let c = inverse.times(&unsymmetric(u, &h));
-    let e = at_half_turn(&h, &array![i in 3 => w[i] - c[i]]);
+fn of_second_order<V: Lanes>(
+    u: &Sym3<V>,
+    inverse: &SpinInverse<V>,
+    [d, strain]: [&Sym3<V>; 2],
+    [w, c]: [&[V; 3]; 2],
+) -> Further<V> {
+    let (half, quarter) = (V::splat(0.5), V::splat(0.25));
     // Symmetric, as c is what makes it so.
-    let middle = u.zip(Sym3::of(&multiply(&with_skew(&h, &c), &u.matrix())), |a, b| a + b).matrix();
-    let p = multiply(&with_skew(&e, &c), &middle);
-    // −δ
+    let growth = Sym3::of(&multiply(&with_skew(d, c), &u.matrix()));
+    let middle = u.zip(growth, |a, b| a + b * half).matrix();
+    let p = multiply(&with_skew(strain, c), &middle);
+    // −2δ
     let excess = inverse.times(&[p[2][1] - p[1][2], p[0][2] - p[2][0], p[1][0] - p[0][1]]);
-    let seen = cross(&w, &c);
-    let half_turn = array![i in 3 => (w[i] - c[i]) + (excess[i] - seen[i])];
+    let seen = cross(w, c);
     // The columns of U½ are its rows.
     let turned: Matrix3<V> = array![j in 3 => cross(&excess, &middle[j])];
-    let m: Matrix3<V> = array![i in 3 => array![j in 3 => p[i][j] - turned[j][i]]];
-    let growth = Sym3 {
-        xx: m[0][0] + m[0][0],
-        yy: m[1][1] + m[1][1],
-        zz: m[2][2] + m[2][2],
-        xy: m[0][1] + m[1][0],
-        yz: m[1][2] + m[2][1],
-        zx: m[2][0] + m[0][2],
-    };
-    Increment { strain: e.zip(e, |a, b| a + b), half_turn, growth }
+    Further {
+        half_turn: array![i in 3 => excess[i] * half - seen[i] * quarter],
+        growth: Sym3::of(&array![i in 3 => array![j in 3 => p[i][j] - turned[j][i]]]),
+    }
 }
 
 #[inline(always)]

@@ -3,6 +3,7 @@
 mod barrier;
 mod bounded;
 mod carried;
+mod end;
 mod exact;
 mod fluid;
 pub mod geometry;
