@@ -134,6 +134,9 @@ fn hexahedra() {
             assert_eq!(agree(&boxes(), &format!("{control}\nPRECISION, {precision}")), all);
         }
     }
+    for precision in ["DOUBLE", "SINGLE"] {
+        assert_eq!(agree(&boxes(), &format!("SPIN, SECOND ORDER\nPRECISION, {precision}")), all);
+    }
 }
 
 #[test]

@@ -126,15 +126,17 @@ fn a_scene_has_the_knobs_that_it_needs_and_no_others() {
     assert!(told(&of_plug, "sooner-erosion").is_some_and(|words| words.contains("EQPS, MAX, 8.000e-01")));
     let eight = "ELEMENT, 1, EIGHT POINTS; ELEMENT, 2, EIGHT POINTS; ELEMENT, 3, EIGHT POINTS";
     assert_eq!(told(&of_plug, "eight-points").as_deref(), Some(eight));
+    assert_eq!(told(&of_plug, "second-order-spin").as_deref(), Some("SPIN, SECOND ORDER"));
     assert_eq!(told(&of_plug, "global-estimate").as_deref(), Some("TIME STEP ESTIMATE, GLOBAL"));
     assert!(told(&of_plug, "search-tree").is_some() && told(&of_plug, "more-points").is_none());
     // What was turned already is turned back.
     let turned = [(
         "CONTACT MATERIAL, 1, 2\n",
-        "CONTACT MATERIAL, 1, 2\nTIME STEP ESTIMATE, GLOBAL\nELEMENT, 1, EIGHT POINTS\n",
+        "CONTACT MATERIAL, 1, 2\nTIME STEP ESTIMATE, GLOBAL\nSPIN, SECOND ORDER\nELEMENT, 1, EIGHT POINTS\n",
     )];
     let of_turned = knobs_of("perforation", "perforation", &turned);
     assert_eq!(told(&of_turned, "element-estimate").as_deref(), Some("TIME STEP ESTIMATE, ELEMENT"));
+    assert_eq!(told(&of_turned, "first-order-spin").as_deref(), Some("SPIN, FIRST ORDER"));
     assert_eq!(told(&of_turned, "one-point").as_deref(), Some("without ELEMENT"));
     assert_eq!(told(&of_turned, "eight-points").as_deref(), Some(eight));
     // The can is of shells, the plate of hexahedra.
@@ -142,7 +144,8 @@ fn a_scene_has_the_knobs_that_it_needs_and_no_others() {
     assert_eq!(told(&of_can, "more-points").as_deref(), Some("INTEGRATION POINTS, 1, 9, GAUSS"), "{of_can:?}");
     assert_eq!(told(&of_can, "fewer-points").as_deref(), Some("INTEGRATION POINTS, 1, 3, GAUSS"));
     assert!(told(&of_can, "later-erosion").is_none());
-    // A gas takes no eight points, has no moduli to bound a step with, and no contact.
+    assert_eq!(told(&of_can, "second-order-spin").as_deref(), Some("SPIN, SECOND ORDER"));
+    // A gas takes no eight points, has no moduli to bound a step with, no stress that turns, and no contact.
     let of_gas = knobs_of("sedov", "sedov", &[]);
     let names: Vec<&str> = of_gas.iter().map(|knob| &knob.0[..]).collect();
     let expected = [

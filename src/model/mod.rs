@@ -17,8 +17,8 @@ pub use conditions::{
 };
 pub use control::{
     Analysis, BulkViscosity, DEFAULT_HOURGLASS, Death, DeathVariable, Deletion, ElementField, Hourglass, MassScaling,
-    NodalField, PlotRequests, PlotSchedule, Precision, ReadRestart, Restarts, ScaleMass, StepColumns, StepEstimate,
-    StepModuli, TimeStepControl, Watched, WriteRestart,
+    NodalField, PlotRequests, PlotSchedule, Precision, ReadRestart, Restarts, ScaleMass, Spin, StepColumns,
+    StepEstimate, StepModuli, TimeStepControl, Watched, WriteRestart,
 };
 pub use interactions::{
     Contact, ContactControl, ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap,
@@ -46,6 +46,8 @@ pub struct Model {
     pub time_step: TimeStepControl,
     /// Precision of the state and the kernels of elements.
     pub precision: Precision,
+    /// Order of the spin of hexahedra with one point.
+    pub spin: Spin,
     /// What bounds the time step.
     pub step_estimate: StepEstimate,
     /// Blocks that move as one, a list for each body.
@@ -132,6 +134,7 @@ impl Default for Model {
             rigid_bodies: Vec::new(),
             ties: Vec::new(),
             precision: Precision::default(),
+            spin: Spin::default(),
             step_estimate: StepEstimate::default(),
             mass_scalings: Vec::new(),
             bulk_viscosity: BulkViscosity { linear: f64::NAN, quadratic: f64::NAN },

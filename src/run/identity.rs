@@ -5,7 +5,7 @@
 
 use crate::exodus::Restart;
 use crate::mesh::{Block, Mesh};
-use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, Precision, StepEstimate};
+use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, Precision, Spin, StepEstimate};
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
@@ -34,6 +34,9 @@ pub fn identity(model: &Model) -> String {
     lines.push(("HOURGLASS CONTROL".into(), hourglass.into()));
     if model.precision == Precision::Single {
         lines.push(("PRECISION".into(), "SINGLE".into()));
+    }
+    if model.spin == Spin::SecondOrder {
+        lines.push(("SPIN".into(), "SECOND ORDER".into()));
     }
     if model.step_estimate == StepEstimate::Global {
         lines.push(("TIME STEP ESTIMATE".into(), "GLOBAL".into()));

@@ -117,6 +117,7 @@ mod tests {
             "INTEGRATION POINTS, 1, 5",
             "BEAM SECTION, 1, ROD, 2.",
             "ELEMENT, 1, EIGHT POINTS",
+            "SPIN, SECOND ORDER",
             "CONTACT EDGES, ALL",
             "CONTACT THICKNESS, 1, 0.5",
         ] {

@@ -1,4 +1,4 @@
-//! What is computed and how: kind of analysis, times, time step, precision, hourglass control, bulk viscosity.
+//! What is computed and how: kind of analysis, times, time step, precision, spin, hourglass control, bulk viscosity.
 
 use crate::deck::{Card, Diagnostic, language};
 use crate::mesh::Dimension;
@@ -75,6 +75,16 @@ pub enum Precision {
     Single,
 }
 
+/// SPIN: of which order the spin of the frame of hexahedra with one point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Spin {
+    /// With the stretch at the start of the step: the error falls with the step.
+    #[default]
+    FirstOrder,
+    /// With the stretch in the middle of the step: the error falls with the square of the step.
+    SecondOrder,
+}
+
 /// TIME STEP ESTIMATE: what bounds the time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StepEstimate {
@@ -142,6 +152,7 @@ pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("TIME STEP ESTIMATE", time_step_estimate),
     ("TIME STEP MAXIMUM", time_step_maximum),
     ("PRECISION", precision),
+    ("SPIN", spin),
     ("MASS SCALING", mass_scaling),
     ("HOURGLASS STIFFENING", hourglass),
     ("HOURGLASS CONTROL", hourglass),
@@ -209,6 +220,10 @@ fn time_step_estimate(card: &Card, draft: &mut Draft) {
 
 fn precision(card: &Card, draft: &mut Draft) {
     draft.model.precision = if card.text("precision") == "SINGLE" { Precision::Single } else { Precision::Double };
+}
+
+fn spin(card: &Card, draft: &mut Draft) {
+    draft.model.spin = if card.text("order") == "SECOND ORDER" { Spin::SecondOrder } else { Spin::FirstOrder };
 }
 
 fn mass_scaling(card: &Card, draft: &mut Draft) {

@@ -7,8 +7,8 @@ pub(super) mod output;
 pub(super) mod restart;
 
 pub use analysis::{
-    Analysis, BulkViscosity, DEFAULT_HOURGLASS, Hourglass, MassScaling, Precision, ScaleMass, StepEstimate, StepModuli,
-    TimeStepControl,
+    Analysis, BulkViscosity, DEFAULT_HOURGLASS, Hourglass, MassScaling, Precision, ScaleMass, Spin, StepEstimate,
+    StepModuli, TimeStepControl,
 };
 pub use deletion::{Death, DeathVariable, Deletion};
 pub use fields::{ElementField, NodalField};

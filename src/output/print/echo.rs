@@ -3,7 +3,7 @@
 use super::{features, heading, leader, number};
 use crate::mesh::Mesh;
 use crate::model::{
-    Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, Precision, StepEstimate, StepModuli,
+    Analysis, Direction, Hourglass, InitialVelocity, Model, MotionKind, Precision, Spin, StepEstimate, StepModuli,
 };
 use crate::solver::contact::Overlap;
 use crate::solver::loads::LOADS;
@@ -125,6 +125,9 @@ fn definition(model: &Model, mesh: &Mesh) -> String {
     out += &leader("MODULI OF THE TIME STEP", moduli);
     if model.precision == Precision::Single {
         out += &leader("PRECISION OF HEXAHEDRA WITH ONE POINT", "SINGLE");
+    }
+    if model.spin == Spin::SecondOrder {
+        out += &leader("SPIN OF HEXAHEDRA WITH ONE POINT", "SECOND ORDER");
     }
     if model.step_estimate == StepEstimate::Global {
         out += &leader("ESTIMATE OF THE TIME STEP", "GLOBAL");

@@ -4,7 +4,7 @@ use crate::mesh::Shape;
 use crate::mesh::check::counted;
 use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
-use crate::model::{Hourglass, Model, MotionKind, Precision, PrescribedMotion, StepEstimate, Unknown};
+use crate::model::{Hourglass, Model, MotionKind, Precision, PrescribedMotion, Spin, StepEstimate, Unknown};
 
 /// A part of the code that has work to do.
 pub struct Feature {
@@ -98,9 +98,11 @@ fn solids(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         .then(|| Feature { what: "time steps of the mesh as a whole".into(), asked_by: "TIME STEP ESTIMATE".into() });
     let single = (model.precision == Precision::Single)
         .then(|| Feature { what: "hexahedra with one point in single precision".into(), asked_by: "PRECISION".into() });
+    let spin = (model.spin == Spin::SecondOrder)
+        .then(|| Feature { what: "second-order spin of one-point hexahedra".into(), asked_by: "SPIN".into() });
     let viscosity = model.bulk_viscosity;
     let viscous = (viscosity.linear != 0.0 || viscosity.quadratic != 0.0)
         .then(|| Feature { what: "bulk viscosity".into(), asked_by: "BULK VISCOSITY, or its default".into() });
     let control = Feature { what: hourglass.into(), asked_by: "HOURGLASS CONTROL, or its default".into() };
-    laws.chain([control]).chain(viscous).chain(estimate).chain(single).collect()
+    laws.chain([control]).chain(viscous).chain(estimate).chain(single).chain(spin).collect()
 }

@@ -36,6 +36,8 @@ pub enum Knob {
     Viscosity,
     /// Single precision.
     Precision,
+    /// Order of the spin of hexahedra with one point.
+    Spin,
     /// Added mass.
     Mass,
     /// How contact is enforced.
@@ -62,6 +64,7 @@ impl Knob {
             Knob::Hourglass => "hourglass control",
             Knob::Viscosity => "bulk viscosity",
             Knob::Precision => "precision",
+            Knob::Spin => "spin",
             Knob::Mass => "mass scaling",
             Knob::Contact => "contact",
             Knob::Search => "contact search",
@@ -110,6 +113,7 @@ impl Variant {
             Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),
             Knob::Points => self.name == "more-points",
             Knob::Estimate => self.name == "element-estimate",
+            Knob::Spin => self.name == "second-order-spin",
             Knob::RoundOff | Knob::Mesh | Knob::TimeStep | Knob::Viscosity | Knob::Search => true,
             // Another formulation is neither finer nor coarser, and when a material breaks is what its tests say.
             Knob::None

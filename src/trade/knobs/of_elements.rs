@@ -2,13 +2,15 @@
 
 use super::{Knob, Variant};
 use crate::mesh::{Block, Mesh, Shape};
-use crate::model::{Hourglass, Model, Section, StepEstimate};
+use crate::model::{Hourglass, Model, Section, Spin, StepEstimate};
 use crate::solver::elements::Element;
 use crate::solver::elements::eight_points::asked_for;
 use crate::solver::elements::shell::{MOST_POINTS, points_of};
 
 /// Work of hexahedra with eight points over that of the same with one.
 const WORK_OF_EIGHT: f64 = 4.0;
+/// Work with a spin of second order over that with one of first order.
+const WORK_OF_SECOND_ORDER: f64 = 1.02;
 
 /// All knobs that the elements of a scene have.
 pub fn variants(model: &Model, mesh: &Mesh) -> Vec<Variant> {
@@ -17,6 +19,7 @@ pub fn variants(model: &Model, mesh: &Mesh) -> Vec<Variant> {
     let mut all: Vec<Variant> = estimate(model, &blocks).into_iter().collect();
     all.extend(formulation(model, &blocks));
     all.extend(hourglass(model, &blocks));
+    all.extend(spin(model, &blocks));
     all.extend(thickness_points(model, &blocks));
     all
 }
@@ -68,6 +71,18 @@ fn hourglass(model: &Model, blocks: &[&Block]) -> Option<Variant> {
     };
     let without = &["HOURGLASS CONTROL", "HOURGLASS STIFFENING"];
     blocks.iter().any(has).then(|| Variant::of(Knob::Hourglass, name, without, line.into(), 1.0))
+}
+
+/// The other order of the spin, where elements with one point have a stress that turns: a pressure alone does not.
+fn spin(model: &Model, blocks: &[&Block]) -> Option<Variant> {
+    let is_fluid = |id: i64| model.materials.iter().any(|material| material.block == id && material.law.is_fluid());
+    let one_point = |block: &&Block| block.shape == Shape::Hexahedron && !asked_for(block.id, model);
+    let has = |block: &&Block| one_point(block) && !is_fluid(block.id);
+    let (name, order, work) = match model.spin {
+        Spin::FirstOrder => ("second-order-spin", "SECOND ORDER", WORK_OF_SECOND_ORDER),
+        Spin::SecondOrder => ("first-order-spin", "FIRST ORDER", 1.0 / WORK_OF_SECOND_ORDER),
+    };
+    blocks.iter().any(has).then(|| Variant::of(Knob::Spin, name, &["SPIN"], format!("SPIN, {order}"), work))
 }
 
 /// More and fewer points through the thickness of shells; a membrane stays one.

@@ -84,7 +84,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
         let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
         let Motion { strain, frame: r, middle: r_middle } =
-            kinematics::advance::<V, true>(&velocity_gradient, &mut frame, &mut stretch, time_step);
+            kinematics::advance(&velocity_gradient, &mut frame, &mut stretch, time_step, true);
         store(frame, state, rows::FRAME, part);
         store(stretch.to_array(), state, rows::STRETCH, part);
 

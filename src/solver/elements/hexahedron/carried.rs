@@ -74,14 +74,15 @@ pub fn advance<V: Lanes, K: Kernel>(
     velocity_gradient: &Matrix3<V>,
     state: &mut [V::Row],
     part: usize,
-    time_step: V,
+    settings: &Settings,
 ) -> (Motion<V>, Sym3<V>) {
     let one = V::splat(1.0);
     let mut frame: [V; 4] = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
     let beyond_one = Sym3::load(&state[rows::STRETCH..], part);
     let stretch = beyond_one.add_diagonal(one);
     let old = kinematics::rotation_matrix(&frame);
-    let (strain, turn, growth) = kinematics::parts(velocity_gradient, &frame, &stretch, time_step);
+    let (time_step, second_order) = (V::splat(settings.time_step), settings.second_order_spin);
+    let (strain, turn, growth) = kinematics::parts(velocity_gradient, &frame, &stretch, time_step, second_order);
     let behind = first::<K>();
     add(&mut frame, &turn, [rows::FRAME, behind + FRAME], state, part);
     let mut numbers = beyond_one.to_array();

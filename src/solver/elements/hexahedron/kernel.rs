@@ -1,20 +1,20 @@
 //! The eight-node hexahedron with one integration point (Flanagan and Belytschko 1981): one step of one chunk.
 
-use super::barrier::{self, Solid, shared_step};
-use super::bounded;
+use super::barrier::shared_step;
 use super::carried;
+use super::end::End;
 use super::exact::{self, Start};
 use super::fluid;
-use super::geometry::{self, Corners, Gradient, HOURGLASS, dot, earlier, gradient, modes};
+use super::geometry::{self, Corners, Gradient, HOURGLASS, Modes, dot, earlier, gradient, modes};
 use super::hourglass::{self, Resistance};
 use super::kinematics::{self, Motion};
 use super::rows;
 use crate::lanes::{Lanes, Matrix3, Sym3, array};
-use crate::material::{Kernel, Step};
+use crate::material::{Kernel, Response, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::exact::Steps;
-use crate::solver::elements::fluid::{acting_step, gentle_step, jump};
+use crate::solver::elements::fluid::{gentle_step, jump};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::{accumulate, store};
 use crate::solver::elements::step_modulus::step_modulus;
@@ -42,6 +42,8 @@ pub struct Settings {
     pub viscosity: BulkViscosity,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
+    /// Whether the spin of the frame takes the stretch in the middle of the step instead of that at its start.
+    pub second_order_spin: bool,
 }
 
 impl Settings {
@@ -94,10 +96,9 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     given: Given<V, 8>,
     Physics { settings, law, control }: &Physics<K, H>,
 ) -> Outcome<V, 8> {
-    let time_step = V::splat(settings.time_step);
-    let (zero, half) = (V::splat(0.0), V::splat(0.5));
-    let x: [geometry::Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
-    let v: [geometry::Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
+    let zero = V::splat(0.0);
+    let x: [Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
+    let v: [Modes<V>; 3] = array![i in 3 => modes(&velocities[i])];
 
     // (o) what the forces of the step's start have done, where that is heat
     let start = if K::EQUATION {
@@ -106,157 +107,47 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         None
     };
 
-    // (i) velocity gradient and hourglass rates at mid-step
-    let half_step = V::splat(0.5 * settings.time_step);
-    let middle = earlier([&x, &v], half_step);
-    let Gradient { g24, volume192: middle_volume192 } = gradient(&middle);
-    let inverse = V::splat(1.0) / middle_volume192;
-    let velocity_gradient: Matrix3<V> = array![i in 3 => array![j in 3 => dot(&v[i], &g24[j]) * inverse]];
-    let hourglass_rate = hourglass_rates(&v, &middle, &velocity_gradient);
-
-    // (ii) frame, stretch and strain increment
-    let (motion, stretch) = if V::SINGLE {
-        carried::advance::<V, K>(&velocity_gradient, state, part, time_step)
-    } else {
-        let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
-        let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
-        let motion = kinematics::advance::<V, false>(&velocity_gradient, &mut frame, &mut stretch, time_step);
-        store(frame, state, rows::FRAME, part);
-        store(stretch.to_array(), state, rows::STRETCH, part);
-        (motion, stretch)
-    };
-    let Motion { strain, frame: r, middle: r_middle } = motion;
+    // (i) velocity gradient and hourglass rates at mid-step, (ii) frame, stretch and strain increment
+    let middle = Middle::of([&x, &v], settings);
+    let (motion, stretch) = turn::<V, K>(&middle.velocity_gradient, state, part, settings);
 
     // (iii) stress
-    let old = Sym3::load(&state[rows::STRESS..], part);
-    let mut stress = old;
-    let middle_volume = middle_volume192 * V::splat(1.0 / 192.0);
-    let inverse_volume = V::splat(settings.density) / given.material;
-    let (energy, swept) = match &start {
-        Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
-        None => (zero, zero),
-    };
-    let carries = V::SINGLE && K::HYPOELASTIC;
-    let felt = if carries { carried::with_rest::<V, K>(&strain, state, part) } else { strain };
-    let motion = Step {
-        strain: felt,
-        stretch,
-        volume: if K::VOLUME { volume(&x) * inverse_volume } else { V::splat(1.0) },
-        middle_volume: middle_volume * inverse_volume,
-        energy,
-        swept,
-        time: settings.time,
-        time_step: settings.time_step,
-    };
-    let response = law.update(&motion, &mut stress, &mut state[rows::LAW..], part);
-    store(stress.to_array(), state, rows::STRESS, part);
-    if carries {
-        carried::keep_rest::<V, K>(&felt, [&old, &stress], state, part, settings);
-    }
-    let power = old.zip(stress, |a, b| a + b).contract(strain) * half;
-    let mut work = power * middle_volume;
+    let volumes = [middle.volume(), V::splat(settings.density) / given.material];
+    let seen = seen_by_law::<V, K>(&x, &start, volumes, (motion.strain, stretch), settings);
+    let answer = answer(*law, seen, state, part, settings);
+    let mut work = answer.power_of(motion.strain) * middle.volume();
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
-    let light = given.moving * V::splat(settings.least_share);
-    let gradient = gradient(&x);
-    let inverse = V::splat(1.0) / gradient.volume192;
-    let b_squared = gradient.square4608();
-    let stiffness = response.stiffness;
-    let modulus = if K::STIFFNESS {
-        stiffness.dilatational
-    } else {
-        step_modulus([settings.dilatational, settings.mu], settings.effective_moduli, [&old, &stress], &strain)
-    };
-    let mu = if K::STIFFNESS { stiffness.shear } else { V::splat(settings.mu) };
-    let bound = (light * gradient.volume192 * V::splat(12.0) / (modulus * b_squared)).sqrt();
-    let rate = velocity_gradient[0][0] + velocity_gradient[1][1] + velocity_gradient[2][2];
-    let whole = damping(settings.viscosity, bound, rate);
-    let mut damping = whole;
-    if K::FLUID {
-        let row = &mut state[exact::rate_row::<K>()];
-        damping = whole * jump([V::load(row, part), rate], &fluid::across(&given.rates));
-        rate.store(row, part);
-    }
-    let viscous = damping * modulus * bound * rate;
-    let last = V::load(&state[rows::VISCOUS_STRESS], part);
-    viscous.store(&mut state[rows::VISCOUS_STRESS], part);
+    let end = End::of([&x, &v], given.moving * V::splat(settings.least_share));
+    let moduli = answer.moduli::<K>(motion.strain, settings);
+    let slowed = bulk_viscosity::<V, K>((&middle, &end), moduli[0], &given.rates, state, part, settings);
     if !K::EQUATION {
-        book::<V, K>((last + viscous) * half * strain.trace() * middle_volume, VISCOUS, state, part);
+        book::<V, K>(slowed.power * motion.strain.trace() * middle.volume(), VISCOUS, state, part);
     }
-    let stable_step = damped_step(bound, damping);
 
     // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
-    let stiffness_measure = b_squared * inverse * V::splat(192.0 / 4608.0);
-    let bounded = if !K::FLUID && bounded::any(&x, &gradient) {
-        bounded::bounded([&x, &v], &gradient, b_squared, time_step)
+    let mut held = [[zero; 8]; 3];
+    let (resistance, mut stable_step) = if let (true, Some(start)) = (K::FLUID, &start) {
+        let (of_modes, rates, corners) =
+            end.resist_as_fluid::<K, H>(*control, [positions, velocities], (start, &slowed), state, part, settings);
+        held = corners.force;
+        let taken = exact::power(&of_modes, &rates) + corners.power;
+        let powers = [answer.stress.xx * start.growth, slowed.stress * start.growth, taken];
+        start.finish::<K>(powers, state, part, settings);
+        (of_modes, corners.stable_step)
     } else {
-        None
+        let returned = [moduli[1], answer.response.returned, slowed.stable_step];
+        end.resist_as_solid::<K, H>(*control, (&middle.hourglass_rate, &motion), returned, state, part, settings)
     };
-    let mut hourglass_state = hourglass::State {
-        lengths: if H::LENGTHS { lengths(&x, &r, stiffness_measure) } else { [light; 3] },
-        stiffness_measure,
-        mass: light,
-        mu,
-        poisson: V::splat(settings.poisson),
-        returned: response.returned,
-        time_step,
-    };
-    if let Some(bounded) = &bounded {
-        hourglass_state.mu = mu * bounded.factor;
-        hourglass_state.mass = light * bounded.factor;
-    }
-    let mut held = fluid::Held { force: [[zero; 8]; 3], power: zero, stable_step };
-    let resistance = if let (true, Some(start)) = (K::FLUID, &start) {
-        let sizes = [
-            gradient.volume192 * V::splat(1.0 / 192.0),
-            light,
-            stable_step,
-            time_step,
-            b_squared * V::splat(1.0 / 4608.0),
-        ];
-        let rates = exact::rates(&v, &x, &start.flow, gradient.volume192);
-        // As strongly as where all of the viscosity acts: a limiter sees no modes.
-        let acting = acting_step(damped_step(bound, whole), time_step);
-        let resistance = fluid::resistance(&rates, control.of_fluids(), light, acting);
-        for i in 0..3 {
-            store(resistance[i], state, rows::HOURGLASS + 4 * i, part);
-        }
-        let taken = start.taken(state, part);
-        held = fluid::hold([positions, velocities], &mut state[exact::corner_rows::<K>()], part, sizes, taken);
-        let of_modes = exact::power(&resistance, &rates) + held.power;
-        start.finish::<K>([stress.xx * start.growth, viscous * start.growth, of_modes], state, part, settings);
-        resistance
-    } else {
-        let kept = bounded.as_ref().map(|bounded| bounded.kept);
-        resist::<V, K, H>(control, &hourglass_rate, [&r_middle, &r], state, part, (&hourglass_state, kept))
-    };
-    let stable_step = match &bounded {
-        _ if K::FLUID => held.stable_step,
-        None => control.stable_step(stable_step, stiffness_measure, light, mu),
-        Some(bounded) => bounded.stable_step::<H>(control, stable_step, [stiffness_measure, light, mu]),
-    };
+
+    // (vi) the barrier against elements of no volume, and what else bounds the step
+    let mut viscous = slowed.stress;
+    let mut motion_step = V::splat(f64::MAX);
     let initial192 = V::splat(192.0 / settings.density) * given.material;
-    let mut viscous = viscous;
-    let [mut stable_step, mut motion_step] = [stable_step, V::splat(f64::MAX)];
-    let growth = rate * stable_step;
-    if K::HYPOELASTIC
-        && (barrier::any_near([middle_volume192, gradient.volume192], initial192) || barrier::any_fast(growth))
-    {
-        let dilatational = V::splat(settings.dilatational);
-        let operator = &gradient;
-        let solid = Solid {
-            motion: [&x, &v],
-            operator,
-            middle_volume192,
-            growth,
-            square4608: b_squared,
-            initial192,
-            dilatational,
-        };
-        let barrier = solid.held(settings.steps());
+    if let Some(barrier) = end.barrier::<K>(middle.volume192, initial192, slowed.rate * stable_step, settings) {
         viscous = viscous + barrier.stress;
-        stable_step = shared_step(stable_step, barrier.stiffness, light);
+        stable_step = shared_step(stable_step, barrier.stiffness, end.light);
         motion_step = barrier.motion_step;
         work = work + barrier.work;
     }
@@ -265,26 +156,191 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         book::<V, K>(work, INTERNAL, state, part);
     }
     let stable_step = match &start {
-        Some(start) => gentle_step(start.growth * V::splat(192.0) * inverse, stable_step),
+        Some(start) => gentle_step(start.growth * V::splat(192.0) * end.inverse, stable_step),
         None => stable_step,
     };
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
-    let stable_step = V::select_less(zero, middle_volume192, stable_step, zero);
-
+    let stable_step = V::select_less(zero, middle.volume192, stable_step, zero);
     let stable_step = if V::SINGLE { stable_step * V::splat(ROUNDED_BOUND) } else { stable_step };
 
-    // (vi) corner forces from the rotated stress
-    let turned = stress.rotate(&r);
+    // (vii) corner forces from the rotated stress
+    let turned = answer.stress.rotate(&motion.frame);
     if let (false, Some(start)) = (K::FLUID, &start) {
         let powers = [turned.contract(Sym3::of(&start.flow)), viscous * start.growth, zero];
         start.finish::<K>(powers, state, part, settings);
     }
-    let total = turned.add_diagonal(viscous);
-    let mut force = corner_forces(&total, &resistance, &x, &gradient.g24, inverse);
+    let mut force = corner_forces(&turned.add_diagonal(viscous), &resistance, &x, &end.gradient.g24, end.inverse);
     if K::FLUID {
-        force = array![i in 3 => array![n in 8 => force[i][n] + held.force[i][n]]];
+        force = array![i in 3 => array![n in 8 => force[i][n] + held[i][n]]];
     }
-    Outcome { force, stable_step, motion_step, rate: if K::FLUID { rate } else { zero } }
+    Outcome { force, stable_step, motion_step, rate: if K::FLUID { slowed.rate } else { zero } }
+}
+
+/// What is known of the middle of the step.
+struct Middle<V> {
+    /// ∂v_i/∂x_j
+    velocity_gradient: Matrix3<V>,
+    /// In space.
+    hourglass_rate: Resistance<V>,
+    /// 192 times the volume.
+    volume192: V,
+}
+
+impl<V: Lanes> Middle<V> {
+    #[inline(always)]
+    fn of([x, v]: [&[Modes<V>; 3]; 2], settings: &Settings) -> Self {
+        let middle = earlier([x, v], V::splat(0.5 * settings.time_step));
+        let Gradient { g24, volume192 } = gradient(&middle);
+        let inverse = V::splat(1.0) / volume192;
+        let velocity_gradient: Matrix3<V> = array![i in 3 => array![j in 3 => dot(&v[i], &g24[j]) * inverse]];
+        let hourglass_rate = hourglass_rates(v, &middle, &velocity_gradient);
+        Middle { velocity_gradient, hourglass_rate, volume192 }
+    }
+
+    #[inline(always)]
+    fn volume(&self) -> V {
+        self.volume192 * V::splat(1.0 / 192.0)
+    }
+}
+
+/// Carries frame and stretch over the step: the motion, and the stretch at its end.
+#[inline(always)]
+fn turn<V: Lanes, K: Kernel>(
+    velocity_gradient: &Matrix3<V>,
+    state: &mut [V::Row],
+    part: usize,
+    settings: &Settings,
+) -> (Motion<V>, Sym3<V>) {
+    if V::SINGLE {
+        return carried::advance::<V, K>(velocity_gradient, state, part, settings);
+    }
+    let time_step = V::splat(settings.time_step);
+    let mut frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
+    let mut stretch = Sym3::load(&state[rows::STRETCH..], part);
+    let motion =
+        kinematics::advance(velocity_gradient, &mut frame, &mut stretch, time_step, settings.second_order_spin);
+    store(frame, state, rows::FRAME, part);
+    store(stretch.to_array(), state, rows::STRETCH, part);
+    (motion, stretch)
+}
+
+/// What a law may look at, given the volume in the middle of the step and one over that at the start of all.
+#[inline(always)]
+fn seen_by_law<V: Lanes, K: Kernel>(
+    x: &[Modes<V>; 3],
+    start: &Option<Start<V>>,
+    [middle_volume, inverse_volume]: [V; 2],
+    (strain, stretch): (Sym3<V>, Sym3<V>),
+    settings: &Settings,
+) -> Step<V> {
+    let (energy, swept) = match start {
+        Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
+        None => (V::splat(0.0), V::splat(0.0)),
+    };
+    Step {
+        strain,
+        stretch,
+        volume: if K::VOLUME { volume(x) * inverse_volume } else { V::splat(1.0) },
+        middle_volume: middle_volume * inverse_volume,
+        energy,
+        swept,
+        time: settings.time,
+        time_step: settings.time_step,
+    }
+}
+
+/// What a law has answered.
+struct Answer<V> {
+    /// Stress at the start of the step, in the frame.
+    old: Sym3<V>,
+    /// The same at its end.
+    stress: Sym3<V>,
+    /// Return and stiffness.
+    response: Response<V>,
+}
+
+#[inline(always)]
+fn answer<V: Lanes, K: Kernel>(
+    law: &K,
+    seen: Step<V>,
+    state: &mut [V::Row],
+    part: usize,
+    settings: &Settings,
+) -> Answer<V> {
+    let old = Sym3::load(&state[rows::STRESS..], part);
+    let mut stress = old;
+    let carries = V::SINGLE && K::HYPOELASTIC;
+    let felt = if carries { carried::with_rest::<V, K>(&seen.strain, state, part) } else { seen.strain };
+    let response = law.update(&Step { strain: felt, ..seen }, &mut stress, &mut state[rows::LAW..], part);
+    store(stress.to_array(), state, rows::STRESS, part);
+    if carries {
+        carried::keep_rest::<V, K>(&felt, [&old, &stress], state, part, settings);
+    }
+    Answer { old, stress, response }
+}
+
+impl<V: Lanes> Answer<V> {
+    /// Work of the mean stress on a strain increment, per volume.
+    #[inline(always)]
+    fn power_of(&self, strain: Sym3<V>) -> V {
+        self.old.zip(self.stress, |a, b| a + b).contract(strain) * V::splat(0.5)
+    }
+
+    /// Dilatational modulus of the stable step, and shear modulus.
+    #[inline(always)]
+    fn moduli<K: Kernel>(&self, strain: Sym3<V>, settings: &Settings) -> [V; 2] {
+        if K::STIFFNESS {
+            return [self.response.stiffness.dilatational, self.response.stiffness.shear];
+        }
+        let elastic = [settings.dilatational, settings.mu];
+        let modulus = step_modulus(elastic, settings.effective_moduli, [&self.old, &self.stress], &strain);
+        [modulus, V::splat(settings.mu)]
+    }
+}
+
+/// Bulk viscosity, and the steps that it leaves.
+pub(super) struct Slowed<V> {
+    /// Its mean stress at the end of the step.
+    stress: V,
+    /// Mean of those at start and end.
+    power: V,
+    /// Rate at which the volume grows, over it.
+    rate: V,
+    /// The stable step.
+    pub(super) stable_step: V,
+    /// The one where all of the viscosity acts: a limiter sees no modes.
+    pub(super) whole_step: V,
+}
+
+#[inline(always)]
+fn bulk_viscosity<V: Lanes, K: Kernel>(
+    (middle, end): (&Middle<V>, &End<V>),
+    modulus: V,
+    neighbours: &Corners<V>,
+    state: &mut [V::Row],
+    part: usize,
+    settings: &Settings,
+) -> Slowed<V> {
+    let bound = (end.light * end.gradient.volume192 * V::splat(12.0) / (modulus * end.b_squared)).sqrt();
+    let l = &middle.velocity_gradient;
+    let rate = l[0][0] + l[1][1] + l[2][2];
+    let whole = damping(settings.viscosity, bound, rate);
+    let mut damping = whole;
+    if K::FLUID {
+        let row = &mut state[exact::rate_row::<K>()];
+        damping = whole * jump([V::load(row, part), rate], &fluid::across(neighbours));
+        rate.store(row, part);
+    }
+    let stress = damping * modulus * bound * rate;
+    let last = V::load(&state[rows::VISCOUS_STRESS], part);
+    stress.store(&mut state[rows::VISCOUS_STRESS], part);
+    Slowed {
+        stress,
+        power: (last + stress) * V::splat(0.5),
+        rate,
+        stable_step: damped_step(bound, damping),
+        whole_step: damped_step(bound, whole),
+    }
 }
 
 /// Accounts of energies, by their place behind the internal one.
@@ -304,15 +360,15 @@ fn book<V: Lanes, K: Kernel>(energy: V, account: usize, state: &mut [V::Row], pa
 
 /// Volume of the element.
 #[inline(always)]
-fn volume<V: Lanes>(x: &[geometry::Modes<V>; 3]) -> V {
+fn volume<V: Lanes>(x: &[Modes<V>; 3]) -> V {
     gradient(x).volume192 * V::splat(1.0 / 192.0)
 }
 
 /// Hourglass rates q̇_iα = v_iI γ_αI, in space: γ is the mode made orthogonal to linear fields.
 #[inline(always)]
 pub(in crate::solver::elements) fn hourglass_rates<V: Lanes>(
-    v: &[geometry::Modes<V>; 3],
-    x: &[geometry::Modes<V>; 3],
+    v: &[Modes<V>; 3],
+    x: &[Modes<V>; 3],
     l: &Matrix3<V>,
 ) -> Resistance<V> {
     array![i in 3 => array![a in 4 => {
@@ -326,7 +382,7 @@ pub(in crate::solver::elements) fn hourglass_rates<V: Lanes>(
 /// Rates belong to the middle of the step and are turned by its frame. Turned by the frame at the end, the stiffness
 /// would have a skew part, and hourglass modes of a spinning body would grow by a factor per revolution.
 #[inline(always)]
-fn resist<V: Lanes, K: Kernel, H: hourglass::Control>(
+pub(super) fn resist<V: Lanes, K: Kernel, H: hourglass::Control>(
     control: &H,
     rate: &Resistance<V>,
     [middle, r]: [&Matrix3<V>; 2],
@@ -367,7 +423,7 @@ fn resist<V: Lanes, K: Kernel, H: hourglass::Control>(
 /// frame would otherwise be stiffer in bending than its own stable step allows.
 #[inline(always)]
 pub(in crate::solver::elements) fn lengths<V: Lanes>(
-    x: &[geometry::Modes<V>; 3],
+    x: &[Modes<V>; 3],
     r: &Matrix3<V>,
     stiffness_measure: V,
 ) -> [V; 3] {
@@ -384,7 +440,7 @@ pub(in crate::solver::elements) fn lengths<V: Lanes>(
 pub(in crate::solver::elements) fn corner_forces<V: Lanes>(
     stress: &Sym3<V>,
     resistance: &Resistance<V>,
-    x: &[geometry::Modes<V>; 3],
+    x: &[Modes<V>; 3],
     g24: &[[V; 6]; 3],
     inverse_volume192: V,
 ) -> [Corners<V>; 3] {

@@ -3,6 +3,7 @@
 mod barrier;
 mod bounded;
 mod carried;
+mod end;
 mod exact;
 mod fluid;
 pub mod geometry;
@@ -22,7 +23,7 @@ use crate::mesh::check::hexahedron_volume;
 use crate::mesh::corners::least_corner;
 use crate::mesh::hexahedron::{least_share, mass_shares};
 use crate::mesh::{Block, Shape};
-use crate::model::{Hourglass, Model, Precision, StepModuli};
+use crate::model::{Hourglass, Model, Precision, Spin, StepModuli};
 use crate::solver::body::centroid;
 use crate::solver::nodes::Nodes;
 use crate::vector::{add, cross, dot, normalized, scaled, subtract};
@@ -113,11 +114,13 @@ pub struct Hexahedron {
     pub least_share: f64,
     /// Precision of state and kernel.
     pub precision: Precision,
+    /// Order of the frame's spin.
+    pub spin: Spin,
 }
 
 impl Formulation for Hexahedron {
     fn of_block(_: &Block, model: &Model) -> Result<Self, Unfit> {
-        Ok(Hexahedron { hourglass: model.hourglass, least_share: 1.0, precision: model.precision })
+        Ok(Hexahedron { hourglass: model.hourglass, least_share: 1.0, precision: model.precision, spin: model.spin })
     }
 
     fn precision(&self) -> Precision {
@@ -154,6 +157,7 @@ impl Formulation for Hexahedron {
             poisson: moduli.poisson(),
             viscosity: settings.bulk_viscosity,
             effective_moduli: settings.moduli == StepModuli::Effective,
+            second_order_spin: self.spin == Spin::SecondOrder,
         };
         law.accept(OfLaw { control: self.hourglass, pass, settings, precision: self.precision })
     }

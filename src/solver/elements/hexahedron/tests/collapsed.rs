@@ -45,6 +45,7 @@ fn ratio(shape: Form, corners: &Corners, poisson: f64, hourglass: Hourglass) -> 
         hourglass,
         least_share: least_share(&numbers, &shares),
         precision: Precision::Double,
+        spin: Spin::default(),
     });
     exact / rig.step(0.0, |_| [0.0; 3]).stable_step
 }

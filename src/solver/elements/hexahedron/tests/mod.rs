@@ -20,7 +20,7 @@ use super::{Hexahedron, geometry, rows};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Kernel, KernelVisitor, Law};
 use crate::mesh::UNIT_CUBE as CUBE;
-use crate::model::{BulkViscosity, Hourglass, Precision, StepModuli};
+use crate::model::{BulkViscosity, Hourglass, Precision, Spin, StepModuli};
 use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
@@ -133,7 +133,7 @@ impl Rig {
                 }
             })
             .collect();
-        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0, precision });
+        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0, precision, spin: Spin::default() });
         let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
         Rig {
             block: ElementBlock {
@@ -163,6 +163,13 @@ impl Rig {
 
     fn single(corners: &Corners, law: Law, hourglass: Hourglass) -> Rig {
         Rig::new(corners, &[[0, 1, 2, 3, 4, 5, 6, 7]], law, hourglass)
+    }
+
+    fn with_spin(mut self, spin: Spin) -> Rig {
+        if let Element::Hexahedron(own) = &mut self.block.element {
+            own.spin = spin;
+        }
+        self
     }
 
     /// Moves every node with its velocity over a step and evaluates the elements there.
