@@ -307,8 +307,14 @@ impl NodeMotion {
         Paths { longest: paths.longest + room, half_range: paths.half_range + room }
     }
 
-    /// The motion of a node of this rank.
+    /// The same out of line: what is asked for that has not been placed is seldom.
     #[inline(never)]
+    fn look_up(&self, point: u32) -> PointMotion {
+        self.of_node(point)
+    }
+
+    /// The motion of a node of this rank.
+    #[inline(always)]
     fn of_node(&self, point: u32) -> PointMotion {
         let node = self.places[point as usize] as usize;
         match (self.rows.get(node), self.forces.get(node)) {
@@ -326,7 +332,7 @@ impl NodeMotion {
         let motion = if own.start[3] == self.mark {
             own
         } else {
-            found = self.of_node(point);
+            found = self.look_up(point);
             &found
         };
         of(motion)
