@@ -36,6 +36,10 @@ pub struct ContactNodes {
     pub motion: NodeMotion,
     /// Whether each counts among the paths: all bits or none.
     counts: Vec<u64>,
+    /// How far from the centre of each rigid body its farthest contact node here is, a length.
+    arms: Vec<f64>,
+    /// By how much the path of one of them in the last step may differ from its velocity times the step, a length.
+    turned: f64,
     /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
     search_boxes: Vec<SweptBox>,
     /// Whether there was a search, and whether one is due: a contact node leaves its box in this step, or there was none.
@@ -82,9 +86,22 @@ impl ContactNodes {
     }
 
     /// Learns which of them belong to rigid bodies.
-    pub fn belong(&mut self, body: impl Fn(u32) -> Option<u32>) {
+    pub fn belong(&mut self, body: impl Fn(u32) -> Option<u32>, nodes: &Nodes) {
         let of = |contact_node: &ContactNode| body(contact_node.node).unwrap_or(ABSENT);
         self.motion.mobility.body = self.list.iter().map(of).collect();
+        self.arms = vec![0.0; self.motion.mobility.bodies.len()];
+        for (contact_node, &body) in self.list.iter().zip(&self.motion.mobility.body) {
+            if let Some(body_mobility) = self.motion.mobility.bodies.get(body as usize) {
+                let arm = subtract(nodes.position(contact_node.node), body_mobility.centre);
+                self.arms[body as usize] = self.arms[body as usize].max(dot(arm, arm).sqrt());
+            }
+        }
+    }
+
+    /// Hears by how much each rigid body has turned in the last step, radians. Velocities of its nodes are those of an instant then, at
+    /// the end of an arc: from the arc's chord each differs by half the angle, and by as much again where the axis turns.
+    pub fn turn(&mut self, angles: impl Iterator<Item = f64>) {
+        self.turned = self.arms.iter().zip(angles).map(|(arm, angle)| arm * angle * angle).fold(0.0, f64::max);
     }
 
     /// Local nodes of this rank that it answers for and on which forces act, and these forces.
@@ -129,6 +146,7 @@ impl ContactNodes {
             Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, last_drift, all) },
             _ => self.survey_each(nodes, last_drift, all),
         };
+        self.motion.range().widen(self.turned);
         self.expired = leaves || !self.searched;
     }
 

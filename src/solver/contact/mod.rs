@@ -154,7 +154,7 @@ impl Contact {
         step: &StepTimes,
         comm: &mut dyn Communicator,
     ) {
-        self.learn_of(rigid, comm);
+        self.learn_of(rigid, nodes, comm);
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
@@ -171,16 +171,20 @@ impl Contact {
     }
 
     /// Takes over how rigid bodies answer to forces in the step, and which points are theirs where that is not known yet.
-    fn learn_of(&mut self, rigid: Option<&RigidBodies>, comm: &dyn Communicator) {
+    fn learn_of(&mut self, rigid: Option<&RigidBodies>, nodes: &Nodes, comm: &dyn Communicator) {
         let Some(rigid) = rigid else { return };
         let ContactNodes { motion, list, .. } = &mut self.contact_nodes;
         let of = |body: &RigidBody| BodyMobility { centre: body.centre, compliance: body.compliance, free: body.free };
         motion.mobility.bodies = rigid.bodies.iter().map(of).collect();
         self.problem.motion.mobility.bodies.clone_from(&motion.mobility.bodies);
-        if motion.mobility.body.len() == list.len() {
+        let is_known = motion.mobility.body.len() == list.len();
+        if !is_known {
+            self.contact_nodes.belong(|node| rigid.of_node(node), nodes);
+        }
+        self.contact_nodes.turn(rigid.bodies.iter().map(RigidBody::last_angle));
+        if is_known {
             return;
         }
-        self.contact_nodes.belong(|node| rigid.of_node(node));
         if self.remote.is_none() && comm.size() > 1 {
             self.problem.answers = self.contact_nodes.list.iter().map(|contact_node| contact_node.owned).collect();
         }

@@ -6,6 +6,7 @@ use super::turn::{self, Quaternion, STRAIGHT, matrix, moved, rotation, solved, t
 use crate::model::{Function, Unknown};
 use crate::solver::constraints::StepTimes;
 use crate::vector::{add, cross, dot, scaled};
+use std::f64::consts::PI;
 
 /// A force and its moment about the centre, or a velocity of the centre and an angular velocity.
 pub type Six = [f64; 6];
@@ -293,6 +294,12 @@ impl RigidBody {
     /// The last step that this run has taken: rotation and length.
     pub fn last(&self) -> Option<(Quaternion, f64)> {
         self.last
+    }
+
+    /// An upper bound of the angle by which it has turned in the last step, radians.
+    pub fn last_angle(&self) -> f64 {
+        // An arc sine is at most half of π times the sine.
+        self.last.map_or(0.0, |([_, x, y, z], _)| PI * dot([x, y, z], [x, y, z]).sqrt())
     }
 
     /// Angular velocity, radians per time, at the present state.

@@ -23,10 +23,6 @@ const APART: u32 = 1 << 31;
 /// can cost 87 and 70 ns a contact node and step.
 const SOON: usize = 64;
 
-/// Part of the longest path by which the path of a point of a rigid body may differ from its velocity times the step, along any
-/// axis: half of the largest turn in a step, a tenth, of a velocity that is at most √3 of what it is along an axis.
-const TURNED: f64 = 0.1;
-
 /// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
@@ -67,7 +63,7 @@ pub struct NodeMotion {
     forces: Vec<Force>,
     /// For each point its node on this rank, or its place among those apart, with the bit [`APART`].
     places: Vec<u32>,
-    /// Velocities of these over the step before, length per time.
+    /// Velocities of those apart over the step before, length per time.
     apart: Vec<[f64; 3]>,
     /// Motions that have been found in the step, and boxes around their paths, seen from the origin.
     motions: Vec<PointMotion>,
@@ -138,6 +134,8 @@ impl NodeMotion {
             motions: vec![PointMotion::default(); places.len()],
             swept_boxes: vec![SweptBox::EVERYTHING; places.len()],
             places,
+            // No motion has been found yet.
+            mark: 1.0,
             instructions: InstructionSet::detect(),
             ..Default::default()
         }
@@ -255,8 +253,8 @@ impl NodeMotion {
     }
 
     /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
-    /// leaves its search box. `counts` is all bits or none for each; `soon` gives nodes whose lines will be asked for soon. With
-    /// `ALL` it finds all motions.
+    /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box. With `ALL` it finds all
+    /// motions.
     #[inline(always)]
     pub fn survey<const ALL: bool>(&mut self, nodes: &Nodes, last_drift: f64, of_each: (&[u64], &[SweptBox])) -> bool {
         let (mut range, mut outside) = (PathRange::default(), Outside::default());
@@ -288,7 +286,7 @@ impl NodeMotion {
 
     /// How far points that count have gone in the last step or will go in this one, on any rank.
     pub fn paths(&self) -> Paths {
-        self.room_to_turn(self.range.paths())
+        self.range.paths()
     }
 
     /// How far some points will go in this step.
@@ -298,13 +296,7 @@ impl NodeMotion {
             let ahead = self.of(point, |motion| motion.velocity.map(|velocity| velocity * self.drift));
             range.take([Four::default(), ahead], u64::MAX);
         }
-        self.room_to_turn(range.paths())
-    }
-
-    /// Velocities of rigid bodies are those at the present state, and not quite their paths over time.
-    fn room_to_turn(&self, paths: Paths) -> Paths {
-        let room = if self.mobility.bodies.is_empty() { 0.0 } else { TURNED * paths.longest };
-        Paths { longest: paths.longest + room, half_range: paths.half_range + room }
+        range.paths()
     }
 
     /// The same out of line: what is asked for that has not been placed is seldom.

@@ -23,6 +23,12 @@ impl PathRange {
         }
     }
 
+    /// Widens it by a length on all sides.
+    pub fn widen(&mut self, room: f64) {
+        self.low.iter_mut().for_each(|low| *low -= room);
+        self.high.iter_mut().for_each(|high| *high += room);
+    }
+
     /// As numbers of which the least of all ranks are those of all paths.
     pub fn to_array(self) -> [f64; 7] {
         let (low, high) = (self.low, self.high);
