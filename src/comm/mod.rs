@@ -62,6 +62,14 @@ pub fn numbers_of_others(own: &[u32], comm: &mut dyn Communicator) -> Vec<(usize
     incoming.into_iter().map(|(rank, bytes)| (rank, bytes.chunks_exact(4).map(number).collect())).collect()
 }
 
+/// Every rank's bytes one after the other, in rank order, on every rank. Two collective calls: by way of rank 0 they go once to each
+/// rank.
+pub fn gather_for_all(own: Vec<u8>, comm: &mut dyn Communicator) -> Vec<u8> {
+    let mut all = comm.gather(own).map_or_else(Vec::new, |parts| parts.concat());
+    comm.broadcast(&mut all);
+    all
+}
+
 /// One neighbour of a fixed exchange pattern, with buffers that live as long as the pattern.
 #[derive(Debug, Clone, Default)]
 pub struct Peer {

@@ -1,6 +1,6 @@
 //! Regions that need no decomposition of their own: the boxes of what ranks hold already.
 
-use crate::comm::Communicator;
+use crate::comm::{Communicator, gather_for_all};
 
 /// One box per rank, around what it holds; the same on all ranks. Boxes may overlap and need not fill space.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +17,7 @@ impl Boxes {
         let far = |sides: [f64; 3], far: f64| sides.map(|side| if side.is_nan() { far } else { side });
         let own = [far(low, f64::NEG_INFINITY), far(high, f64::INFINITY)];
         let bytes = own.as_flattened().iter().flat_map(|side| side.to_le_bytes()).collect();
-        let mut all = comm.gather(bytes).map_or_else(Vec::new, |boxes| boxes.concat());
-        comm.broadcast(&mut all);
+        let all = gather_for_all(bytes, comm);
         let side = |b: &[u8]| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]);
         let sides: Vec<f64> = all.chunks_exact(8).map(side).collect();
         let of_ranks = || sides.chunks_exact(6);

@@ -3,10 +3,11 @@
 use crate::comm::Communicator;
 use std::ops::Range;
 
-/// Records, each an id and `width` numbers, packed for the ranks they go to.
+/// Records, each an id and `width` numbers, packed for the ranks they go to; those that stay are not packed.
 #[derive(Debug, Clone)]
 pub struct Parcels {
-    width: usize,
+    rank: usize,
+    own: Records,
     /// One message per rank.
     messages: Vec<Vec<u8>>,
 }
@@ -25,14 +26,20 @@ pub struct Records {
 }
 
 impl Parcels {
-    /// Empty parcels for `size` ranks and records of `width` numbers.
-    pub fn new(size: usize, width: usize) -> Parcels {
-        Parcels { width, messages: vec![Vec::new(); size] }
+    /// Empty parcels for the ranks of a communicator and records of `width` numbers.
+    pub fn new(comm: &dyn Communicator, width: usize) -> Parcels {
+        let own = Records { width, ..Records::default() };
+        Parcels { rank: comm.rank(), own, messages: vec![Vec::new(); comm.size()] }
     }
 
     /// Adds a record of `width` numbers for `rank`, which may be this one.
     pub fn add(&mut self, rank: u32, id: u32, values: &[f64]) {
-        debug_assert_eq!(values.len(), self.width, "a record of another width");
+        debug_assert_eq!(values.len(), self.own.width, "a record of another width");
+        if rank as usize == self.rank {
+            self.own.ids.push(id);
+            self.own.values.extend_from_slice(values);
+            return;
+        }
         let message = &mut self.messages[rank as usize];
         message.extend_from_slice(&id.to_le_bytes());
         values.iter().for_each(|value| message.extend_from_slice(&value.to_le_bytes()));
@@ -41,17 +48,14 @@ impl Parcels {
     /// Sends all records and returns those for this rank, by ascending sender and then in the order in which they
     /// were added; every rank calls it, with the same width. One sparse exchange.
     pub fn exchange(self, comm: &mut dyn Communicator) -> Records {
-        let outgoing = self.messages.into_iter().enumerate().filter(|(_, message)| !message.is_empty()).collect();
+        let Parcels { rank, own, messages } = self;
+        let outgoing = messages.into_iter().enumerate().filter(|(_, message)| !message.is_empty()).collect();
         let incoming = comm.sparse_exchange(outgoing);
-        let length = 4 + 8 * self.width;
-        let count: usize = incoming.iter().map(|(_, message)| message.len() / length).sum();
-        let (ids, values) = (Vec::with_capacity(count), Vec::with_capacity(count * self.width));
-        let mut records = Records { width: self.width, ids, values, senders: Vec::new() };
-        for (sender, message) in incoming {
-            let first = records.ids.len();
-            message.chunks_exact(length).for_each(|record| records.unpack(record));
-            records.senders.push((sender, first..records.ids.len()));
-        }
+        let behind = incoming.partition_point(|(sender, _)| *sender < rank);
+        let mut records = Records { width: own.width, ..Records::default() };
+        incoming[..behind].iter().for_each(|(sender, message)| records.unpack_all(*sender, message));
+        records.append(rank, own);
+        incoming[behind..].iter().for_each(|(sender, message)| records.unpack_all(*sender, message));
         records
     }
 }
@@ -84,6 +88,29 @@ impl Records {
         let mut order: Vec<u32> = (0..self.len() as u32).collect();
         order.sort_by_key(|record| self.ids[*record as usize]);
         order
+    }
+
+    /// Appends what this rank keeps.
+    fn append(&mut self, rank: usize, own: Records) {
+        let first = self.ids.len();
+        if first == 0 {
+            (self.ids, self.values) = (own.ids, own.values);
+        } else {
+            self.ids.extend(own.ids);
+            self.values.extend(own.values);
+        }
+        if self.ids.len() > first {
+            self.senders.push((rank, first..self.ids.len()));
+        }
+    }
+
+    /// Appends what another rank has sent.
+    fn unpack_all(&mut self, sender: usize, message: &[u8]) {
+        let (first, length) = (self.ids.len(), 4 + 8 * self.width);
+        self.ids.reserve(message.len() / length);
+        self.values.reserve(message.len() / length * self.width);
+        message.chunks_exact(length).for_each(|record| self.unpack(record));
+        self.senders.push((sender, first..self.ids.len()));
     }
 
     fn unpack(&mut self, record: &[u8]) {

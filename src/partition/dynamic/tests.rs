@@ -311,7 +311,7 @@ fn parcels_bring_points_to_their_owners() {
         let own: Vec<Point> = all.iter().skip(comm.rank()).step_by(5).copied().collect();
         let (positions, ids): (Vec<_>, Vec<_>) = own.iter().map(|point| (point.0, point.1)).unzip();
         let found = balance(&positions, &ids, &[], Axes::Widest, None, comm);
-        let mut parcels = Parcels::new(comm.size(), 3);
+        let mut parcels = Parcels::new(&*comm, 3);
         for (i, owner) in found.owners.iter().enumerate() {
             parcels.add(*owner, ids[i], &positions[i]);
         }

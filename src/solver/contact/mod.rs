@@ -365,5 +365,6 @@ fn renumbered(history: History, old: &Layout, new: &Layout) -> History {
         points: points.filter(|(point, _)| *point != ABSENT).collect(),
         edges: edges.collect(),
         planes: history.planes,
+        costs: history.costs.iter().map(|&(p, cost)| (point(p), cost)).filter(|(p, _)| *p != ABSENT).collect(),
     }
 }

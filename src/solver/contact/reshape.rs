@@ -135,7 +135,7 @@ impl Contact {
     fn sides_elsewhere(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
         let Some(remote) = &self.remote else { return BTreeMap::new() };
         let rank = comm.rank() as u32;
-        let mut parcels = Parcels::new(comm.size(), 6);
+        let mut parcels = Parcels::new(&*comm, 6);
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
             let holders = remote.holders(edge.ends[0]);
             if holders.len() < 2 || self.side(edge.faces[0], nodes).is_some() {

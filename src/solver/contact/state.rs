@@ -183,6 +183,8 @@ impl Contact {
             points: self.visit_touches(archive, &now),
             edges: self.visit_pairs(archive, &now),
             planes: self.visit_planes(archive, &now),
+            // How points are shared out is nobody's state.
+            costs: Vec::new(),
         };
         if !archive.loading() {
             return;

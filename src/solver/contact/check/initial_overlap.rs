@@ -407,7 +407,7 @@ fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Co
 fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
     let contact_nodes = ContactNodes::still(motion);
     let all = neighbourhood::point_boxes(layout, &contact_nodes);
-    let boxes = neighbourhood::face_boxes(0..layout.faces.len() as u32, layout, &contact_nodes);
+    let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
     let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);

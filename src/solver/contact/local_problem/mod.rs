@@ -3,6 +3,7 @@
 //! On one rank it holds them all. On many it holds what the last decomposition has given to this rank and what that may
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
+mod costs;
 mod outcome;
 
 use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict};
@@ -39,6 +40,8 @@ pub struct History {
     pub edges: Vec<EdgeContact>,
     /// Nodes of planes with contact.
     pub planes: Vec<PlaneHistory>,
+    /// Points that have cost more than to sleep in the last step, and how much more; see [`LocalProblem::costs`].
+    pub costs: Vec<(u32, u32)>,
 }
 
 /// A node of a plane: its number among those of all planes, and what its contact carries.
@@ -252,6 +255,7 @@ impl LocalProblem {
                 .map(|past| EdgeContact { pair: past.pair.map(|e| self.numbering.edges[e as usize]), ..*past })
                 .collect(),
             planes: planes.map(|plane_node| (plane_node.number, plane_node.carried)).collect(),
+            costs: self.costs(),
         }
     }
 

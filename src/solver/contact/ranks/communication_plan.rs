@@ -84,9 +84,13 @@ impl CommunicationPlan {
                 let place = regional.edges.ids.binary_search(edge).ok()?;
                 Some(layout.edges[*edge as usize].ends.into_iter().zip(regional.edge_owners[place]))
             });
-            let members: Vec<(u32, u32)> = ends.flatten().collect();
-            plan.end_owners.extend(members.iter().copied());
-            plan.agree(members.into_iter(), me);
+            let members = ends.flatten();
+            if members.clone().all(|(_, owner_rank)| owner_rank == me) {
+                members.for_each(|(end, _)| _ = plan.here.choose(end));
+            } else {
+                plan.end_owners.extend(members.clone());
+                plan.agree(members, me);
+            }
         }
         plan.deliver(comm);
         plan
@@ -97,7 +101,7 @@ impl CommunicationPlan {
         let me = comm.rank() as u32;
         self.deliveries.sort_unstable();
         self.deliveries.dedup();
-        let mut parcels = Parcels::new(comm.size(), 2);
+        let mut parcels = Parcels::new(&*comm, 2);
         for (from, to, point) in self.deliveries.drain(..) {
             parcels.add(from, point, &[0.0, f64::from(to)]);
             parcels.add(to, point, &[1.0, f64::from(from)]);

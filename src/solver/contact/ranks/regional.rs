@@ -1,17 +1,19 @@
-//! What each rank gets for its search: points at their owner ranks, and all faces and edges that these may meet.
+//! What each rank gets for its search: points at their owner ranks, all faces that these may meet, and edges that may cross.
 
-use crate::comm::Communicator;
-use crate::partition::dynamic::{Boxes as Regions, Parcels, Records};
+use crate::comm::{Communicator, gather_for_all};
+use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::occupancy::Occupancy;
 
 /// What has come to this rank for its search.
 pub struct Regional {
     pub points: Boxes,
     pub faces: Boxes,
     pub edges: Boxes,
+    /// Edges that stand out whose first ends are here, ascending.
     pub own_edges: Vec<u32>,
     /// Owner ranks of the corners of each face.
     pub face_owners: Vec<[u32; 4]>,
@@ -20,7 +22,8 @@ pub struct Regional {
 }
 
 impl Regional {
-    /// Sends points to their owner ranks, and faces and edges to every owner rank whose points they may meet. `faces` and `edges`
+    /// Sends points to their owner ranks, faces to every rank whose points they may meet, and edges to every rank that has the first
+    /// ends of edges that stand out and which they may cross. `faces` and `edges`
     /// are those of elements that are here. All ranks call it.
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),
@@ -28,46 +31,51 @@ impl Regional {
         contact_nodes: &ContactNodes,
         comm: &mut dyn Communicator,
     ) -> Regional {
-        let size = comm.size();
         let owner_rank = |point: u32| {
             f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
         };
         // One kind after the other, each let go of as soon as it is on its way: a search takes the most memory of all that a step does.
-        let (points, _) = sorted::<0>(sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, size, comm));
-        let edges = neighbourhood::edge_boxes(edges.iter().copied(), layout, contact_nodes);
+        let (points, _) = sorted::<0>(sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, comm));
+        let here = edges.iter().copied();
+        let standing_out = neighbourhood::standing_out(here.clone(), layout, contact_nodes);
         let first_owner = |edge: u32| owner_rank(layout.edges[edge as usize].ends[0]);
-        let (own_edges, _) = sorted::<0>(sent(edges.clone(), first_owner, size, comm));
-        let all = points.boxes.iter().chain(&own_edges.boxes).filter(|of| of.is_sound());
-        let all = all.fold(Box3::empty(), |all, one| all.joined(one));
+        let (own_edges, _) = sorted::<0>(sent(standing_out, first_owner, comm));
+        let occupied = occupied_by_all(&own_edges.boxes, comm);
         let own_edges = own_edges.ids;
-        let regions = Regions::gather(all.low, all.high, comm);
-        let mut ranks = Vec::new();
-        let mut parcels = Parcels::new(size, 8);
-        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
-            regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(owner_rank));
-            let values = [a, b, c, d, e, f, g, h];
-            ranks.iter().for_each(|&rank| parcels.add(rank, edge, &values));
+        let mut parcels = Parcels::new(&*comm, 8);
+        for edge in here.filter(|&edge| layout.takes_part(edge)) {
+            let of = neighbourhood::edge_box(edge, layout, contact_nodes);
+            let ([a, b, c, d, e, f], [g, h]) = (flat(&of), layout.edges[edge as usize].ends.map(owner_rank));
+            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
+            meeting.for_each(|(rank, _)| parcels.add(rank, edge, &[a, b, c, d, e, f, g, h]));
         }
-        drop(edges);
         let (edges, edge_owners) = sorted(parcels.exchange(comm));
-        let faces = neighbourhood::face_boxes(faces.iter().copied(), layout, contact_nodes);
-        let mut parcels = Parcels::new(size, 10);
-        for (&face, of) in faces.ids.iter().zip(&faces.boxes) {
-            regions.ranks_meeting(of.low, of.high, &mut ranks);
-            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(of), layout.faces.corners[face as usize].map(owner_rank));
-            let values = [a, b, c, d, e, f, g, h, i, j];
-            ranks.iter().for_each(|&rank| parcels.add(rank, face, &values));
+        let occupied = occupied_by_all(&points.boxes, comm);
+        let mut parcels = Parcels::new(&*comm, 10);
+        for &face in faces {
+            let of = neighbourhood::face_box(face, layout, contact_nodes);
+            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(&of), layout.faces.corners[face as usize].map(owner_rank));
+            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
+            meeting.for_each(|(rank, _)| parcels.add(rank, face, &[a, b, c, d, e, f, g, h, i, j]));
         }
-        drop(faces);
         let (faces, face_owners) = sorted(parcels.exchange(comm));
         Regional { points, faces, edges, own_edges, face_owners, edge_owners }
     }
 }
 
+/// Cells along each axis of the space in which a rank has points, or edges that stand out: 64 bytes that every other rank learns.
+const CELLS: usize = 8;
+
+/// What boxes occupy on each rank. All ranks call it.
+fn occupied_by_all(own: &[Box3], comm: &mut dyn Communicator) -> Vec<Occupancy> {
+    let own = Occupancy::of(own, CELLS).to_bytes();
+    let length = own.len();
+    gather_for_all(own, comm).chunks_exact(length).map(|bytes| Occupancy::from_bytes(bytes, CELLS)).collect()
+}
+
 /// Sends each box to its rank; what has come instead. All ranks call it.
-fn sent(boxes: Boxes, rank: impl Fn(u32) -> f64, size: usize, comm: &mut dyn Communicator) -> Records {
-    let mut parcels = Parcels::new(size, 6);
+fn sent(boxes: Boxes, rank: impl Fn(u32) -> f64, comm: &mut dyn Communicator) -> Records {
+    let mut parcels = Parcels::new(&*comm, 6);
     boxes.ids.iter().zip(&boxes.boxes).for_each(|(&id, of)| parcels.add(rank(id) as u32, id, &flat(of)));
     drop(boxes);
     parcels.exchange(comm)

@@ -11,28 +11,21 @@
 
 use super::communication_plan::{CommunicationPlan, numbering};
 use super::iteration_messages::{IterationExchange, IterationMessages};
+use super::owner_ranks::{NodeRanks, OwnerRanks};
 use super::regional::Regional;
 use super::routing::route;
 use super::traffic::{Lists, MessagePattern};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::model::ContactDecomposition;
-use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels, Records};
+use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
-use crate::solver::contact::contact_nodes::{ContactNode, ContactNodes};
+use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
-/// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
-const SLACK: f64 = 0.1;
-
-/// What a node with contact forces in the last step weighs against one without: about what its check and its part in the
-/// iterations cost against a node whose motion is merely set.
-const LOADED: u32 = 12;
 
 /// Forces on a node without contact. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
@@ -47,9 +40,8 @@ pub struct Remote {
     /// Faces and edges of elements that are here.
     faces: Vec<u32>,
     edges: Vec<u32>,
-    /// How points are shared out, and the cuts of the last time.
-    method: ContactDecomposition,
-    cuts: Option<Bisection>,
+    /// How points are shared out.
+    decomposition: OwnerRanks,
     motion: MessagePattern,
     /// Messages of the results to other ranks.
     results: MessagePattern,
@@ -93,8 +85,7 @@ impl Remote {
             node_owner: owner,
             faces: (0..layout.faces.len() as u32).filter(here).collect(),
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
-            method,
-            cuts: None,
+            decomposition: OwnerRanks::new(method),
             motion: MessagePattern::default(),
             results: MessagePattern::default(),
             own: Vec::new(),
@@ -201,7 +192,10 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) -> LocalProblem {
         let (layout, plane_nodes, depth) = extent;
-        contact_nodes.owner_ranks = self.find_owner_ranks(contact_nodes, comm);
+        let Remote { decomposition, node_owner, first, holders, .. } = self;
+        let holders = |point: u32| &holders[first[point as usize] as usize..first[point as usize + 1] as usize];
+        let node_ranks = NodeRanks { owner: node_owner, holders: &holders };
+        contact_nodes.owner_ranks = decomposition.find(contact_nodes, node_ranks, &history.costs, comm);
         let history = self.forward(layout, contact_nodes, plane_nodes, history, comm);
         let regional = Regional::gather((&self.faces, &self.edges), layout, contact_nodes, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];
@@ -220,35 +214,6 @@ impl Remote {
         self.connect((layout, contact_nodes), &mut problem, &plan, &regional, &plane_nodes, comm);
         problem.restore(history);
         problem
-    }
-
-    /// The new owner rank of every contact node of this rank.
-    fn find_owner_ranks(&mut self, contact_nodes: &ContactNodes, comm: &mut dyn Communicator) -> Vec<u32> {
-        let axes = match self.method {
-            ContactDecomposition::Bisection => Axes::Widest,
-            ContactDecomposition::Slices => Axes::One,
-            ContactDecomposition::Static => {
-                return contact_nodes
-                    .list
-                    .iter()
-                    .map(|contact_node| self.node_owner[contact_node.point as usize])
-                    .collect();
-            }
-        };
-        let mut weights = vec![1; contact_nodes.list.len()];
-        contact_nodes.loaded.iter().for_each(|&(contact_node, _)| weights[contact_node as usize] = LOADED);
-        let (mut places, mut ids, mut own_weights) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
-            places.push(contact_nodes.motion.start(i as u32));
-            ids.push(contact_node.point);
-            own_weights.push(weights[i]);
-        }
-        let earlier = self.cuts.as_ref().map(|cuts| Earlier { cuts, slack: SLACK });
-        let balanced = dynamic::balance(&places, &ids, &own_weights, axes, earlier, comm);
-        let cuts = self.cuts.insert(balanced.bisection);
-        let owner =
-            |(at, contact_node): (u32, &ContactNode)| cuts.owner(contact_nodes.motion.start(at), contact_node.point);
-        (0..).zip(&contact_nodes.list).map(owner).collect()
     }
 
     /// Brings history from where it was to the new owner ranks, by way of the ranks that own the nodes and know the owner ranks.
@@ -301,7 +266,7 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) {
         let rank = comm.rank() as u32;
-        let mut parcels = Parcels::new(comm.size(), 0);
+        let mut parcels = Parcels::new(&*comm, 0);
         let mut send = Lists::new();
         for &point in loaded {
             for &holder in self.holders(point).iter().filter(|&&holder| holder != rank) {
@@ -329,8 +294,8 @@ impl Remote {
         problem: &mut LocalProblem,
         comm: &mut dyn Communicator,
     ) {
-        let (rank, size) = (comm.rank(), comm.size());
-        let mut parcels = Parcels::new(size, 0);
+        let rank = comm.rank();
+        let mut parcels = Parcels::new(&*comm, 0);
         let mut receive = Lists::new();
         for (place, &point) in problem.numbering.points.iter().enumerate() {
             let owner = self.node_owner[point as usize];

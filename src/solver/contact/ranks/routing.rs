@@ -26,8 +26,7 @@ pub fn route(
     plane_nodes: &[PlaneNode],
     comm: &mut dyn Communicator,
 ) -> History {
-    let size = comm.size();
-    let [mut points, mut edges] = [PASTS, PAIR].map(|width| Parcels::new(size, width));
+    let [mut points, mut edges] = [PASTS, PAIR].map(|width| Parcels::new(&*comm, width));
     for (point, pasts) in &history.points {
         let values: Vec<f64> = pasts.iter().flat_map(|past| pack_past(*past)).collect();
         points.add(rank(*point), *point, &values);
@@ -58,7 +57,7 @@ pub fn share_planes(
     ranks: impl Fn(u32) -> Range<u32>,
     comm: &mut dyn Communicator,
 ) -> Vec<PlaneHistory> {
-    let mut parcels = Parcels::new(comm.size(), WIDTH);
+    let mut parcels = Parcels::new(&*comm, WIDTH);
     for (number, carried) in planes {
         ranks(*number).for_each(|rank| parcels.add(rank, *number, &carried.to_array()));
     }

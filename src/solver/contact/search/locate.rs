@@ -277,6 +277,13 @@ impl Locator {
         self.slave_nodes.iter().copied().zip(bounds.map(|bounds| &self.candidates[bounds]))
     }
 
+    /// Candidates of the `i`-th slave node that do not sleep.
+    pub fn awake(&self, i: usize) -> impl Iterator<Item = &Candidate> {
+        let bits = self.sleep[i].awake;
+        let is_awake = move |place: usize| bits.checked_shr(place as u32).is_none_or(|bits| bits & 1 == 1);
+        self.of(i).iter().enumerate().filter(move |(place, _)| is_awake(*place)).map(|(_, candidate)| candidate)
+    }
+
     /// Finds the candidates of the `i`-th slave node whose boxes over this step meet that of the point, and those that
     /// have held it before; of a point that nothing holds, without those that it cannot touch for a while. Places the point and the
     /// corners of what it looks at.

@@ -12,6 +12,7 @@ mod candidates;
 mod grid;
 pub mod locate;
 pub mod neighbourhood;
+pub mod occupancy;
 mod point_in_box;
 mod sizes;
 #[cfg(test)]

@@ -5,6 +5,7 @@ use crate::solver::contact::check::{edge_edge, node_face};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::layout::Layout;
+use crate::solver::contact::search::occupancy::Occupancy;
 use crate::solver::contact::search::{Box3, Candidates, Search};
 use std::borrow::Cow;
 
@@ -59,40 +60,57 @@ pub fn point_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     points
 }
 
-/// Boxes of some faces, whose corners are contact nodes.
-pub fn face_boxes(faces: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
-    let mut all = Boxes::with_capacity(faces.size_hint().0);
-    for face in faces {
-        let corners = layout.faces.corners[face as usize].map(|corner| contact_nodes.of(corner));
-        let of = corners
-            .iter()
-            .flatten()
-            .fold(Box3::empty(), |all, &contact_node| all.joined(&around(contact_nodes, contact_node)));
-        all.push(face, of.grown(layout.faces.margin(face, node_face::KEEP)));
+/// Box of a face, whose corners are contact nodes.
+pub fn face_box(face: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
+    around_all(&layout.faces.corners[face as usize], contact_nodes).grown(layout.faces.margin(face, node_face::KEEP))
+}
+
+/// Boxes of all faces, whose corners are contact nodes.
+pub fn face_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
+    let ids: Vec<u32> = (0..layout.faces.len() as u32).collect();
+    Boxes { boxes: ids.iter().map(|&face| face_box(face, layout, contact_nodes)).collect(), ids }
+}
+
+/// Box of an edge, whose ends are contact nodes.
+pub fn edge_box(edge: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
+    let (edge, faces) = (&layout.edges[edge as usize], &layout.faces);
+    around_all(&edge.ends, contact_nodes).grown(edge_edge::farthest_reach(faces, edge) + edge.distance(faces))
+}
+
+/// Box around those of some points that are contact nodes.
+#[inline(always)]
+fn around_all(points: &[u32], contact_nodes: &ContactNodes) -> Box3 {
+    let here = points.iter().filter_map(|&point| contact_nodes.of(point));
+    here.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)))
+}
+
+/// Boxes of those of some edges that stand out, which all others that cross must meet.
+pub fn standing_out(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
+    let mut all = Boxes::default();
+    for edge in edges.filter(|&edge| layout.edges[edge as usize].stands_out()) {
+        all.push(edge, edge_box(edge, layout, contact_nodes));
     }
     all
 }
 
-/// Boxes of those of some edges that take part, whose ends are contact nodes.
-pub fn edge_boxes(edges: impl Iterator<Item = u32> + Clone, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
-    let edges = edges.filter(|&edge| layout.takes_part(edge));
-    let mut all = Boxes::with_capacity(edges.clone().count());
-    for edge in edges {
-        let one = &layout.edges[edge as usize];
-        let of = one.ends.iter().filter_map(|&end| contact_nodes.of(end));
-        let of = of.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)));
-        all.push(edge, of.grown(edge_edge::farthest_reach(&layout.faces, one) + one.distance(&layout.faces)));
-    }
-    all
-}
+/// Cells along each axis of the space in which edges stand out, where one rank knows them all.
+const CELLS: usize = 64;
 
 /// Finds what there is to find on one rank: edges first, whose boxes are gone when those of points and faces come.
 pub fn find_alone(search: &mut dyn Search, layout: &Layout, contact_nodes: &ContactNodes) -> SearchResult {
-    let edges = edge_boxes(0..layout.edges.len() as u32, layout, contact_nodes);
+    let all = 0..layout.edges.len() as u32;
+    let occupied = Occupancy::of(&standing_out(all.clone(), layout, contact_nodes).boxes, CELLS);
+    let mut edges = Boxes::default();
+    for edge in all.filter(|&edge| layout.takes_part(edge)) {
+        let of = edge_box(edge, layout, contact_nodes);
+        if occupied.may_meet(&of) {
+            edges.push(edge, of);
+        }
+    }
     let pairs = crossings(search, &edges, |_| true, layout);
     drop(edges);
     let points = point_boxes(layout, contact_nodes);
-    let faces = face_boxes(0..layout.faces.len() as u32, layout, contact_nodes);
+    let faces = face_boxes(layout, contact_nodes);
     SearchResult { pairs, ..find(search, [&points, &faces, &Boxes::default()], |_| true, layout) }
 }
 

@@ -1,0 +1,131 @@
+//! Which parts of space some boxes occupy, roughly: what is nowhere near them need not be searched for.
+
+use super::Box3;
+
+/// Cells that some boxes occupy, of a grid over the box around all of them: a bit for each, rows of cells along x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Occupancy {
+    around: Box3,
+    /// Number of cells along each axis, at most 64.
+    cells: usize,
+    /// Cells per length along each axis.
+    inverse: [f64; 3],
+    /// The cells along x that are occupied, by z and y.
+    rows: Vec<u64>,
+}
+
+/// Most cells along an axis: the bits of a row.
+const MOST: usize = 64;
+
+impl Occupancy {
+    /// What sound boxes occupy of a grid of so many cells along each axis, 1 to 64. All else is left out.
+    pub fn of(boxes: &[Box3], cells: usize) -> Occupancy {
+        let sound = || boxes.iter().filter(|of| of.is_sound());
+        let mut occupancy = Occupancy::empty(sound().fold(Box3::empty(), |all, of| all.joined(of)), cells);
+        for of in sound() {
+            occupancy.occupy(of);
+        }
+        occupancy
+    }
+
+    fn empty(around: Box3, cells: usize) -> Occupancy {
+        let cells = cells.clamp(1, MOST);
+        let inverse = [0, 1, 2].map(|axis| {
+            let inverse = cells as f64 / (around.high[axis] - around.low[axis]);
+            // Where all is in one place, or farther apart than can be told, there is one cell.
+            if inverse.is_finite() { inverse } else { 0.0 }
+        });
+        Occupancy { around, cells, inverse, rows: vec![0; cells * cells] }
+    }
+
+    fn occupy(&mut self, of: &Box3) {
+        let ([y, z], bits) = self.rows_of(of);
+        for z in z[0]..=z[1] {
+            self.rows[z * self.cells + y[0]..=z * self.cells + y[1]].iter_mut().for_each(|row| *row |= bits);
+        }
+    }
+
+    /// The cells that a box reaches: the first and the last along y and z, and those along x as bits.
+    #[inline]
+    fn rows_of(&self, of: &Box3) -> ([[usize; 2]; 2], u64) {
+        // Never falls when a coordinate grows: what overlaps has a cell in common.
+        let cell = |axis: usize, at: f64| {
+            ((at - self.around.low[axis]) * self.inverse[axis]).clamp(0.0, (self.cells - 1) as f64) as usize
+        };
+        let [x, y, z] = [0, 1, 2].map(|axis| [cell(axis, of.low[axis]), cell(axis, of.high[axis])]);
+        ([y, z], (u64::MAX << x[0]) & (u64::MAX >> (MOST - 1 - x[1])))
+    }
+
+    /// Whether a box may overlap one of those that occupy space; never `false` where it does.
+    #[inline]
+    pub fn may_meet(&self, of: &Box3) -> bool {
+        if !of.overlaps(&self.around) {
+            return false;
+        }
+        let ([y, z], bits) = self.rows_of(of);
+        (z[0]..=z[1]).any(|z| {
+            self.rows[z * self.cells + y[0]..=z * self.cells + y[1]].iter().fold(0, |all, row| all | row) & bits != 0
+        })
+    }
+
+    /// As bytes, of which there are as many for any boxes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let sides = self.around.low.iter().chain(&self.around.high).flat_map(|side| side.to_le_bytes());
+        sides.chain(self.rows.iter().flat_map(|row| row.to_le_bytes()[..self.cells.div_ceil(8)].to_vec())).collect()
+    }
+
+    /// From these bytes, with as many cells along each axis.
+    pub fn from_bytes(bytes: &[u8], cells: usize) -> Occupancy {
+        let (sides, rows) = bytes.split_at(6 * size_of::<f64>());
+        let [a, b, c, d, e, f] =
+            [0, 1, 2, 3, 4, 5].map(|i| f64::from_le_bytes(std::array::from_fn(|j| sides[8 * i + j])));
+        let mut occupancy = Occupancy::empty(Box3 { low: [a, b, c], high: [d, e, f] }, cells);
+        for (row, bytes) in occupancy.rows.iter_mut().zip(rows.chunks_exact(cells.div_ceil(8))) {
+            *row = u64::from_le_bytes(std::array::from_fn(|i| bytes.get(i).copied().unwrap_or(0)));
+        }
+        occupancy
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn boxes() -> impl Strategy<Value = Vec<Box3>> {
+        let size = prop_oneof![8 => 0.0..0.2f64, 1 => 0.0..10.0f64, 1 => Just(0.0)];
+        let one = (prop::array::uniform3(-3.0..3.0f64), prop::array::uniform3(size));
+        let one = one.prop_map(|(low, size)| Box3 { low, high: [0, 1, 2].map(|axis| low[axis] + size[axis]) });
+        prop::collection::vec(one, 0..12)
+    }
+
+    proptest! {
+        /// What overlaps is never missed, before and after it has been sent.
+        #[test]
+        fn what_overlaps_may_meet(occupied in boxes(), others in boxes(), cells in 1usize..=64) {
+            let occupancy = Occupancy::of(&occupied, cells);
+            let sent = Occupancy::from_bytes(&occupancy.to_bytes(), cells);
+            prop_assert_eq!(&sent, &occupancy);
+            for other in &others {
+                let meets = occupied.iter().any(|of| of.overlaps(other));
+                prop_assert!(!meets || occupancy.may_meet(other));
+            }
+        }
+    }
+
+    /// Edges of a box are few of its cells: most of what is between them is told apart.
+    #[test]
+    fn what_is_far_from_all_is_told_apart() {
+        let at = |x: f64, y: f64, z: f64| Box3::around(&[[x, y, z]]).grown(0.004);
+        let corners: Vec<Box3> =
+            (0..8).map(|i| at(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
+        let occupancy = Occupancy::of(&corners, 8);
+        assert!(corners.iter().all(|corner| occupancy.may_meet(corner)));
+        assert!(!occupancy.may_meet(&at(0.5, 0.5, 0.5)) && !occupancy.may_meet(&at(0.5, 0.0, 0.0)));
+        assert!(!occupancy.may_meet(&at(2.0, 0.0, 0.0)));
+        let unsound = Box3 { low: [f64::NAN; 3], high: [1.0; 3] };
+        assert!(
+            !Occupancy::of(&[], 8).may_meet(&at(0.0, 0.0, 0.0)) && !Occupancy::of(&[unsound], 8).may_meet(&corners[0])
+        );
+    }
+}
