@@ -4,6 +4,7 @@ use super::geometry::motion::{NodeMotion, larger};
 use super::geometry::swept_box::SweptBox;
 use super::layout::{ABSENT, inverse};
 use super::node_result::NodeResult;
+use super::search::Box3;
 use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
@@ -195,9 +196,13 @@ impl ContactNodes {
         }
     }
 
-    /// Low and high corner of the box in which a contact node stays until the next search, seen from the origin of the points.
-    pub fn reach(&self, contact_node: usize) -> [[f64; 3]; 2] {
-        self.search_boxes[contact_node].corners()
+    /// Box around where four points stay until the next search, those of them that are contact nodes here; seen from the origin of
+    /// the points.
+    #[inline]
+    pub fn reach(&self, points: [u32; 4]) -> Box3 {
+        let of = |point: u32| self.of(point).map_or(&SweptBox::NOTHING, |place| &self.search_boxes[place]);
+        let [low, high] = SweptBox::joined(points.map(of), 0.0).corners();
+        Box3 { low, high }
     }
 
     /// What contact says of a contact node on which forces act.

@@ -440,6 +440,12 @@ pub fn farthest_reach(faces: &Faces, edge: &Edge) -> f64 {
     if edge.stands_out() { KEEP * faces.size[edge.faces[0] as usize] } else { line }
 }
 
+/// A bound of how far around themselves edges are searched for, with the distance at which they touch; a length.
+pub fn largest_reach(faces: &Faces) -> f64 {
+    let largest = |of: &[f64]| of.iter().copied().fold(0.0, f64::max);
+    SUNK.max(KEEP) * largest(&faces.size) + largest(&faces.reach)
+}
+
 /// Length that what sinks in at a line is small against: the smaller of the faces' sizes, or half the element beneath.
 fn scale(faces: &Faces, line: &Edge) -> f64 {
     scale_at(line, faces, |face| faces.depth[face as usize])

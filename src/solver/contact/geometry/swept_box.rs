@@ -25,6 +25,9 @@ impl SweptBox {
     /// The box that every other touches.
     pub const EVERYTHING: SweptBox = SweptBox([f32::NEG_INFINITY; 8]);
 
+    /// The box that holds nothing.
+    pub const NOTHING: SweptBox = SweptBox([f32::INFINITY; 8]);
+
     /// A box around the path from one place to another.
     #[inline]
     pub fn around(start: [f64; 3], end: [f64; 3]) -> SweptBox {

@@ -14,8 +14,8 @@ use crate::solver::contact::contact_nodes::ContactNodes;
 /// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.
 const SLACK: f64 = 0.1;
 
-/// Points stay with the owners of their nodes while none of these has more than this part of its share too much. To send motion in
-/// every step and faces in every search costs about as much as to wait for a rank that has more.
+/// Points of a kind stay with the owners of their nodes while none of these has more than this part of its share
+/// too much. To send motion in every step and faces in every search costs about as much as to wait for a rank that has more.
 const UNEVEN: f64 = 0.25;
 
 /// How points are shared out, and the cuts of the last time.

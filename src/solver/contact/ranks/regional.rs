@@ -42,11 +42,13 @@ impl Regional {
         let (own_edges, _) = sorted::<0>(sent(standing_out, first_owner, comm));
         let occupied = occupied_by_all(&own_edges.boxes, comm);
         let own_edges = own_edges.ids;
+        let cells: Vec<Box3> = occupied.iter().flat_map(Occupancy::boxes).collect();
+        let cells = Occupancy::of(&cells, neighbourhood::CELLS);
+        let edges = neighbourhood::edges_near(here, &cells, layout, contact_nodes);
         let mut parcels = Parcels::new(&*comm, 8);
-        for edge in here.filter(|&edge| layout.takes_part(edge)) {
-            let of = neighbourhood::edge_box(edge, layout, contact_nodes);
-            let ([a, b, c, d, e, f], [g, h]) = (flat(&of), layout.edges[edge as usize].ends.map(owner_rank));
-            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
+        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
+            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(owner_rank));
+            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(of));
             meeting.for_each(|(rank, _)| parcels.add(rank, edge, &[a, b, c, d, e, f, g, h]));
         }
         let (edges, edge_owners) = sorted(parcels.exchange(comm));

@@ -4,8 +4,8 @@ use super::locate::{Candidate, Interface, Rule};
 use crate::solver::contact::check::{edge_edge, node_face};
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
-use crate::solver::contact::layout::Layout;
-use crate::solver::contact::search::occupancy::Occupancy;
+use crate::solver::contact::layout::{Layout, inverse};
+use crate::solver::contact::search::occupancy::{CellRange, Occupancy};
 use crate::solver::contact::search::{Box3, Candidates, Search};
 use std::borrow::Cow;
 
@@ -44,25 +44,19 @@ pub struct SearchResult {
     pub pairs: Vec<[u32; 2]>,
 }
 
-/// Box in which a contact node stays until the next search.
-fn around(contact_nodes: &ContactNodes, contact_node: usize) -> Box3 {
-    let [low, high] = contact_nodes.reach(contact_node);
-    Box3 { low, high }
-}
-
 /// Boxes of some contact nodes, as large as they reach.
 pub fn point_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut points = Boxes::with_capacity(contact_nodes.list.len());
-    for (i, contact_node) in contact_nodes.list.iter().enumerate().filter(|(_, contact_node)| contact_node.owned) {
-        let reach = layout.faces.node_reach[contact_node.point as usize];
-        points.push(contact_node.point, around(contact_nodes, i).grown(reach));
+    for point in contact_nodes.list.iter().filter(|contact_node| contact_node.owned).map(|owned| owned.point) {
+        points.push(point, contact_nodes.reach([point; 4]).grown(layout.faces.node_reach[point as usize]));
     }
     points
 }
 
 /// Box of a face, whose corners are contact nodes.
 pub fn face_box(face: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
-    around_all(&layout.faces.corners[face as usize], contact_nodes).grown(layout.faces.margin(face, node_face::KEEP))
+    let corners = layout.faces.corners[face as usize];
+    contact_nodes.reach(corners).grown(layout.faces.margin(face, node_face::KEEP))
 }
 
 /// Boxes of all faces, whose corners are contact nodes.
@@ -72,16 +66,11 @@ pub fn face_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
 }
 
 /// Box of an edge, whose ends are contact nodes.
-pub fn edge_box(edge: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
-    let (edge, faces) = (&layout.edges[edge as usize], &layout.faces);
-    around_all(&edge.ends, contact_nodes).grown(edge_edge::farthest_reach(faces, edge) + edge.distance(faces))
-}
-
-/// Box around those of some points that are contact nodes.
-#[inline(always)]
-fn around_all(points: &[u32], contact_nodes: &ContactNodes) -> Box3 {
-    let here = points.iter().filter_map(|&point| contact_nodes.of(point));
-    here.fold(Box3::empty(), |all, contact_node| all.joined(&around(contact_nodes, contact_node)))
+fn edge_box(edge: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
+    let edge = &layout.edges[edge as usize];
+    let [a, b] = edge.ends;
+    let reach = edge_edge::farthest_reach(&layout.faces, edge) + edge.distance(&layout.faces);
+    contact_nodes.reach([a, b, a, b]).grown(reach)
 }
 
 /// Boxes of those of some edges that stand out, which all others that cross must meet.
@@ -93,20 +82,39 @@ pub fn standing_out(edges: impl Iterator<Item = u32>, layout: &Layout, contact_n
     all
 }
 
-/// Cells along each axis of the space in which edges stand out, where one rank knows them all.
-const CELLS: usize = 64;
+/// Boxes of those of some edges that take part and may meet what is occupied.
+pub fn edges_near(
+    edges: impl Iterator<Item = u32>,
+    occupied: &Occupancy,
+    layout: &Layout,
+    contact_nodes: &ContactNodes,
+) -> Boxes {
+    // Most edges are near none: that is told from the cells in which their ends are.
+    let farthest = edge_edge::largest_reach(&layout.faces);
+    let ends = contact_nodes.list.iter().map(|contact_node| contact_nodes.reach([contact_node.point; 4]));
+    let cells: Vec<CellRange> = ends.map(|of| occupied.cells_of(&of.grown(farthest))).collect();
+    let are_near = |[a, b]: [u32; 2]| match [a, b].map(|end| contact_nodes.of(end)) {
+        [Some(a), Some(b)] => occupied.any(cells[a].joined(cells[b])),
+        _ => true,
+    };
+    let mut all = Boxes::default();
+    for edge in edges.filter(|&edge| are_near(layout.edges[edge as usize].ends) && layout.takes_part(edge)) {
+        let of = edge_box(edge, layout, contact_nodes);
+        if occupied.may_meet(&of) {
+            all.push(edge, of);
+        }
+    }
+    all
+}
+
+/// Cells along each axis of the space in which edges stand out.
+pub const CELLS: usize = 64;
 
 /// Finds what there is to find on one rank: edges first, whose boxes are gone when those of points and faces come.
 pub fn find_alone(search: &mut dyn Search, layout: &Layout, contact_nodes: &ContactNodes) -> SearchResult {
     let all = 0..layout.edges.len() as u32;
     let occupied = Occupancy::of(&standing_out(all.clone(), layout, contact_nodes).boxes, CELLS);
-    let mut edges = Boxes::default();
-    for edge in all.filter(|&edge| layout.takes_part(edge)) {
-        let of = edge_box(edge, layout, contact_nodes);
-        if occupied.may_meet(&of) {
-            edges.push(edge, of);
-        }
-    }
+    let edges = edges_near(all, &occupied, layout, contact_nodes);
     let pairs = crossings(search, &edges, |_| true, layout);
     drop(edges);
     let points = point_boxes(layout, contact_nodes);
@@ -123,7 +131,7 @@ pub fn find(
 ) -> SearchResult {
     let mut found = SearchResult { pairs: crossings(search, edges, mine, layout), ..Default::default() };
     let candidates: Vec<(Cow<Boxes>, Candidates)> =
-        (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, interface)).collect();
+        (layout.interfaces.iter()).map(|interface| of_interface(search, points, faces, (layout, interface))).collect();
     for (place, &point) in points.ids.iter().enumerate() {
         let begin = found.candidates.len();
         for (number, (faces, candidates)) in candidates.iter().enumerate() {
@@ -156,7 +164,7 @@ fn of_interface<'a>(
     search: &mut dyn Search,
     points: &Boxes,
     faces: &'a Boxes,
-    interface: &Interface,
+    (layout, interface): (&Layout, &Interface),
 ) -> (Cow<'a, Boxes>, Candidates) {
     let takes_part = |point: u32| interface.points[point as usize];
     let nodes = match points.ids.iter().all(|&point| takes_part(point)) {
@@ -167,11 +175,21 @@ fn of_interface<'a>(
         }
     };
     let chosen = among(faces, &interface.faces);
-    // Corners are left out with all nodes of the element.
-    let corners = vec![[u32::MAX; 4]; chosen.ids.len()];
+    let corners = corners_among(points, &chosen.ids, layout);
     let mut found = Candidates::default();
     search.find(&nodes, &chosen.boxes, &corners, &mut found);
     (chosen, found)
+}
+
+/// Places among some points of the corners of some faces.
+fn corners_among<'a>(points: &Boxes, faces: &[u32], layout: &'a Layout) -> Cow<'a, [[u32; 4]]> {
+    let all = &layout.faces.corners;
+    // Where all are there, every number is its own place.
+    if points.ids.len() == layout.nodes.len() && faces.len() == all.len() {
+        return Cow::Borrowed(all);
+    }
+    let places = inverse(points.ids.iter().copied(), layout.nodes.len());
+    Cow::Owned(faces.iter().map(|&face| all[face as usize].map(|corner| places[corner as usize])).collect())
 }
 
 /// Those of some faces that are in an ascending list. Mostly these are all, and nothing is copied.

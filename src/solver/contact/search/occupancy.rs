@@ -1,6 +1,7 @@
 //! Which parts of space some boxes occupy, roughly: what is nowhere near them need not be searched for.
 
 use super::Box3;
+use std::ops::Range;
 
 /// Cells that some boxes occupy, of a grid over the box around all of them: a bit for each, rows of cells along x.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +17,19 @@ pub struct Occupancy {
 
 /// Most cells along an axis: the bits of a row.
 const MOST: usize = 64;
+
+/// Cells that a box reaches: the first along each axis, then the last. What is beyond the grid counts to its outermost cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellRange([u8; 6]);
+
+impl CellRange {
+    /// The cells that the smallest box around two others reaches.
+    #[inline(always)]
+    pub fn joined(self, CellRange(other): CellRange) -> CellRange {
+        let CellRange(own) = self;
+        CellRange([0, 1, 2, 3, 4, 5].map(|i| if i < 3 { own[i].min(other[i]) } else { own[i].max(other[i]) }))
+    }
+}
 
 impl Occupancy {
     /// What sound boxes occupy of a grid of so many cells along each axis, 1 to 64. All else is left out.
@@ -39,32 +53,52 @@ impl Occupancy {
     }
 
     fn occupy(&mut self, of: &Box3) {
-        let ([y, z], bits) = self.rows_of(of);
-        for z in z[0]..=z[1] {
-            self.rows[z * self.cells + y[0]..=z * self.cells + y[1]].iter_mut().for_each(|row| *row |= bits);
-        }
+        let (rows, bits) = self.rows_of(self.cells_of(of));
+        rows.for_each(|row| self.rows[row].iter_mut().for_each(|row| *row |= bits));
     }
 
-    /// The cells that a box reaches: the first and the last along y and z, and those along x as bits.
-    #[inline]
-    fn rows_of(&self, of: &Box3) -> ([[usize; 2]; 2], u64) {
+    /// The cells that a box reaches.
+    #[inline(always)]
+    pub fn cells_of(&self, of: &Box3) -> CellRange {
         // Never falls when a coordinate grows: what overlaps has a cell in common.
         let cell = |axis: usize, at: f64| {
-            ((at - self.around.low[axis]) * self.inverse[axis]).clamp(0.0, (self.cells - 1) as f64) as usize
+            ((at - self.around.low[axis]) * self.inverse[axis]).clamp(0.0, (self.cells - 1) as f64) as u8
         };
-        let [x, y, z] = [0, 1, 2].map(|axis| [cell(axis, of.low[axis]), cell(axis, of.high[axis])]);
-        ([y, z], (u64::MAX << x[0]) & (u64::MAX >> (MOST - 1 - x[1])))
+        let ([a, b, c], [d, e, f]) = (of.low, of.high);
+        CellRange([cell(0, a), cell(1, b), cell(2, c), cell(0, d), cell(1, e), cell(2, f)])
+    }
+
+    /// Runs of rows in which cells are, and the bits that they have there.
+    #[inline(always)]
+    fn rows_of(&self, CellRange(at): CellRange) -> (impl Iterator<Item = Range<usize>> + use<>, u64) {
+        let ([x, y, z, last_x, last_y, last_z], cells) = (at.map(usize::from), self.cells);
+        let rows = (z..=last_z).map(move |z| z * cells + y..z * cells + last_y + 1);
+        (rows, (u64::MAX << x) & (u64::MAX >> (MOST - 1 - last_x)))
+    }
+
+    /// Whether any of some cells is occupied.
+    #[inline(always)]
+    pub fn any(&self, cells: CellRange) -> bool {
+        let (mut rows, bits) = self.rows_of(cells);
+        rows.any(|rows| self.rows[rows].iter().fold(0, |all, row| all | row) & bits != 0)
     }
 
     /// Whether a box may overlap one of those that occupy space; never `false` where it does.
     #[inline]
     pub fn may_meet(&self, of: &Box3) -> bool {
-        if !of.overlaps(&self.around) {
-            return false;
-        }
-        let ([y, z], bits) = self.rows_of(of);
-        (z[0]..=z[1]).any(|z| {
-            self.rows[z * self.cells + y[0]..=z * self.cells + y[1]].iter().fold(0, |all, row| all | row) & bits != 0
+        of.overlaps(&self.around) && self.any(self.cells_of(of))
+    }
+
+    /// Boxes of the cells that are occupied.
+    pub fn boxes(&self) -> impl Iterator<Item = Box3> + '_ {
+        let side = |axis: usize| (self.around.high[axis] - self.around.low[axis]) / self.cells as f64;
+        let (low, sides) = (self.around.low, [0, 1, 2].map(side));
+        let all = (0..self.cells * MOST * self.cells).filter(|&cell| self.rows[cell / MOST] >> (cell % MOST) & 1 == 1);
+        all.map(move |cell| {
+            let at = [cell % MOST, cell / MOST % self.cells, cell / MOST / self.cells];
+            let corner = |ahead: usize| [0, 1, 2].map(|axis| low[axis] + (at[axis] + ahead) as f64 * sides[axis]);
+            // A little larger than rounding makes a cell smaller.
+            Box3 { low: corner(0), high: corner(1) }.grown(1e-9 * sides.iter().sum::<f64>())
         })
     }
 
@@ -109,6 +143,12 @@ mod tests {
             for other in &others {
                 let meets = occupied.iter().any(|of| of.overlaps(other));
                 prop_assert!(!meets || occupancy.may_meet(other));
+                let by_boxes = occupancy.boxes().any(|cell| cell.overlaps(other));
+                prop_assert!(!meets || by_boxes);
+                for another in &others {
+                    let joined = occupancy.cells_of(other).joined(occupancy.cells_of(another));
+                    prop_assert_eq!(joined, occupancy.cells_of(&other.joined(another)));
+                }
             }
         }
     }
