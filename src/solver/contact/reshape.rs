@@ -102,13 +102,13 @@ impl Contact {
 
     /// Edges whose first face is here and that have another shape now, with the code of it: edge x [`SHAPES`] + code.
     fn changes(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> Vec<u32> {
-        let elsewhere = self.sides_elsewhere(nodes, comm);
+        let sides: Vec<Option<Side>> = (0..self.layout.faces.len() as u32).map(|face| self.side(face, nodes)).collect();
+        let elsewhere = self.sides_elsewhere(&sides, comm);
         let mut changed = Vec::new();
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
-            let Some(first) = self.side(edge.faces[0], nodes) else { continue };
-            let Some(second) = self.side(edge.faces[1], nodes).or_else(|| elsewhere.get(&number).copied()) else {
-                continue;
-            };
+            let [first, second] = edge.faces.map(|face| sides[face as usize]);
+            let Some(first) = first else { continue };
+            let Some(second) = second.or_else(|| elsewhere.get(&number).copied()) else { continue };
             let shape = edge.shape_between(first, second, &self.layout.faces);
             if shape != edge.shape {
                 changed.push(SHAPES * number + shape.code());
@@ -131,17 +131,18 @@ impl Contact {
         Some(edges::side(&corners))
     }
 
-    /// Second faces of edges whose first face is here and that are themselves on another rank.
-    fn sides_elsewhere(&self, nodes: &Nodes, comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
+    /// Second faces of edges whose first face is here and that are themselves on another rank; `sides` are all faces that are here.
+    fn sides_elsewhere(&self, sides: &[Option<Side>], comm: &mut dyn Communicator) -> BTreeMap<u32, Side> {
         let Some(remote) = &self.remote else { return BTreeMap::new() };
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(&*comm, 6);
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
             let holders = remote.holders(edge.ends[0]);
-            if holders.len() < 2 || self.side(edge.faces[0], nodes).is_some() {
+            let [first, second] = edge.faces.map(|face| sides[face as usize]);
+            if holders.len() < 2 || first.is_some() {
                 continue;
             }
-            if let Some(([a, b, c], [d, e, f])) = self.side(edge.faces[1], nodes) {
+            if let Some(([a, b, c], [d, e, f])) = second {
                 let others = holders.iter().filter(|&&holder| holder != rank);
                 others.for_each(|&holder| parcels.add(holder, number, &[a, b, c, d, e, f]));
             }

@@ -154,6 +154,15 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     Overlap { crowded: crowded(mesh, model, body, &layout), ..overlap }
 }
 
+/// Lets all points be where they are in the body, and stay there.
+fn stand_still(motion: &mut NodeMotion, body: &Body, layout: &Layout) {
+    motion.begin([0.0; 2]);
+    for (point, &node) in (0..).zip(&layout.nodes) {
+        let [x, y, z] = body.positions[node as usize];
+        motion.hear(point, [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    }
+}
+
 /// What thicknesses have no room for.
 fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded {
     let mut crowded = Crowded { least: 1.0, ..Crowded::default() };
@@ -161,10 +170,7 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded 
         return crowded;
     }
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
-    motion.begin([0.0; 2]);
-    for (point, &node) in layout.nodes.iter().enumerate() {
-        motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
-    }
+    stand_still(&mut motion, body, layout);
     let mut last = ABSENT;
     for (point, contact, _) in behind(layout, &Pairings::new(mesh, model, body), &motion) {
         let distance = layout.faces.distance(point, contact.face);
@@ -198,10 +204,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     let mut farthest = vec![0.0; motion.len()];
     let mut stuck = Stuck::default();
     for round in 0..=ROUNDS {
-        motion.begin([0.0; 2]);
-        for (point, &node) in layout.nodes.iter().enumerate() {
-            motion.set(point, body.positions[node as usize], [0.0; 3], [0.0; 3]);
-        }
+        stand_still(&mut motion, body, &layout);
         let mut constraints = overlaps(&layout, &pairings, &motion);
         stuck = Stuck::of(&constraints, &layout);
         if constraints.is_empty() || round == ROUNDS {

@@ -55,6 +55,10 @@ impl PointMotion {
     }
 }
 
+/// Position of a point at the present state, and its velocities over the coming step as it would be without contact, and over the step
+/// before: what a message says of it.
+pub type Motion = [f64; 9];
+
 /// Motion of points, by their numbers.
 #[derive(Debug, Clone, Default)]
 pub struct NodeMotion {
@@ -63,8 +67,8 @@ pub struct NodeMotion {
     forces: Vec<Force>,
     /// For each point its node on this rank, or its place among those apart, with the bit [`APART`].
     places: Vec<u32>,
-    /// Velocities of those apart over the step before, length per time.
-    apart: Vec<[f64; 3]>,
+    /// What was said of those apart.
+    apart: Vec<Motion>,
     /// Motions that have been found in the step, and boxes around their paths, seen from the origin.
     motions: Vec<PointMotion>,
     swept_boxes: Vec<SweptBox>,
@@ -120,7 +124,7 @@ impl NodeMotion {
     pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
         NodeMotion {
             places: (0..count as u32).map(|place| APART | place).collect(),
-            apart: vec![[0.0; 3]; count],
+            apart: vec![Motion::default(); count],
             ..NodeMotion::of_nodes(std::iter::repeat_n(0, count), origin)
         }
     }
@@ -151,7 +155,7 @@ impl NodeMotion {
             })
         };
         let motion = NodeMotion::of_nodes(nodes.map(place), origin);
-        NodeMotion { apart: vec![[0.0; 3]; apart as usize], ..motion }
+        NodeMotion { apart: vec![Motion::default(); apart as usize], ..motion }
     }
 
     /// Near which they are; see [`NodeMotion::new`].
@@ -175,7 +179,7 @@ impl NodeMotion {
     }
 
     /// Begins a step of length `drift`, a time, in which forces act for `kick` until velocities are those of the step. Points that
-    /// are apart must be set anew.
+    /// are apart stay as they were until something else is heard.
     pub fn begin(&mut self, [drift, kick]: [f64; 2]) {
         (self.drift, self.kick, self.range) = (drift, kick, PathRange::default());
         (self.mark, self.found, self.all_found) = (self.mark + 1.0, 0, false);
@@ -203,14 +207,20 @@ impl NodeMotion {
         (nodes.rows, nodes.forces) = (std::mem::take(&mut self.rows), std::mem::take(&mut self.forces));
     }
 
-    /// Sets the position of a point that is apart, and its velocities over the coming step and over the step `before`.
+    /// Hears where a point is that is apart, and how it moves.
     #[inline]
-    pub fn set(&mut self, point: usize, start: [f64; 3], velocity: [f64; 3], before: [f64; 3]) {
-        if let Some(own) = self.apart.get_mut((self.places[point] & !APART) as usize) {
-            *own = before;
+    pub fn hear(&mut self, point: u32, motion: Motion) {
+        if let Some(own) = self.apart.get_mut((self.places[point as usize] & !APART) as usize) {
+            *own = motion;
         }
-        let [x, y, z] = start;
-        self.keep(point, PointMotion { start: [x, y, z, self.mark], velocity: four(velocity) });
+    }
+
+    /// What others are told of a point that is a node of this rank.
+    #[inline]
+    pub fn tell(&self, point: u32) -> Motion {
+        let PointMotion { start: [x, y, z, _], velocity: [u, v, w, _] } = self.of(point, |motion| *motion);
+        let [p, q, r] = self.velocity_before(point);
+        [x, y, z, u, v, w, p, q, r]
     }
 
     #[inline(always)]
@@ -305,14 +315,16 @@ impl NodeMotion {
         self.of_node(point)
     }
 
-    /// The motion of a node of this rank.
+    /// The motion of a point that has not been placed.
     #[inline(always)]
     fn of_node(&self, point: u32) -> PointMotion {
-        let node = self.places[point as usize] as usize;
-        match (self.rows.get(node), self.forces.get(node)) {
+        let place = self.places[point as usize];
+        match (self.rows.get(place as usize), self.forces.get(place as usize)) {
             (Some(row), Some(force)) => PointMotion::of_node(row, force, self.kick, self.mark),
-            // What is apart holds until it is set anew.
-            _ => self.motions[point as usize],
+            _ => {
+                let [x, y, z, u, v, w, ..] = self.apart[(place & !APART) as usize];
+                PointMotion { start: [x, y, z, self.mark], velocity: four([u, v, w]) }
+            }
         }
     }
 
@@ -360,7 +372,10 @@ impl NodeMotion {
         let place = self.places[point as usize];
         match self.rows.get(place as usize) {
             Some(Row([.., u, v, w, _])) => [*u, *v, *w],
-            None => self.apart[(place & !APART) as usize],
+            None => {
+                let [.., u, v, w] = self.apart[(place & !APART) as usize];
+                [u, v, w]
+            }
         }
     }
 

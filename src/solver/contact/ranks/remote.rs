@@ -106,19 +106,9 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) {
         let (from, to) = (&mut contact_nodes.motion, &mut problem.motion);
-        self.motion.send(
-            |contact_node| {
-                let ([x, y, z], [u, v, w]) = (from.start(contact_node), from.velocity(contact_node));
-                let [p, q, r] = from.velocity_before(contact_node);
-                [x, y, z, u, v, w, p, q, r]
-            },
-            comm,
-        );
+        self.motion.send(|contact_node| from.tell(contact_node), comm);
         to.borrow_from(from);
-        self.motion.receive(
-            |point, [x, y, z, u, v, w, p, q, r]| to.set(point as usize, [x, y, z], [u, v, w], [p, q, r]),
-            comm,
-        );
+        self.motion.receive(|point, motion| to.hear(point, motion), comm);
     }
 
     /// Contact nodes whose motion goes to other ranks.
