@@ -50,12 +50,13 @@ impl Parcels {
     pub fn exchange(self, comm: &mut dyn Communicator) -> Records {
         let Parcels { rank, own, messages } = self;
         let outgoing = messages.into_iter().enumerate().filter(|(_, message)| !message.is_empty()).collect();
-        let incoming = comm.sparse_exchange(outgoing);
-        let behind = incoming.partition_point(|(sender, _)| *sender < rank);
+        let mut before = comm.sparse_exchange(outgoing);
+        let behind = before.split_off(before.partition_point(|(sender, _)| *sender < rank));
         let mut records = Records { width: own.width, ..Records::default() };
-        incoming[..behind].iter().for_each(|(sender, message)| records.unpack_all(*sender, message));
+        // Each message is gone when the next is unpacked.
+        before.into_iter().for_each(|(sender, message)| records.unpack_all(sender, &message));
         records.append(rank, own);
-        incoming[behind..].iter().for_each(|(sender, message)| records.unpack_all(*sender, message));
+        behind.into_iter().for_each(|(sender, message)| records.unpack_all(sender, &message));
         records
     }
 }

@@ -69,6 +69,25 @@ fn evenly_shared(owners: &[(u32, u32)], size: usize) -> bool {
     sizes(owners, size).iter().all(|count| (least..=most).contains(count))
 }
 
+/// The lower and upper sides of a rank's region, infinite where nothing was cut. Points of a side belong to this
+/// region or to its neighbour, by id. Where there were no points to cut between, `low` is +∞: nothing is inside.
+fn region(bisection: &Bisection, rank: usize) -> ([f64; 3], [f64; 3]) {
+    let (mut low, mut high) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
+    let mut ranks = bisection.all();
+    while ranks.parts > 1 {
+        let cut = &bisection.cuts[ranks.cut()];
+        let [left, right] = ranks.halves();
+        if rank < right.first {
+            high[cut.axis] = high[cut.axis].min(cut.end.coordinate());
+            ranks = left;
+        } else {
+            low[cut.axis] = low[cut.axis].max(cut.end.coordinate());
+            ranks = right;
+        }
+    }
+    (low, high)
+}
+
 /// Coordinates with many ties, zeros of both signs, and clusters of all scales.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
@@ -139,28 +158,14 @@ proptest! {
     }
 
     #[test]
-    fn a_box_meets_the_owners_of_its_points(
-        points in points(Just(1u32), 0..100), size in size(), low in [coordinate(), coordinate(), coordinate()],
-        side in [coordinate(), coordinate(), coordinate()],
-    ) {
+    fn points_lie_in_the_regions_of_their_owners(points in points(Just(1u32), 0..100), size in size()) {
         let (bisection, owners, _) = balanced(&points, size, |i| i, Axes::Widest, None);
-        let high = [0, 1, 2].map(|axis| low[axis] + f64::abs(side[axis]));
-        let inside = |at: &[f64; 3], low: &[f64; 3], high: &[f64; 3]| (0..3).all(|k| low[k] <= at[k] && at[k] <= high[k]);
-        let mut meeting = Vec::new();
-        bisection.ranks_meeting(low, high, &mut meeting);
-        prop_assert!(meeting.windows(2).all(|pair| pair[0] < pair[1]));
         for (at, id, _) in &points {
             let owner = owners[owners.partition_point(|(other, _)| other < id)].1;
-            prop_assert!(!inside(at, &low, &high) || meeting.contains(&owner));
-            let (region_low, region_high) = bisection.region(owner as usize);
-            prop_assert!(inside(at, &region_low, &region_high));
+            prop_assert_eq!(owner, bisection.owner(*at, *id));
+            let (low, high) = region(&bisection, owner as usize);
+            prop_assert!((0..3).all(|k| low[k] <= at[k] && at[k] <= high[k]));
         }
-        // A rank is met exactly if its region, its surface included, has a point in common with the box.
-        let meets = |rank: &u32| {
-            let (region_low, region_high) = bisection.region(*rank as usize);
-            (0..3).all(|axis| region_low[axis] <= high[axis] && low[axis] <= region_high[axis])
-        };
-        prop_assert_eq!(meeting, (0..size as u32).filter(meets).collect::<Vec<_>>());
     }
 
     #[test]
@@ -174,11 +179,8 @@ proptest! {
             .collect();
         let (bisection, owners, _) = balanced(&points, size, |i| i, Axes::Widest, None);
         prop_assert!(evenly_shared(&owners, size));
-        let mut meeting = Vec::new();
-        for at in points.iter().map(|point| point.0).chain([[f64::from_bits(at); 3]]) {
-            bisection.ranks_meeting(at, at, &mut meeting);
-            prop_assert!(meeting.contains(&bisection.owner(at, 7)));
-        }
+        prop_assert!(owners.iter().all(|(id, rank)| bisection.owner(points[*id as usize].0, *id) == *rank));
+        prop_assert!((bisection.owner([f64::from_bits(at); 3], 7) as usize) < size);
     }
 }
 
@@ -212,11 +214,11 @@ fn slices_have_cuts_along_one_axis() {
     let (slices, owners, _) = balanced(&points, 8, |i| i, Axes::One, None);
     assert!(owners.iter().all(|(id, rank)| *rank == id / 250));
     for rank in 0..8 {
-        let (low, high) = slices.region(rank);
+        let (low, high) = region(&slices, rank);
         assert!([0, 2].iter().all(|axis| low[*axis] == f64::NEG_INFINITY && high[*axis] == f64::INFINITY));
     }
     let (compact, ..) = balanced(&points, 64, |i| i, Axes::Widest, None);
-    assert!((0..64).any(|rank| compact.region(rank).0[0].is_finite()));
+    assert!((0..64).any(|rank| region(&compact, rank).0[0].is_finite()));
 }
 
 /// Trials put the point of a cut into a bin of its own within a few rounds. While points keep their order the cuts are
@@ -274,33 +276,6 @@ fn crowded_coordinates_end_within_the_bound() {
     let (_, owners, calls) = balanced(&points, 32, |i| i, Axes::Widest, None);
     assert!(evenly_shared(&owners, 32));
     assert!(calls <= 1 + 5 * 50, "{calls}");
-}
-
-#[test]
-fn boxes_meet_where_they_touch() {
-    let regions = run_threads(4, |comm| {
-        let x = comm.rank() as f64;
-        let (low, high) = match comm.rank() {
-            2 => ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]),
-            3 => ([x, f64::NAN, 0.0], [x + 1.0, 0.0, f64::NAN]),
-            _ => ([x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]),
-        };
-        Ok::<_, ()>(Regions::Boxes(Boxes::gather(low, high, comm)))
-    });
-    let regions = regions.unwrap_or_else(|_| panic!("a rank failed"));
-    assert!(regions.iter().all(|other| *other == regions[0]) && regions[0].size() == 4);
-    let meeting = |low, high| {
-        let mut out = vec![9];
-        regions[0].ranks_meeting(low, high, &mut out);
-        out
-    };
-    assert_eq!(meeting([0.5; 3], [0.6; 3]), [0]);
-    assert_eq!(meeting([1.0; 3], [1.0; 3]), [0, 1]);
-    assert_eq!(meeting([-9.0; 3], [9.0; 3]), [0, 1, 3]);
-    assert_eq!(meeting([3.5, -1e9, 1e9], [3.5, -1e9, 1e9]), [3]);
-    assert_eq!(meeting([f64::NAN, 0.0, 0.0], [f64::NAN, 0.0, 0.0]), [0, 1, 3]);
-    assert_eq!(meeting([0.5; 3], [0.4; 3]), [0u32; 0]);
-    assert_eq!(regions[0].region(1), ([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
 }
 
 /// Points travel to their owners, and each rank then holds just its share.

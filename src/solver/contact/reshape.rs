@@ -137,7 +137,7 @@ impl Contact {
         let rank = comm.rank() as u32;
         let mut parcels = Parcels::new(&*comm, 6);
         for (edge, number) in self.layout.edges.iter().zip(0u32..) {
-            let holders = remote.holders(edge.ends[0]);
+            let holders = remote.node_ranks.holders(edge.ends[0]);
             let [first, second] = edge.faces.map(|face| sides[face as usize]);
             if holders.len() < 2 || first.is_some() {
                 continue;

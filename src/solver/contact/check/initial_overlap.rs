@@ -159,7 +159,7 @@ fn stand_still(motion: &mut NodeMotion, body: &Body, layout: &Layout) {
     motion.begin([0.0; 2]);
     for (point, &node) in (0..).zip(&layout.nodes) {
         let [x, y, z] = body.positions[node as usize];
-        motion.hear(point, [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        motion.receive(point, [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     }
 }
 

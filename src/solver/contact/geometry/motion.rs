@@ -55,9 +55,9 @@ impl PointMotion {
     }
 }
 
-/// Position of a point at the present state, and its velocities over the coming step as it would be without contact, and over the step
-/// before: what a message says of it.
-pub type Motion = [f64; 9];
+/// What a message says of a point: its position at the present state, and its velocities over the coming step as it would be without
+/// contact and over the step before.
+pub type MotionMessage = [f64; 9];
 
 /// Motion of points, by their numbers.
 #[derive(Debug, Clone, Default)]
@@ -68,7 +68,7 @@ pub struct NodeMotion {
     /// For each point its node on this rank, or its place among those apart, with the bit [`APART`].
     places: Vec<u32>,
     /// What was said of those apart.
-    apart: Vec<Motion>,
+    apart: Vec<MotionMessage>,
     /// Motions that have been found in the step, and boxes around their paths, seen from the origin.
     motions: Vec<PointMotion>,
     swept_boxes: Vec<SweptBox>,
@@ -124,7 +124,7 @@ impl NodeMotion {
     pub fn new(count: usize, origin: [f64; 3]) -> NodeMotion {
         NodeMotion {
             places: (0..count as u32).map(|place| APART | place).collect(),
-            apart: vec![Motion::default(); count],
+            apart: vec![MotionMessage::default(); count],
             ..NodeMotion::of_nodes(std::iter::repeat_n(0, count), origin)
         }
     }
@@ -155,7 +155,7 @@ impl NodeMotion {
             })
         };
         let motion = NodeMotion::of_nodes(nodes.map(place), origin);
-        NodeMotion { apart: vec![Motion::default(); apart as usize], ..motion }
+        NodeMotion { apart: vec![MotionMessage::default(); apart as usize], ..motion }
     }
 
     /// Near which they are; see [`NodeMotion::new`].
@@ -207,17 +207,17 @@ impl NodeMotion {
         (nodes.rows, nodes.forces) = (std::mem::take(&mut self.rows), std::mem::take(&mut self.forces));
     }
 
-    /// Hears where a point is that is apart, and how it moves.
+    /// Takes in a message about a point that is apart.
     #[inline]
-    pub fn hear(&mut self, point: u32, motion: Motion) {
+    pub fn receive(&mut self, point: u32, message: MotionMessage) {
         if let Some(own) = self.apart.get_mut((self.places[point as usize] & !APART) as usize) {
-            *own = motion;
+            *own = message;
         }
     }
 
-    /// What others are told of a point that is a node of this rank.
+    /// The message to other ranks about a point that is a node of this one.
     #[inline]
-    pub fn tell(&self, point: u32) -> Motion {
+    pub fn message(&self, point: u32) -> MotionMessage {
         let PointMotion { start: [x, y, z, _], velocity: [u, v, w, _] } = self.of(point, |motion| *motion);
         let [p, q, r] = self.velocity_before(point);
         [x, y, z, u, v, w, p, q, r]
@@ -245,7 +245,7 @@ impl NodeMotion {
         while i < N {
             if self.motions[points[i] as usize].start[3] != self.mark {
                 self.found += 1;
-                self.keep(points[i] as usize, self.of_node(points[i]));
+                self.keep(points[i] as usize, self.find(points[i]));
             }
             i += 1;
         }
@@ -311,13 +311,13 @@ impl NodeMotion {
 
     /// The same out of line: what is asked for that has not been placed is seldom.
     #[inline(never)]
-    fn look_up(&self, point: u32) -> PointMotion {
-        self.of_node(point)
+    fn found_now(&self, point: u32) -> PointMotion {
+        self.find(point)
     }
 
     /// The motion of a point that has not been placed.
     #[inline(always)]
-    fn of_node(&self, point: u32) -> PointMotion {
+    fn find(&self, point: u32) -> PointMotion {
         let place = self.places[point as usize];
         match (self.rows.get(place as usize), self.forces.get(place as usize)) {
             (Some(row), Some(force)) => PointMotion::of_node(row, force, self.kick, self.mark),
@@ -336,7 +336,7 @@ impl NodeMotion {
         let motion = if own.start[3] == self.mark {
             own
         } else {
-            found = self.look_up(point);
+            found = self.found_now(point);
             &found
         };
         of(motion)

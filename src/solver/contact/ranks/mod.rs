@@ -2,6 +2,7 @@
 
 pub mod communication_plan;
 pub mod iteration_messages;
+pub mod node_ranks;
 pub mod owner_ranks;
 pub mod regional;
 pub mod remote;

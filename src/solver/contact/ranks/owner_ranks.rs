@@ -5,6 +5,7 @@
 //! which all wait in every search. Each kind is shared out by itself instead. A kind that the decomposition of the elements shares
 //! out well enough stays with the owners of its nodes, where nobody need send its motion.
 
+use super::node_ranks::NodeRanks;
 use crate::comm::Communicator;
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels};
@@ -25,14 +26,6 @@ pub struct OwnerRanks {
     cuts: [Option<Bisection>; 2],
 }
 
-/// Who has the nodes of the points.
-pub struct NodeRanks<'a> {
-    /// The rank that owns the node of each point.
-    pub owner: &'a [u32],
-    /// Gives the ranks of which a point is a node.
-    pub holders: &'a dyn Fn(u32) -> &'a [u32],
-}
-
 impl OwnerRanks {
     /// By a method of the deck.
     pub fn new(method: ContactDecomposition) -> OwnerRanks {
@@ -44,18 +37,18 @@ impl OwnerRanks {
     pub fn find(
         &mut self,
         contact_nodes: &ContactNodes,
-        ranks: NodeRanks,
+        ranks: &NodeRanks,
         costs: &[(u32, u32)],
         comm: &mut dyn Communicator,
     ) -> Vec<u32> {
         let list = &contact_nodes.list;
-        let mut owners: Vec<u32> = list.iter().map(|contact_node| ranks.owner[contact_node.point as usize]).collect();
+        let mut owners: Vec<u32> = list.iter().map(|contact_node| ranks.owner(contact_node.point)).collect();
         let axes = match self.method {
             ContactDecomposition::Bisection => Axes::Widest,
             ContactDecomposition::Slices => Axes::One,
             ContactDecomposition::Static => return owners,
         };
-        let busy = weights(contact_nodes, &ranks, costs, comm);
+        let busy = weights(contact_nodes, ranks, costs, comm);
         let others = busy.iter().map(|&weight| u32::from(weight == 0)).collect();
         let weights = [busy, others];
         let even = are_even(contact_nodes, &weights, comm);
@@ -116,7 +109,7 @@ fn weights(
 ) -> Vec<u32> {
     let mut parcels = Parcels::new(&*comm, 1);
     for &(point, cost) in costs {
-        (ranks.holders)(point).iter().for_each(|&holder| parcels.add(holder, point, &[f64::from(cost)]));
+        ranks.holders(point).iter().for_each(|&holder| parcels.add(holder, point, &[f64::from(cost)]));
     }
     let mut weights = vec![0; contact_nodes.list.len()];
     for (point, [cost]) in parcels.exchange(comm).rows() {
@@ -125,4 +118,51 @@ fn weights(
         }
     }
     weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::comm::run_threads;
+    use crate::solver::contact::geometry::motion::NodeMotion;
+
+    const POINTS: u32 = 100;
+
+    /// A hundred points in a row, on two ranks of which each owns the nodes of one half. Of those that `is_busy` names the owner of the
+    /// node, and once more the other rank, says that they have cost two.
+    fn shared_out(method: ContactDecomposition, is_busy: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+        let results = run_threads(2, |comm| {
+            let rank = comm.rank() as u32;
+            let mut motion = NodeMotion::new(POINTS as usize, [0.0; 3]);
+            (0..POINTS).for_each(|point| motion.receive(point, [point.into(), 0., 0., 0., 0., 0., 0., 0., 0.]));
+            let mut contact_nodes = ContactNodes::still(&motion);
+            contact_nodes.list.iter_mut().for_each(|of| of.owned = of.point / (POINTS / 2) == rank);
+            let node_ranks = NodeRanks::gather(POINTS as usize, &contact_nodes, comm);
+            let costs: Vec<(u32, u32)> = (0..POINTS).filter(|&point| is_busy(point)).map(|point| (point, 2)).collect();
+            Ok::<_, ()>(OwnerRanks::new(method).find(&contact_nodes, &node_ranks, &costs, comm))
+        });
+        let results = results.unwrap_or_else(|_| panic!("a rank failed"));
+        assert_eq!(results[0], results[1]);
+        results[0].clone()
+    }
+
+    fn on_second(owners: &[u32], points: std::ops::Range<usize>) -> usize {
+        owners[points].iter().filter(|&&owner| owner == 1).count()
+    }
+
+    /// What is busy in the half of one rank goes to both alike, and so does all else, of which that rank has little.
+    #[test]
+    fn each_kind_is_shared_out_by_itself() {
+        let owners = shared_out(ContactDecomposition::Bisection, |point| point < 40);
+        assert_eq!((on_second(&owners, 0..40), on_second(&owners, 40..100)), (20, 30));
+        // A kind that is nearly even stays: of what is busy 12 and 10, of all else 38 and 40.
+        let owners = shared_out(ContactDecomposition::Bisection, |point| (38..60).contains(&point));
+        assert!((0..POINTS).zip(&owners).all(|(point, &owner)| owner == point / 50));
+    }
+
+    #[test]
+    fn owner_ranks_are_those_of_nodes_if_the_deck_says_so() {
+        let owners = shared_out(ContactDecomposition::Static, |point| point < 40);
+        assert!((0..POINTS).zip(&owners).all(|(point, &owner)| owner == point / 50));
+    }
 }

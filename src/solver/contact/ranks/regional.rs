@@ -23,8 +23,8 @@ pub struct Regional {
 
 impl Regional {
     /// Sends points to their owner ranks, faces to every rank whose points they may meet, and edges to every rank that has the first
-    /// ends of edges that stand out and which they may cross. `faces` and `edges`
-    /// are those of elements that are here. All ranks call it.
+    /// ends of edges that stand out and which they may cross. `faces` and `edges` are those of elements that are here. All ranks
+    /// call it.
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),
         layout: &Layout,
@@ -45,27 +45,18 @@ impl Regional {
         let cells: Vec<Box3> = occupied.iter().flat_map(Occupancy::boxes).collect();
         let cells = Occupancy::of(&cells, neighbourhood::CELLS);
         let edges = neighbourhood::edges_near(here, &cells, layout, contact_nodes);
-        let mut parcels = Parcels::new(&*comm, 8);
-        for (&edge, of) in edges.ids.iter().zip(&edges.boxes) {
-            let ([a, b, c, d, e, f], [g, h]) = (flat(of), layout.edges[edge as usize].ends.map(owner_rank));
-            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(of));
-            meeting.for_each(|(rank, _)| parcels.add(rank, edge, &[a, b, c, d, e, f, g, h]));
-        }
-        let (edges, edge_owners) = sorted(parcels.exchange(comm));
+        let ends = |edge: u32| layout.edges[edge as usize].ends.map(owner_rank);
+        let (edges, edge_owners) = sent_near(edges.ids.into_iter().zip(edges.boxes), ends, &occupied, comm);
         let occupied = occupied_by_all(&points.boxes, comm);
-        let mut parcels = Parcels::new(&*comm, 10);
-        for &face in faces {
-            let of = neighbourhood::face_box(face, layout, contact_nodes);
-            let ([a, b, c, d, e, f], [g, h, i, j]) = (flat(&of), layout.faces.corners[face as usize].map(owner_rank));
-            let meeting = (0..).zip(&occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
-            meeting.for_each(|(rank, _)| parcels.add(rank, face, &[a, b, c, d, e, f, g, h, i, j]));
-        }
-        let (faces, face_owners) = sorted(parcels.exchange(comm));
+        let corners = |face: u32| layout.faces.corners[face as usize].map(owner_rank);
+        let faces = faces.iter().map(|&face| (face, neighbourhood::face_box(face, layout, contact_nodes)));
+        let (faces, face_owners) = sent_near(faces, corners, &occupied, comm);
         Regional { points, faces, edges, own_edges, face_owners, edge_owners }
     }
 }
 
-/// Cells along each axis of the space in which a rank has points, or edges that stand out: 64 bytes that every other rank learns.
+/// Cells along each axis of the space in which a rank has points, or edges that stand out: every other rank learns
+/// the 64 bytes of it, and the 48 of the box around.
 const CELLS: usize = 8;
 
 /// What boxes occupy on each rank. All ranks call it.
@@ -73,6 +64,26 @@ fn occupied_by_all(own: &[Box3], comm: &mut dyn Communicator) -> Vec<Occupancy> 
     let own = Occupancy::of(own, CELLS).to_bytes();
     let length = own.len();
     gather_for_all(own, comm).chunks_exact(length).map(|bytes| Occupancy::from_bytes(bytes, CELLS)).collect()
+}
+
+/// Sends each box, with the owner ranks of its corners or ends, to all ranks that occupy space near it; what has come instead. All ranks
+/// call it.
+fn sent_near<const OWNERS: usize>(
+    boxes: impl Iterator<Item = (u32, Box3)>,
+    owners: impl Fn(u32) -> [f64; OWNERS],
+    occupied: &[Occupancy],
+    comm: &mut dyn Communicator,
+) -> (Boxes, Vec<[u32; OWNERS]>) {
+    let mut parcels = Parcels::new(&*comm, 6 + OWNERS);
+    let mut record = Vec::with_capacity(6 + OWNERS);
+    for (id, of) in boxes {
+        record.clear();
+        record.extend_from_slice(&flat(&of));
+        record.extend_from_slice(&owners(id));
+        let near = (0..).zip(occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
+        near.for_each(|(rank, _)| parcels.add(rank, id, &record));
+    }
+    sorted(parcels.exchange(comm))
 }
 
 /// Sends each box to its rank; what has come instead. All ranks call it.

@@ -11,11 +11,12 @@
 
 use super::communication_plan::{CommunicationPlan, numbering};
 use super::iteration_messages::{IterationExchange, IterationMessages};
-use super::owner_ranks::{NodeRanks, OwnerRanks};
+use super::node_ranks::NodeRanks;
+use super::owner_ranks::OwnerRanks;
 use super::regional::Regional;
 use super::routing::route;
 use super::traffic::{Lists, MessagePattern};
-use crate::comm::{Communicator, numbers_of_others};
+use crate::comm::Communicator;
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
@@ -32,16 +33,13 @@ const AT_REST: [f64; FORCES] = [-0.0; FORCES];
 
 /// What one rank knows of the others.
 pub struct Remote {
-    /// Rank that owns the mesh's node of each point.
-    node_owner: Vec<u32>,
-    /// Ranks of which a point is a node: `holders[first[p]..first[p + 1]]`.
-    first: Vec<u32>,
-    holders: Vec<u32>,
+    /// Who has the nodes of the points.
+    pub node_ranks: NodeRanks,
     /// Faces and edges of elements that are here.
     faces: Vec<u32>,
     edges: Vec<u32>,
     /// How points are shared out.
-    decomposition: OwnerRanks,
+    owner_ranks: OwnerRanks,
     motion: MessagePattern,
     /// Messages of the results to other ranks.
     results: MessagePattern,
@@ -58,44 +56,17 @@ impl Remote {
         is_here: impl Fn(u32) -> bool,
         comm: &mut dyn Communicator,
     ) -> Remote {
-        let count = layout.nodes.len();
-        let own: Vec<u32> = contact_nodes
-            .list
-            .iter()
-            .map(|contact_node| 2 * contact_node.point + u32::from(contact_node.owned))
-            .collect();
-        let mut all = numbers_of_others(&own, comm);
-        all.push((comm.rank(), own));
-        let mut owner = vec![0; count];
-        let mut holding: Vec<(u32, u32)> = Vec::new();
-        for (rank, numbers) in all {
-            for number in numbers {
-                holding.push((number / 2, rank as u32));
-                if number % 2 == 1 {
-                    owner[number as usize / 2] = rank as u32;
-                }
-            }
-        }
-        holding.sort_unstable();
-        let first = (0..=count as u32).map(|point| holding.partition_point(|&(other, _)| other < point) as u32);
         let here = |face: &u32| is_here(layout.faces.number[*face as usize]);
         Remote {
-            first: first.collect(),
-            holders: holding.into_iter().map(|(_, rank)| rank).collect(),
-            node_owner: owner,
+            node_ranks: NodeRanks::gather(layout.nodes.len(), contact_nodes, comm),
             faces: (0..layout.faces.len() as u32).filter(here).collect(),
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
-            decomposition: OwnerRanks::new(method),
+            owner_ranks: OwnerRanks::new(method),
             motion: MessagePattern::default(),
             results: MessagePattern::default(),
             own: Vec::new(),
             iteration_messages: IterationMessages::default(),
         }
-    }
-
-    /// Ranks of which a point is a node.
-    pub fn holders(&self, point: u32) -> &[u32] {
-        &self.holders[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
     }
 
     /// Brings the motion of a step to the owner ranks. What is a node here stays where it is.
@@ -106,9 +77,9 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) {
         let (from, to) = (&mut contact_nodes.motion, &mut problem.motion);
-        self.motion.send(|contact_node| from.tell(contact_node), comm);
+        self.motion.send(|contact_node| from.message(contact_node), comm);
         to.borrow_from(from);
-        self.motion.receive(|point, motion| to.hear(point, motion), comm);
+        self.motion.receive(|point, message| to.receive(point, message), comm);
     }
 
     /// Contact nodes whose motion goes to other ranks.
@@ -182,10 +153,7 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) -> LocalProblem {
         let (layout, plane_nodes, depth) = extent;
-        let Remote { decomposition, node_owner, first, holders, .. } = self;
-        let holders = |point: u32| &holders[first[point as usize] as usize..first[point as usize + 1] as usize];
-        let node_ranks = NodeRanks { owner: node_owner, holders: &holders };
-        contact_nodes.owner_ranks = decomposition.find(contact_nodes, node_ranks, &history.costs, comm);
+        contact_nodes.owner_ranks = self.owner_ranks.find(contact_nodes, &self.node_ranks, &history.costs, comm);
         let history = self.forward(layout, contact_nodes, plane_nodes, history, comm);
         let regional = Regional::gather((&self.faces, &self.edges), layout, contact_nodes, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];
@@ -195,7 +163,7 @@ impl Remote {
         let plane_nodes: Vec<PlaneNode> = plane_nodes.iter().filter(is_own).copied().collect();
         let numbering = numbering(layout, &found, &plan, &plane_nodes);
         let node = |&point: &u32| {
-            let own = self.node_owner[point as usize] == comm.rank() as u32;
+            let own = self.node_ranks.owner(point) == comm.rank() as u32;
             contact_nodes.of(point).filter(|_| own).map(|contact_node| contact_nodes.list[contact_node].node)
         };
         let motion = NodeMotion::of_some(numbering.points.iter().map(node), layout.origin);
@@ -216,7 +184,7 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) -> History {
         let at = |point: u32| layout.edges.get(point as usize).map_or(0, |edge| edge.ends[0]);
-        let first = route(history, |point| self.node_owner[point as usize], at, plane_nodes, comm);
+        let first = route(history, |point| self.node_ranks.owner(point), at, plane_nodes, comm);
         let owner_rank =
             |point: u32| contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]);
         route(first, owner_rank, at, plane_nodes, comm)
@@ -259,7 +227,7 @@ impl Remote {
         let mut parcels = Parcels::new(&*comm, 0);
         let mut send = Lists::new();
         for &point in loaded {
-            for &holder in self.holders(point).iter().filter(|&&holder| holder != rank) {
+            for &holder in self.node_ranks.holders(point).iter().filter(|&&holder| holder != rank) {
                 parcels.add(holder, point, &[]);
                 send.entry(holder as usize).or_default().push(problem.place(point));
             }
@@ -288,7 +256,7 @@ impl Remote {
         let mut parcels = Parcels::new(&*comm, 0);
         let mut receive = Lists::new();
         for (place, &point) in problem.numbering.points.iter().enumerate() {
-            let owner = self.node_owner[point as usize];
+            let owner = self.node_ranks.owner(point);
             parcels.add(owner, point, &[]);
             receive.entry(owner as usize).or_default().push(place as u32);
         }

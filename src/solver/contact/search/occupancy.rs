@@ -89,23 +89,30 @@ impl Occupancy {
         of.overlaps(&self.around) && self.any(self.cells_of(of))
     }
 
-    /// Boxes of the cells that are occupied.
+    /// Boxes of the cells that are occupied, which hold all that occupies them.
     pub fn boxes(&self) -> impl Iterator<Item = Box3> + '_ {
-        let side = |axis: usize| (self.around.high[axis] - self.around.low[axis]) / self.cells as f64;
-        let (low, sides) = (self.around.low, [0, 1, 2].map(side));
+        let Box3 { low, high } = self.around;
+        let sides = [0, 1, 2].map(|axis| (high[axis] - low[axis]) / self.cells as f64);
+        // A little larger than rounding makes a cell smaller, in how it is told and in where its corners come to be.
+        let rounding = |axis: usize| 1e-9 * sides[axis] + 8.0 * f64::EPSILON * (low[axis].abs() + high[axis].abs());
+        let margin = [0, 1, 2].map(rounding).into_iter().fold(0.0, f64::max);
         let all = (0..self.cells * MOST * self.cells).filter(|&cell| self.rows[cell / MOST] >> (cell % MOST) & 1 == 1);
         all.map(move |cell| {
             let at = [cell % MOST, cell / MOST % self.cells, cell / MOST / self.cells];
-            let corner = |ahead: usize| [0, 1, 2].map(|axis| low[axis] + (at[axis] + ahead) as f64 * sides[axis]);
-            // A little larger than rounding makes a cell smaller.
-            Box3 { low: corner(0), high: corner(1) }.grown(1e-9 * sides.iter().sum::<f64>())
+            let corner = |axis: usize, ahead: usize| low[axis] + (at[axis] + ahead) as f64 * sides[axis];
+            // Along an axis that is not divided, what there is lies anywhere.
+            let divided = |axis: usize| self.inverse[axis] > 0.0;
+            let first = |axis: usize| if divided(axis) { corner(axis, 0) } else { low[axis] };
+            let last = |axis: usize| if divided(axis) { corner(axis, 1) } else { high[axis] };
+            Box3 { low: [0, 1, 2].map(first), high: [0, 1, 2].map(last) }.grown(margin)
         })
     }
 
     /// As bytes, of which there are as many for any boxes.
     pub fn to_bytes(&self) -> Vec<u8> {
         let sides = self.around.low.iter().chain(&self.around.high).flat_map(|side| side.to_le_bytes());
-        sides.chain(self.rows.iter().flat_map(|row| row.to_le_bytes()[..self.cells.div_ceil(8)].to_vec())).collect()
+        let length = self.cells.div_ceil(8);
+        sides.chain(self.rows.iter().flat_map(|row| row.to_le_bytes().into_iter().take(length))).collect()
     }
 
     /// From these bytes, with as many cells along each axis.
@@ -126,17 +133,27 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn boxes() -> impl Strategy<Value = Vec<Box3>> {
+    /// Boxes within a few lengths of a place, the origin or far from it.
+    fn boxes(place: f64) -> impl Strategy<Value = Vec<Box3>> {
         let size = prop_oneof![8 => 0.0..0.2f64, 1 => 0.0..10.0f64, 1 => Just(0.0)];
         let one = (prop::array::uniform3(-3.0..3.0f64), prop::array::uniform3(size));
-        let one = one.prop_map(|(low, size)| Box3 { low, high: [0, 1, 2].map(|axis| low[axis] + size[axis]) });
+        let one = one.prop_map(move |(low, size)| {
+            let low = low.map(|x| place + x);
+            Box3 { low, high: [0, 1, 2].map(|axis| low[axis] + size[axis]) }
+        });
         prop::collection::vec(one, 0..12)
+    }
+
+    /// Boxes that may overlap, at the same place; at the farthest a coordinate is told to within a quarter of a length.
+    fn two() -> impl Strategy<Value = (Vec<Box3>, Vec<Box3>)> {
+        let place = prop_oneof![3 => Just(0.0), 1 => Just(1e9), 1 => Just(-1e12), 1 => Just(1e15)];
+        place.prop_flat_map(|place| (boxes(place), boxes(place)))
     }
 
     proptest! {
         /// What overlaps is never missed, before and after it has been sent.
         #[test]
-        fn what_overlaps_may_meet(occupied in boxes(), others in boxes(), cells in 1usize..=64) {
+        fn what_overlaps_may_meet((occupied, others) in two(), cells in 1usize..=64) {
             let occupancy = Occupancy::of(&occupied, cells);
             let sent = Occupancy::from_bytes(&occupancy.to_bytes(), cells);
             prop_assert_eq!(&sent, &occupancy);
