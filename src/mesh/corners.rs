@@ -1,28 +1,39 @@
 //! Corners of hexahedra that have turned inside out.
 
 use super::check::hexahedron_volume;
+use crate::lanes::array;
 
 /// For each corner its neighbours along the three edges, in the order in which they turn to the right.
 pub const NEIGHBOURS: [[usize; 3]; 8] =
     [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
 
+/// The Jacobian of a hexahedron at one of its corners, the triple product of the edges there.
+#[inline(always)]
+fn jacobian(corners: &[[f64; 3]; 8], corner: usize) -> f64 {
+    let edge = |neighbour: usize| {
+        let (to, from) = (corners[neighbour], corners[corner]);
+        [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
+    };
+    let [a, b, c] = NEIGHBOURS[corner];
+    let (a, b, c) = (edge(a), edge(b), edge(c));
+    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+/// Whether no corner of a hexahedron is flat or inside out. Corners that coincide, as in wedges and pyramids, are flat: what is meant
+/// by them only [`least_corner`] knows, which takes many times as long.
+#[inline]
+pub fn all_corners_are_sound(corners: &[[f64; 3]; 8]) -> bool {
+    // Corner by corner at compile time: a loop looks each neighbour up.
+    let is_sound = array![i in 8 => jacobian(corners, i) > 0.0];
+    is_sound.iter().fold(true, |all, sound| all & sound)
+}
+
 /// The least Jacobian of a hexahedron's corners over its mean one: 1 in a parallelepiped, 0 or less where a corner is
 /// flat or inside out. In wedges and pyramids, whose corners coincide in part, of the corners that have three edges.
 pub fn least_corner(nodes: &[u32; 8], corners: &[[f64; 3]; 8]) -> f64 {
-    let mut least = f64::INFINITY;
-    for (corner, neighbours) in NEIGHBOURS.iter().enumerate() {
-        if neighbours.iter().any(|&neighbour| nodes[neighbour] == nodes[corner]) {
-            continue;
-        }
-        let [a, b, c] = neighbours.map(|neighbour| {
-            let (to, from) = (corners[neighbour], corners[corner]);
-            [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
-        });
-        let jacobian = a[0] * (b[1] * c[2] - b[2] * c[1])
-            + a[1] * (b[2] * c[0] - b[0] * c[2])
-            + a[2] * (b[0] * c[1] - b[1] * c[0]);
-        least = least.min(jacobian);
-    }
+    let has_three_edges = |corner: usize| NEIGHBOURS[corner].iter().all(|&other| nodes[other] != nodes[corner]);
+    let jacobians = (0..8).filter(|&corner| has_three_edges(corner)).map(|corner| jacobian(corners, corner));
+    let least = jacobians.fold(f64::INFINITY, f64::min);
     let volume = hexahedron_volume(corners).abs();
     // Where no corner has three edges, or nothing has a volume, nothing is said.
     if least.is_finite() && volume > 0.0 { least / volume } else { 1.0 }
@@ -53,6 +64,7 @@ mod tests {
             };
             let (sound, turned) = (pushed(0.3), pushed(0.4));
             assert!(hexahedron_volume(&turned) > 0.5);
+            assert!(all_corners_are_sound(&sound) && !all_corners_are_sound(&turned));
             let measured = [sound, turned].map(|cube| least_corner(&NODES, &cube) * hexahedron_volume(&cube));
             assert!((measured[0] - 0.1).abs() < 1e-14, "corner {corner}: {measured:?}");
             assert!((measured[1] + 0.2).abs() < 1e-14, "corner {corner}: {measured:?}");
@@ -64,5 +76,6 @@ mod tests {
         let (mut wedge, mut nodes) = (UNIT_CUBE, NODES);
         (wedge[3], wedge[7], nodes[3], nodes[7]) = (wedge[2], wedge[6], 2, 6);
         assert!(least_corner(&nodes, &wedge) > 1.0);
+        assert!(!all_corners_are_sound(&wedge), "coinciding corners are flat");
     }
 }

@@ -249,8 +249,13 @@ impl Group {
     }
 
     /// Positions of the nodes of the `i`-th element, which has as many.
+    #[inline]
     pub fn positions<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
-        std::array::from_fn(|corner| nodes.position(self.node(i, corner)))
+        let mut positions = [[0.0; 3]; N];
+        for (position, numbers) in positions.iter_mut().zip(&self.connectivity[i / CHUNK * self.unknowns..]) {
+            *position = nodes.position(numbers[i % CHUNK]);
+        }
+        positions
     }
 
     /// Velocities of the nodes of the `i`-th element, which has as many.

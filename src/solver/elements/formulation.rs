@@ -200,6 +200,11 @@ pub trait Formulation: Sized {
         1.0
     }
 
+    /// Whether that is positive for sure, told at a part of the price; where this says no, [`Formulation::least_corner`] knows.
+    fn corners_are_sound(&self, group: &Group, i: usize, nodes: &Nodes) -> bool {
+        self.least_corner(group, i, nodes) > 0.0
+    }
+
     /// Work that the last forces of the `i`-th element have done since the last state. They acted for half of the step that
     /// led here, and no new forces come to be averaged with them when the element goes.
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64;

@@ -151,6 +151,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.least_corner(group, i, nodes),)+ }
             }
 
+            /// See [`Formulation::corners_are_sound`].
+            pub fn corners_are_sound(&self, group: &Group, i: usize, nodes: &Nodes) -> bool {
+                match self { $(Element::$element(own) => own.corners_are_sound(group, i, nodes),)+ }
+            }
+
             /// See [`Formulation::last_half_step`].
             pub fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
                 match self { $(Element::$element(own) => own.last_half_step(group, i, nodes, time_step),)+ }

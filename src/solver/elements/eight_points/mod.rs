@@ -19,7 +19,7 @@ use super::{
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
-use crate::mesh::corners::least_corner;
+use crate::mesh::corners::{all_corners_are_sound, least_corner};
 use crate::mesh::{Block, Shape};
 use crate::model::{Model, StepModuli};
 use crate::solver::nodes::Nodes;
@@ -224,6 +224,10 @@ impl Formulation for EightPoints {
 
     fn least_corner(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
         group.all_nodes(i).map_or(1.0, |own| least_corner(&own, &group.positions(i, nodes)))
+    }
+
+    fn corners_are_sound(&self, group: &Group, i: usize, nodes: &Nodes) -> bool {
+        all_corners_are_sound(&group.positions(i, nodes))
     }
 
     /// Of the mean stress and bulk viscosity; what stresses vary between the points is left out.

@@ -20,7 +20,7 @@ use super::{
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
-use crate::mesh::corners::least_corner;
+use crate::mesh::corners::{all_corners_are_sound, least_corner};
 use crate::mesh::hexahedron::{least_share, mass_shares};
 use crate::mesh::{Block, Shape};
 use crate::model::{Hourglass, Model, Precision, Spin, StepModuli};
@@ -210,6 +210,10 @@ impl Formulation for Hexahedron {
 
     fn least_corner(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
         group.all_nodes(i).map_or(1.0, |own| least_corner(&own, &group.positions(i, nodes)))
+    }
+
+    fn corners_are_sound(&self, group: &Group, i: usize, nodes: &Nodes) -> bool {
+        all_corners_are_sound(&group.positions(i, nodes))
     }
 
     /// Of stress and bulk viscosity; hourglass forces are left out.

@@ -38,6 +38,9 @@ pub const SYMPTOM: Symptom = Symptom {
 
 /// The least corner of an element that has a positive volume, where that is inside out.
 fn turned(block: &ElementBlock, group: &Group, i: usize, nodes: &Nodes) -> Option<f64> {
+    if block.element.corners_are_sound(group, i, nodes) {
+        return None;
+    }
     let least = block.element.least_corner(group, i, nodes);
     (least <= 0.0 && block.element.volume(group, i, nodes) > 0.0).then_some(least)
 }
