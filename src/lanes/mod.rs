@@ -216,6 +216,11 @@ pub trait Lanes:
     fn max(self, other: Self) -> Self {
         Self::select_less(other, self, self, other)
     }
+    /// Without its sign.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.max(-self)
+    }
     /// `yes` where `a < b`, else `no` (also where one is NaN).
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;
     /// Whether `a < b` in any lane. Only to leave out work whose result no lane would take.

@@ -108,6 +108,10 @@ impl Lanes for F32x8 {
         F32x8(unsafe { _mm256_max_ps(self.0, other.0) })
     }
     #[inline(always)]
+    fn abs(self) -> Self {
+        F32x8(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
+    }
+    #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         F32x8(unsafe { _mm256_blendv_ps(no.0, yes.0, _mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0)) })
     }

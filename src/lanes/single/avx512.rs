@@ -118,6 +118,10 @@ impl Lanes for F32x16 {
         F32x16(unsafe { _mm512_max_ps(self.0, other.0) })
     }
     #[inline(always)]
+    fn abs(self) -> Self {
+        F32x16(unsafe { _mm512_abs_ps(self.0) })
+    }
+    #[inline(always)]
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {
         F32x16(unsafe { _mm512_mask_blend_ps(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(a.0, b.0), no.0, yes.0) })
     }

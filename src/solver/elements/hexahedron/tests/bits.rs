@@ -1,5 +1,6 @@
 //! How elements fall into chunks changes no bit.
 
+use super::super::kernel::Settings;
 use super::*;
 
 /// The lanes that fill up a chunk neither count as elements nor disturb those that do: nineteen elements at once, or
@@ -28,4 +29,19 @@ fn together_or_alone(precision: Precision, elements: &[Corners], cells: &[[u32; 
         }
     }
     assert_eq!(found, smallest);
+}
+
+/// Motion below 2⁻⁵⁰ of the speed of sound loads nothing in single precision; what is a little faster does, and in double all.
+#[test]
+fn single_precision_takes_the_slowest_motion_for_none() {
+    let forces = |precision: Precision, speed: f64| {
+        let mut rig = Rig::of(precision, &CUBE, &[[0, 1, 2, 3, 4, 5, 6, 7]], elastic(0.3), ASSUMED);
+        rig.step(1e-3, |n| CUBE[n].map(|x| speed * (1.0 - x)));
+        (0..8).map(|n| rig.force(n)).any(|force| force.iter().any(|&f| f != 0.0))
+    };
+    let moduli = elastic(0.3).moduli();
+    let least = Settings::least_rate_of(moduli.dilatational(), DENSITY);
+    // A mode is the sum of the differences along four edges.
+    assert!(!forces(Precision::Single, 0.24 * least) && forces(Precision::Single, 0.26 * least));
+    assert!(forces(Precision::Double, 0.24 * least));
 }
