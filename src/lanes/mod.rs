@@ -219,7 +219,8 @@ pub trait Lanes:
     /// Without its sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        self.max(-self)
+        // Of two zeros the larger one is the second: adding one makes it positive.
+        self.max(-self) + Self::splat(0.0)
     }
     /// `yes` where `a < b`, else `no` (also where one is NaN).
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;

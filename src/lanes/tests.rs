@@ -62,7 +62,7 @@ fn bits<R: Numbers>(row: &R) -> Vec<u64> {
 /// Result of every operation on all lanes of rows a, b, c: what the vector type stores, part after part.
 #[inline(always)]
 fn operate<V: Lanes>([a, b, c]: &[V::Row; 3]) -> Vec<V::Row> {
-    let mut out = vec![V::Row::default(); 22];
+    let mut out = vec![V::Row::default(); 23];
     for part in 0..V::Row::LANES / V::COUNT {
         let (x, y, z) = (V::load(a, part), V::load(b, part), V::load(c, part));
         let positive = x.max(V::splat(V::TINY));
@@ -78,6 +78,7 @@ fn operate<V: Lanes>([a, b, c]: &[V::Row; 3]) -> Vec<V::Row> {
             x / y,
             -x,
             x.sqrt(),
+            x.abs(),
             Lanes::min(x, y),
             Lanes::max(x, y),
             V::select_less(x, y, z, x),

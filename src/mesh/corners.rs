@@ -43,6 +43,7 @@ pub fn least_corner(nodes: &[u32; 8], corners: &[[f64; 3]; 8]) -> f64 {
 mod tests {
     use super::*;
     use crate::mesh::UNIT_CUBE;
+    use proptest::prelude::*;
 
     const NODES: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 
@@ -77,5 +78,27 @@ mod tests {
         (wedge[3], wedge[7], nodes[3], nodes[7]) = (wedge[2], wedge[6], 2, 6);
         assert!(least_corner(&nodes, &wedge) > 1.0);
         assert!(!all_corners_are_sound(&wedge), "coinciding corners are flat");
+    }
+
+    proptest! {
+        /// Corners that are said to be sound are so, whatever the element: wild, collapsed, or no numbers at all.
+        #[test]
+        fn what_is_said_to_be_sound_is(
+            shifts in prop::array::uniform8(prop::array::uniform3(-0.7..0.7f64)),
+            joined in prop::option::of((0usize..8, 0usize..8)), broken in prop::option::of(0usize..8),
+        ) {
+            let (mut corners, mut nodes) = (UNIT_CUBE, NODES);
+            for (corner, shift) in corners.iter_mut().zip(shifts) {
+                *corner = [0, 1, 2].map(|i| corner[i] + shift[i]);
+            }
+            if let Some((one, other)) = joined {
+                (corners[one], nodes[one]) = (corners[other], nodes[other]);
+            }
+            if let Some(corner) = broken {
+                corners[corner][0] = f64::NAN;
+            }
+            prop_assert!(!all_corners_are_sound(&corners) || least_corner(&nodes, &corners) > 0.0);
+            prop_assert!(broken.is_none() || !all_corners_are_sound(&corners));
+        }
     }
 }

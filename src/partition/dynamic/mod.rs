@@ -1,5 +1,5 @@
 //! Sharing out points that move: a decomposition of space that follows them (Attaway et al. 1996, "Recursive
-//! Coordinate Bisectioning"), and two simpler ones to compare it with.
+//! Coordinate Bisectioning"), and a simpler one to compare it with.
 //!
 //! [`balance`] finds the cuts of a [`Bisection`], from those of the step before if need be; [`Bisection::owner`] says
 //! whose a point is, and [`Parcels`] carry it there. With one axis for all cuts the regions are slices.

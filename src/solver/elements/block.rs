@@ -251,6 +251,7 @@ impl Group {
     /// Positions of the nodes of the `i`-th element, which has as many.
     #[inline]
     pub fn positions<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
+        debug_assert!(N <= self.unknowns, "more nodes than an element has");
         let mut positions = [[0.0; 3]; N];
         for (position, numbers) in positions.iter_mut().zip(&self.connectivity[i / CHUNK * self.unknowns..]) {
             *position = nodes.position(numbers[i % CHUNK]);

@@ -311,7 +311,7 @@ impl NodeMotion {
 
     /// The same out of line: what is asked for that has not been placed is seldom.
     #[inline(never)]
-    fn found_now(&self, point: u32) -> PointMotion {
+    fn find_out_of_line(&self, point: u32) -> PointMotion {
         self.find(point)
     }
 
@@ -336,7 +336,7 @@ impl NodeMotion {
         let motion = if own.start[3] == self.mark {
             own
         } else {
-            found = self.found_now(point);
+            found = self.find_out_of_line(point);
             &found
         };
         of(motion)

@@ -37,18 +37,18 @@ impl OwnerRanks {
     pub fn find(
         &mut self,
         contact_nodes: &ContactNodes,
-        ranks: &NodeRanks,
+        node_ranks: &NodeRanks,
         costs: &[(u32, u32)],
         comm: &mut dyn Communicator,
     ) -> Vec<u32> {
         let list = &contact_nodes.list;
-        let mut owners: Vec<u32> = list.iter().map(|contact_node| ranks.owner(contact_node.point)).collect();
+        let mut owners: Vec<u32> = list.iter().map(|contact_node| node_ranks.owner(contact_node.point)).collect();
         let axes = match self.method {
             ContactDecomposition::Bisection => Axes::Widest,
             ContactDecomposition::Slices => Axes::One,
             ContactDecomposition::Static => return owners,
         };
-        let busy = weights(contact_nodes, ranks, costs, comm);
+        let busy = weights(contact_nodes, node_ranks, costs, comm);
         let others = busy.iter().map(|&weight| u32::from(weight == 0)).collect();
         let weights = [busy, others];
         let even = are_even(contact_nodes, &weights, comm);
@@ -103,13 +103,13 @@ fn are_even(contact_nodes: &ContactNodes, weights: &[Vec<u32>; 2], comm: &mut dy
 /// What each contact node has cost, and at least one where it has been busy; else 0. Every rank that has the node knows it.
 fn weights(
     contact_nodes: &ContactNodes,
-    ranks: &NodeRanks,
+    node_ranks: &NodeRanks,
     costs: &[(u32, u32)],
     comm: &mut dyn Communicator,
 ) -> Vec<u32> {
     let mut parcels = Parcels::new(&*comm, 1);
     for &(point, cost) in costs {
-        ranks.holders(point).iter().for_each(|&holder| parcels.add(holder, point, &[f64::from(cost)]));
+        node_ranks.holders(point).iter().for_each(|&holder| parcels.add(holder, point, &[f64::from(cost)]));
     }
     let mut weights = vec![0; contact_nodes.list.len()];
     for (point, [cost]) in parcels.exchange(comm).rows() {

@@ -39,7 +39,7 @@ pub struct Remote {
     faces: Vec<u32>,
     edges: Vec<u32>,
     /// How points are shared out.
-    owner_ranks: OwnerRanks,
+    decomposition: OwnerRanks,
     motion: MessagePattern,
     /// Messages of the results to other ranks.
     results: MessagePattern,
@@ -61,7 +61,7 @@ impl Remote {
             node_ranks: NodeRanks::gather(layout.nodes.len(), contact_nodes, comm),
             faces: (0..layout.faces.len() as u32).filter(here).collect(),
             edges: (0..layout.edges.len() as u32).filter(|&e| here(&layout.edges[e as usize].faces[0])).collect(),
-            owner_ranks: OwnerRanks::new(method),
+            decomposition: OwnerRanks::new(method),
             motion: MessagePattern::default(),
             results: MessagePattern::default(),
             own: Vec::new(),
@@ -153,7 +153,7 @@ impl Remote {
         comm: &mut dyn Communicator,
     ) -> LocalProblem {
         let (layout, plane_nodes, depth) = extent;
-        contact_nodes.owner_ranks = self.owner_ranks.find(contact_nodes, &self.node_ranks, &history.costs, comm);
+        contact_nodes.owner_ranks = self.decomposition.find(contact_nodes, &self.node_ranks, &history.costs, comm);
         let history = self.forward(layout, contact_nodes, plane_nodes, history, comm);
         let regional = Regional::gather((&self.faces, &self.edges), layout, contact_nodes, comm);
         let lists = [&regional.points, &regional.faces, &regional.edges];

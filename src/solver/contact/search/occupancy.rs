@@ -95,7 +95,7 @@ impl Occupancy {
         let sides = [0, 1, 2].map(|axis| (high[axis] - low[axis]) / self.cells as f64);
         // A little larger than rounding makes a cell smaller, in how it is told and in where its corners come to be.
         let rounding = |axis: usize| 1e-9 * sides[axis] + 8.0 * f64::EPSILON * (low[axis].abs() + high[axis].abs());
-        let margin = [0, 1, 2].map(rounding).into_iter().fold(0.0, f64::max);
+        let margin = [0, 1, 2].map(rounding).into_iter().fold(0.0, f64::max).min(f64::MAX);
         let all = (0..self.cells * MOST * self.cells).filter(|&cell| self.rows[cell / MOST] >> (cell % MOST) & 1 == 1);
         all.map(move |cell| {
             let at = [cell % MOST, cell / MOST % self.cells, cell / MOST / self.cells];
@@ -104,7 +104,10 @@ impl Occupancy {
             let divided = |axis: usize| self.inverse[axis] > 0.0;
             let first = |axis: usize| if divided(axis) { corner(axis, 0) } else { low[axis] };
             let last = |axis: usize| if divided(axis) { corner(axis, 1) } else { high[axis] };
-            Box3 { low: [0, 1, 2].map(first), high: [0, 1, 2].map(last) }.grown(margin)
+            let Box3 { low, high } = Box3 { low: [0, 1, 2].map(first), high: [0, 1, 2].map(last) }.grown(margin);
+            // What has grown beyond all numbers would be no sound box.
+            let finite = |side: f64| side.clamp(f64::MIN, f64::MAX);
+            Box3 { low: low.map(finite), high: high.map(finite) }
         })
     }
 

@@ -42,16 +42,14 @@ pub struct Settings {
     pub viscosity: BulkViscosity,
     /// Whether the stable step follows the moduli of the last increment instead of the elastic ones.
     pub effective_moduli: bool,
-    /// Velocity below which single precision takes what moves for still.
-    pub least_rate: f64,
     /// Whether the spin of the frame takes the stretch in the middle of the step instead of that at its start.
     pub second_order_spin: bool,
 }
 
 impl Settings {
-    /// See [`Settings::least_rate`]: of a material with this modulus and density.
-    pub fn least_rate_of(dilatational: f64, density: f64) -> f64 {
-        CALM * (dilatational / density).sqrt()
+    /// Mode of the corners' velocities, the sum of four differences, below which single precision takes it for none.
+    pub fn least_velocity(&self) -> f64 {
+        STILL * (self.dilatational / self.density).sqrt()
     }
 
     /// The step that is booked.
@@ -64,19 +62,19 @@ impl Settings {
 /// grow by 10⁻³.
 const ROUNDED_BOUND: f64 = 1.0 - 4e-6;
 
-/// Rates below this part of the speed of sound count as none in single precision: their squares and powers would be smaller than
-/// its normal numbers, and some processors take a hundred times as long for each of those. A strain that grows by as little in each of 10⁶ steps
-/// comes to 10⁻⁹.
-const CALM: f64 = 1.0 / (1u64 << 50) as f64;
+/// Modes of velocities below this part of the speed of sound count as none in single precision: the squares of most of them, and third powers and
+/// lost digits of all, would be smaller than its normal numbers, and some processors take a hundred times as long for each of those. A strain that
+/// grows by as little in each of 10⁶ steps as long as a wave takes through an element comes to less than 10⁻⁹.
+const STILL: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// Modes of velocities, in single precision without what is too slow to matter: bodies ahead of a wave are full of it.
+/// Modes of velocities, in single precision without those too slow to matter: bodies ahead of a wave are full of them.
 #[inline(always)]
-fn calmed<V: Lanes>(rates: Modes<V>, settings: &Settings) -> Modes<V> {
+fn without_the_slowest<V: Lanes>(velocities: Modes<V>, settings: &Settings) -> Modes<V> {
     if !V::SINGLE {
-        return rates;
+        return velocities;
     }
-    let (least, zero) = (V::splat(settings.least_rate), V::splat(0.0));
-    array![k in 7 => V::select_less(rates[k].abs(), least, zero, rates[k])]
+    let (least, zero) = (V::splat(settings.least_velocity()), V::splat(0.0));
+    array![k in 7 => V::select_less(velocities[k].abs(), least, zero, velocities[k])]
 }
 
 /// What holds for a whole block: numbers, law and hourglass control.
@@ -120,7 +118,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 ) -> Outcome<V, 8> {
     let zero = V::splat(0.0);
     let x: [Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
-    let v: [Modes<V>; 3] = array![i in 3 => calmed(modes(&velocities[i]), settings)];
+    let v: [Modes<V>; 3] = array![i in 3 => without_the_slowest(modes(&velocities[i]), settings)];
 
     // (o) what the forces of the step's start have done, where that is heat
     let start = if K::EQUATION {

@@ -156,7 +156,6 @@ impl Formulation for Hexahedron {
             mu: 0.5 * moduli.two_mu,
             poisson: moduli.poisson(),
             viscosity: settings.bulk_viscosity,
-            least_rate: Settings::least_rate_of(moduli.dilatational(), density),
             effective_moduli: settings.moduli == StepModuli::Effective,
             second_order_spin: self.spin == Spin::SecondOrder,
         };
