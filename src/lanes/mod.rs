@@ -219,8 +219,8 @@ pub trait Lanes:
     /// Without its sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        // Of two zeros the larger one is the second: adding one makes it positive.
-        self.max(-self) + Self::splat(0.0)
+        // Zero less a number, not its negative: that is +0 for either zero, and of two equals the second is taken.
+        self.max(Self::splat(0.0) - self)
     }
     /// `yes` where `a < b`, else `no` (also where one is NaN).
     fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self;

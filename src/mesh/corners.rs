@@ -2,6 +2,7 @@
 
 use super::check::hexahedron_volume;
 use crate::lanes::array;
+use crate::vector::{cross, dot, subtract};
 
 /// For each corner its neighbours along the three edges, in the order in which they turn to the right.
 pub const NEIGHBOURS: [[usize; 3]; 8] =
@@ -10,13 +11,9 @@ pub const NEIGHBOURS: [[usize; 3]; 8] =
 /// The Jacobian of a hexahedron at one of its corners, the triple product of the edges there.
 #[inline(always)]
 fn jacobian(corners: &[[f64; 3]; 8], corner: usize) -> f64 {
-    let edge = |neighbour: usize| {
-        let (to, from) = (corners[neighbour], corners[corner]);
-        [to[0] - from[0], to[1] - from[1], to[2] - from[2]]
-    };
     let [a, b, c] = NEIGHBOURS[corner];
-    let (a, b, c) = (edge(a), edge(b), edge(c));
-    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    let edge = |neighbour: usize| subtract(corners[neighbour], corners[corner]);
+    dot(edge(a), cross(edge(b), edge(c)))
 }
 
 /// Whether no corner of a hexahedron is flat or inside out. Corners that coincide, as in wedges and pyramids, are flat: what is meant

@@ -128,8 +128,8 @@ mod tests {
 
     const POINTS: u32 = 100;
 
-    /// A hundred points in a row, on two ranks of which each owns the nodes of one half. Of those that `is_busy` names the owner of the
-    /// node, and once more the other rank, says that they have cost two.
+    /// A hundred points in a row, on two ranks of which each owns the nodes of one half. Both ranks say of each
+    /// that `is_busy` names that it has cost two.
     fn shared_out(method: ContactDecomposition, is_busy: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
         let results = run_threads(2, |comm| {
             let rank = comm.rank() as u32;

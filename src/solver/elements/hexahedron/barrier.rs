@@ -139,7 +139,7 @@ impl<V: Lanes> Solid<'_, V> {
 fn largest_change<V: Lanes>(rate: V) -> V {
     let zero = V::splat(0.0);
     let part = V::select_less(zero, rate, V::splat(LARGEST_OPENING), V::splat(LARGEST_CLOSING));
-    let size = rate.max(zero - rate);
+    let size = rate.abs();
     V::select_less(zero, size, part / size, V::splat(f64::MAX))
 }
 
