@@ -3,13 +3,13 @@
 //! SAFETY, for the whole file: as in `avx512.rs`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the four
 //! numbers from `part · 4` lie inside a row of eight; slicing checks it.
 
-use super::{BIAS, Corner, CornerForces, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, Corner, CornerForces, DoubleLanes, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Four doubles.
 #[derive(Clone, Copy)]
-pub struct F64x4(__m256d);
+pub struct F64x4(pub(super) __m256d);
 
 macro_rules! lane_by_lane {
     ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
@@ -47,6 +47,7 @@ fn transpose(r: [__m256d; 4]) -> [F64x4; 4] {
 
 impl Lanes for F64x4 {
     type Row = Row;
+    type Double = Self;
     const SINGLE: bool = false;
     const COUNT: usize = 4;
     #[inline(always)]
@@ -62,12 +63,12 @@ impl Lanes for F64x4 {
         unsafe { _mm256_store_pd(row.0[part * 4..part * 4 + 4].as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        Self::load(&rows[0], part)
+    fn widened(self, _piece: usize) -> Self {
+        self
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        self.store(&mut rows[0], part);
+    fn rounded([all, _]: [Self; 2]) -> Self {
+        all
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -106,20 +107,23 @@ impl Lanes for F64x4 {
         let shifted = self + F64x4::splat(WHOLE + BIAS);
         F64x4(unsafe { _mm256_castsi256_pd(_mm256_slli_epi64::<52>(_mm256_castpd_si256(shifted.0))) })
     }
+}
+
+impl DoubleLanes for F64x4 {
     #[inline(always)]
-    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
+    fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8] {
         let half = |i: usize, h: usize| unsafe {
-            _mm256_load_pd(rows[index[part * 4 + i] as usize].0[h * 4..h * 4 + 4].as_ptr())
+            _mm256_load_pd(rows[index[piece / 2][piece % 2 * 4 + i] as usize].0[h * 4..h * 4 + 4].as_ptr())
         };
         let first = transpose([half(0, 0), half(1, 0), half(2, 0), half(3, 0)]);
         let second = transpose([half(0, 1), half(1, 1), half(2, 1), half(3, 1)]);
         [first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]]
     }
     #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, piece: usize) {
         let turned = transpose(force.map(|vector| vector.0));
         for (i, vector) in turned.into_iter().enumerate() {
-            unsafe { _mm256_store_pd(out[part * 4 + i][corner].0.as_mut_ptr(), vector.0) }
+            unsafe { _mm256_store_pd(out[piece * 4 + i][corner].0.as_mut_ptr(), vector.0) }
         }
     }
 }

@@ -7,13 +7,13 @@
 //! kernels that `solver::elements` enters after [`super::InstructionSet::detect`] has found these features. Loads
 //! and stores go through references to eight numbers, so they stay inside their object.
 
-use super::{BIAS, CHUNK, Corner, CornerForces, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, CHUNK, Corner, CornerForces, DoubleLanes, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Eight doubles.
 #[derive(Clone, Copy)]
-pub struct F64x8(__m512d);
+pub struct F64x8(pub(super) __m512d);
 
 macro_rules! lane_by_lane {
     ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
@@ -63,6 +63,7 @@ fn transpose(r: [__m256d; 8]) -> [F64x8; 4] {
 
 impl Lanes for F64x8 {
     type Row = Row;
+    type Double = Self;
     const SINGLE: bool = false;
     const COUNT: usize = CHUNK;
     #[inline(always)]
@@ -78,12 +79,12 @@ impl Lanes for F64x8 {
         unsafe { _mm512_store_pd(row.0.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        Self::load(&rows[0], part)
+    fn widened(self, _piece: usize) -> Self {
+        self
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        self.store(&mut rows[0], part);
+    fn rounded([all, _]: [Self; 2]) -> Self {
+        all
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -122,19 +123,22 @@ impl Lanes for F64x8 {
         let shifted = self + F64x8::splat(WHOLE + BIAS);
         F64x8(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<52>(_mm512_castpd_si512(shifted.0))) })
     }
+}
 
+impl DoubleLanes for F64x8 {
     /// Eight rows, one per lane, transposed in registers. Each register is loaded in two halves, of elements two apart: so 16 shuffles
     /// of pairs are enough where whole rows would need 24, and those for what nobody asks for are left out.
     #[inline(always)]
-    fn gather(rows: &[Row], [index, _]: Corner, _part: usize) -> [Self; 8] {
-        let r: [&Row; 8] = array![i in 8 => &rows[index[i] as usize]];
+    fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8] {
+        let r: [&Row; 8] = array![i in 8 => &rows[index[piece][i] as usize]];
         let [x, y, z, m] = transpose(array![i in 8 => half(r[i], 0)]);
         let [vx, vy, vz, inverse] = transpose(array![i in 8 => half(r[i], 1)]);
         [x, y, z, m, vx, vy, vz, inverse]
     }
 
     #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, _part: usize) {
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, piece: usize) {
+        let out = &mut out[CHUNK * piece..][..CHUNK];
         unsafe {
             let (a, b) = (_mm512_unpacklo_pd(force[0].0, force[1].0), _mm512_unpackhi_pd(force[0].0, force[1].0));
             let (p, q) = (_mm512_unpacklo_pd(force[2].0, force[3].0), _mm512_unpackhi_pd(force[2].0, force[3].0));

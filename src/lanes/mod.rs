@@ -4,12 +4,15 @@
 //! decided when the program starts ([`InstructionSet::detect`]). None of them fuses a multiplication with an
 //! addition, and division and square root are correctly rounded, so that all give the same bits.
 
-/// An array of 3, 4, 6, 7 or 8 entries, each given by an expression in its index, written out at compile time.
+/// An array of 2, 3, 4, 6, 7 or 8 entries, each given by an expression in its index, written out at compile time.
 ///
 /// Kernels use it instead of `std::array::from_fn`, whose closure is compiled without the caller's vector
 /// instructions and then stays a call.
 macro_rules! array {
     (@at $i:ident $n:literal $entry:expr) => {{ let $i: usize = $n; $entry }};
+    ($i:ident in 2 => $entry:expr) => {
+        [array!(@at $i 0 $entry), array!(@at $i 1 $entry)]
+    };
     ($i:ident in 3 => $entry:expr) => {
         [array!(@at $i 0 $entry), array!(@at $i 1 $entry), array!(@at $i 2 $entry)]
     };
@@ -166,16 +169,6 @@ pub type Corner<'a> = [&'a [u32; CHUNK]; 2];
 /// Forces on the corners of the elements of a row.
 pub type CornerForces = [[Force; MOST_CORNERS]; MOST_LANES];
 
-/// The rows of nodes at a corner of the elements of a row, one for each of some of its lanes.
-#[inline(always)]
-pub fn rows_at(nodes: &[Row], index: Corner, lanes: std::ops::Range<usize>) -> [Row; MOST_LANES] {
-    let mut found = [Row::default(); MOST_LANES];
-    for lane in lanes {
-        found[lane] = nodes[index[lane / CHUNK][lane % CHUNK] as usize];
-    }
-    found
-}
-
 /// A vector of floating-point lanes. Arithmetic is lane by lane; `COUNT` divides the length of a row, and a row is worked
 /// off in parts of `COUNT` lanes: part `p` covers elements `p·COUNT ..`.
 pub trait Lanes:
@@ -183,6 +176,10 @@ pub trait Lanes:
 {
     /// Rows of its precision.
     type Row: Numbers;
+    /// Vectors of double precision that hold its lanes, [`Lanes::PIECES`] of them.
+    type Double: DoubleLanes;
+    /// How many of those hold its lanes: one or two.
+    const PIECES: usize = Self::COUNT / <Self::Double as Lanes>::COUNT;
     /// Whether its numbers are of single precision.
     const SINGLE: bool;
     /// The smallest positive normal number of its precision: a divisor that is at least this gives no infinity.
@@ -200,10 +197,24 @@ pub trait Lanes:
     fn load(row: &Self::Row, part: usize) -> Self;
     /// Writes one part of a row.
     fn store(self, row: &mut Self::Row, part: usize);
+    /// One of its pieces in double precision.
+    fn widened(self, piece: usize) -> Self::Double;
+    /// Its pieces rounded to its precision; where there is one, that is the first.
+    fn rounded(pieces: [Self::Double; 2]) -> Self;
     /// One part of a row that is kept in double precision, chunk by chunk.
-    fn load_double(rows: &[Row], part: usize) -> Self;
+    #[inline(always)]
+    fn load_double(rows: &[Row], part: usize) -> Self {
+        let first = Self::PIECES * part;
+        let last = first + Self::PIECES - 1;
+        Self::rounded([Self::Double::load_piece(rows, first), Self::Double::load_piece(rows, last)])
+    }
     /// Writes one part of such a row.
-    fn store_double(self, rows: &mut [Row], part: usize);
+    #[inline(always)]
+    fn store_double(self, rows: &mut [Row], part: usize) {
+        for piece in 0..Self::PIECES {
+            self.widened(piece).store_piece(rows, Self::PIECES * part + piece);
+        }
+    }
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// `self` where it is less than `other`, else `other` (also where one is NaN).
@@ -230,16 +241,6 @@ pub trait Lanes:
     fn split_exponent(self) -> (Self, Self);
     /// 2ⁿ of a whole number n from −1022 to 1023, in single precision from −126 to 127.
     fn power_of_two(self) -> Self;
-    /// Fetches the rows named by one part of `index` and turns them: component `c` of the result holds number `c`
-    /// of every fetched row.
-    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8];
-    /// The same less an origin of each element of the row, subtracted in double precision before they are rounded to that of the lanes.
-    #[inline(always)]
-    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
-        let in_order = [&[0, 1, 2, 3, 4, 5, 6, 7], &[8, 9, 10, 11, 12, 13, 14, 15]];
-        let (own, first) = (Self::gather(rows, index, part), Self::gather(origins, in_order, part));
-        array![c in 8 => own[c] - first[c]]
-    }
     /// In single precision: two numbers of eight bits and an exponent each, which [`Lanes::of_halves`] has put into one.
     #[inline(always)]
     fn halves(self) -> (Self, Self) {
@@ -250,12 +251,34 @@ pub trait Lanes:
     fn of_halves(upper: Self, _lower: Self) -> Self {
         upper
     }
-    /// Turns four component vectors into what the part's elements add to a node: `out[element][corner]`.
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize);
+}
+
+/// Vectors of double precision. Nodes are in it for kernels of either, so these fetch and bring what elements have to do with them.
+/// Piece `p` of a row, of one chunk or of two, covers its elements `p·COUNT ..`.
+pub trait DoubleLanes: Lanes<Row = Row, Double = Self> {
+    /// Fetches the rows named by one piece of `index` and turns them: component `c` of the result holds number `c`
+    /// of every fetched row.
+    fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8];
+    /// Turns four component vectors into what the elements of a piece add to a node: `out[element][corner]`.
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, piece: usize);
+    /// One piece of rows of one chunk each.
+    #[inline(always)]
+    fn load_piece(rows: &[Row], piece: usize) -> Self {
+        let first = piece * Self::COUNT;
+        Self::load(&rows[first / CHUNK], first % CHUNK / Self::COUNT)
+    }
+    /// Writes one piece of such rows.
+    #[inline(always)]
+    fn store_piece(self, rows: &mut [Row], piece: usize) {
+        let first = piece * Self::COUNT;
+        self.store(&mut rows[first / CHUNK], first % CHUNK / Self::COUNT);
+    }
 }
 
 /// The vectors in which a kernel of a precision is compiled, named by its single number.
 pub trait Widths: Lanes {
+    /// Whatever the target guarantees.
+    type Portable: Lanes<Row = Self::Row>;
     /// 256 bits.
     #[cfg(target_arch = "x86_64")]
     type Avx2: Lanes<Row = Self::Row>;
@@ -265,6 +288,7 @@ pub trait Widths: Lanes {
 }
 
 impl Widths for f64 {
+    type Portable = Pair<f64>;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = avx2::F64x4;
     #[cfg(target_arch = "x86_64")]
@@ -272,6 +296,7 @@ impl Widths for f64 {
 }
 
 impl Widths for f32 {
+    type Portable = Pair<Pair<f32>>;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = single::F32x8;
     #[cfg(target_arch = "x86_64")]

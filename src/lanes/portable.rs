@@ -1,10 +1,11 @@
-//! Lanes on any machine: a single number (for tests and set-up), or two side by side.
+//! Lanes on any machine: a single number (for tests and set-up), or two of whatever lanes side by side.
 
-use super::{BIAS, Corner, CornerForces, Force, Lanes, MANTISSA_BITS, MOST_LANES, Row, WHOLE};
+use super::{BIAS, CHUNK, Corner, CornerForces, DoubleLanes, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Two lanes of either precision without a promise of vector instructions; compilers find those that every 64-bit processor has.
-/// More lanes would not run faster, and take long to compile.
+/// Two lanes of either precision without a promise of vector instructions; compilers find those that every 64-bit processor has:
+/// registers of 128 bits, which are a pair in double precision and a pair of pairs in single. More would not run faster, and take long
+/// to compile.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair<T>([T; 2]);
 
@@ -38,6 +39,7 @@ impl<T: Lanes> Pair<T> {
 
 impl<T: Lanes> Lanes for Pair<T> {
     type Row = T::Row;
+    type Double = Pair<T::Double>;
     const SINGLE: bool = T::SINGLE;
     const COUNT: usize = 2 * T::COUNT;
     #[inline(always)]
@@ -54,13 +56,21 @@ impl<T: Lanes> Lanes for Pair<T> {
         self.0[1].store(row, 2 * part + 1);
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        Pair([T::load_double(rows, 2 * part), T::load_double(rows, 2 * part + 1)])
+    fn widened(self, piece: usize) -> Self::Double {
+        // Two of one piece make one of both; those of two have their pieces one after the other.
+        let [first, second] = self.0;
+        if T::PIECES == 1 {
+            return Pair([first.widened(0), second.widened(0)]);
+        }
+        let one = if piece == 0 { first } else { second };
+        Pair([one.widened(0), one.widened(1)])
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        self.0[0].store_double(rows, 2 * part);
-        self.0[1].store_double(rows, 2 * part + 1);
+    fn rounded([first, second]: [Self::Double; 2]) -> Self {
+        if T::PIECES == 1 {
+            return Pair([T::rounded([first.0[0]; 2]), T::rounded([first.0[1]; 2])]);
+        }
+        Pair([T::rounded(first.0), T::rounded(second.0)])
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -90,26 +100,24 @@ impl<T: Lanes> Lanes for Pair<T> {
     fn of_halves(upper: Self, lower: Self) -> Self {
         Pair([T::of_halves(upper.0[0], lower.0[0]), T::of_halves(upper.0[1], lower.0[1])])
     }
+}
+
+impl<T: DoubleLanes> DoubleLanes for Pair<T> {
     #[inline(always)]
-    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8] {
-        let [first, second] = [T::gather(rows, index, 2 * part), T::gather(rows, index, 2 * part + 1)];
+    fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8] {
+        let [first, second] = [T::gather(rows, index, 2 * piece), T::gather(rows, index, 2 * piece + 1)];
         array![c in 8 => Pair([first[c], second[c]])]
     }
     #[inline(always)]
-    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
-        let first = T::gather_from(rows, origins, index, 2 * part);
-        let second = T::gather_from(rows, origins, index, 2 * part + 1);
-        array![c in 8 => Pair([first[c], second[c]])]
-    }
-    #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
-        T::spread(array![i in 4 => force[i].0[0]], out, corner, 2 * part);
-        T::spread(array![i in 4 => force[i].0[1]], out, corner, 2 * part + 1);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, piece: usize) {
+        T::spread(array![i in 4 => force[i].0[0]], out, corner, 2 * piece);
+        T::spread(array![i in 4 => force[i].0[1]], out, corner, 2 * piece + 1);
     }
 }
 
 impl Lanes for f64 {
     type Row = Row;
+    type Double = Self;
     const SINGLE: bool = false;
     const COUNT: usize = 1;
     #[inline(always)]
@@ -125,12 +133,12 @@ impl Lanes for f64 {
         row.0[part] = self;
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        Self::load(&rows[0], part)
+    fn widened(self, _piece: usize) -> Self {
+        self
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        self.store(&mut rows[0], part);
+    fn rounded([all, _]: [Self; 2]) -> Self {
+        all
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -154,12 +162,15 @@ impl Lanes for f64 {
     fn power_of_two(self) -> Self {
         f64::from_bits((self + (WHOLE + BIAS)).to_bits() << 52)
     }
+}
+
+impl DoubleLanes for f64 {
     #[inline(always)]
-    fn gather(rows: &[Row], [index, _]: Corner, part: usize) -> [Self; 8] {
-        rows[index[part] as usize].0
+    fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8] {
+        rows[index[piece / CHUNK][piece % CHUNK] as usize].0
     }
     #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
-        out[part][corner] = Force(force);
+    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, piece: usize) {
+        out[piece][corner] = Force(force);
     }
 }

@@ -104,21 +104,25 @@ fn operate<V: Lanes>([a, b, c]: &[V::Row; 3]) -> Vec<V::Row> {
     out
 }
 
-/// Rows gathered, as they are and from others, turned and spread again: four of the components come back as forces.
+/// Rows gathered, less others and rounded, as they are, turned and spread again: four of the components come back as forces.
 #[inline(always)]
 fn turn<V: Lanes>((rows, [origin, index]): &(&[Row], [Corner; 2])) -> Turned<V::Row> {
     let (mut own, mut from) = (vec![V::Row::default(); 8], vec![V::Row::default(); 8]);
     let mut forces = Box::new([[Force([f64::NAN; 4]); 8]; MOST_LANES]);
     for part in 0..V::Row::LANES / V::COUNT {
-        let gathered = V::gather(rows, *index, part);
-        let relative = V::gather_from(rows, &rows_at(rows, *origin, 0..V::Row::LANES), *index, part);
+        let pieces = [V::PIECES * part, V::PIECES * (part + 1) - 1];
+        let gathered = array![h in 2 => V::Double::gather(rows, *index, pieces[h])];
+        let origins = array![h in 2 => V::Double::gather(rows, *origin, pieces[h])];
+        let rounded: [V; 8] = array![c in 8 => V::rounded(array![h in 2 => gathered[h][c]])];
         for c in 0..8 {
-            gathered[c].store(&mut own[c], part);
-            relative[c].store(&mut from[c], part);
+            rounded[c].store(&mut own[c], part);
+            V::rounded(array![h in 2 => gathered[h][c] - origins[h][c]]).store(&mut from[c], part);
         }
         for corner in 0..8 {
-            let force = array![i in 4 => gathered[(corner + i) % 8]];
-            V::spread(force, &mut forces, corner, part);
+            for piece in 0..V::PIECES {
+                let force = array![i in 4 => rounded[(corner + i) % 8].widened(piece)];
+                V::Double::spread(force, &mut forces, corner, pieces[piece]);
+            }
         }
     }
     (own, from, forces)
@@ -136,7 +140,7 @@ fn any<V: Lanes>([a, b]: &[V::Row; 2]) -> bool {
 macro_rules! of_all {
     ($function:ident of $precision:ident, $input:expr) => {{
         let input = $input;
-        let mut all = vec![$function::<$precision>(&input), $function::<Pair<$precision>>(&input)];
+        let mut all = vec![$function::<$precision>(&input), $function::<<$precision as Widths>::Portable>(&input)];
         // SAFETY, wherever these are called: only after the features have been found.
         #[cfg(target_arch = "x86_64")]
         {

@@ -1,10 +1,11 @@
 //! Eight lanes of single precision in one 256-bit register; a row is worked off in two parts.
 //!
 //! SAFETY, for the whole file: as in `lanes::avx512`, with AVX2 in place of AVX-512. Parts are 0 and 1, so the eight numbers
-//! from `part · 8` lie inside a row of sixteen; slicing checks it. Four numbers of a node lie inside its row of eight.
+//! from `part · 8` lie inside a row of sixteen; slicing checks it.
 
 use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
-use crate::lanes::{CHUNK, Corner, CornerForces, Lanes, MOST_LANES, Row, SingleRow};
+use crate::lanes::avx2::F64x4;
+use crate::lanes::{CHUNK, Lanes, SingleRow};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -31,44 +32,9 @@ impl Neg for F32x8 {
     }
 }
 
-/// Eight doubles rounded.
-#[inline(always)]
-fn rounded(low: __m256d, high: __m256d) -> __m256 {
-    unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(_mm256_cvtpd_ps(low)), _mm256_cvtpd_ps(high)) }
-}
-
-/// Four rows transposed within each half of the register.
-#[inline(always)]
-fn transpose_halves(r: [__m256; 4]) -> [__m256; 4] {
-    unsafe {
-        let (l0, h0) = (_mm256_unpacklo_ps(r[0], r[1]), _mm256_unpackhi_ps(r[0], r[1]));
-        let (l1, h1) = (_mm256_unpacklo_ps(r[2], r[3]), _mm256_unpackhi_ps(r[2], r[3]));
-        [
-            _mm256_shuffle_ps::<0x44>(l0, l1),
-            _mm256_shuffle_ps::<0xee>(l0, l1),
-            _mm256_shuffle_ps::<0x44>(h0, h1),
-            _mm256_shuffle_ps::<0xee>(h0, h1),
-        ]
-    }
-}
-
-/// Rows of eight, one per lane, turned.
-#[inline(always)]
-fn turned(row: [__m256; 8]) -> [F32x8; 8] {
-    let a = transpose_halves([row[0], row[1], row[2], row[3]]);
-    let b = transpose_halves([row[4], row[5], row[6], row[7]]);
-    let low: [F32x8; 4] = array![c in 4 => F32x8(unsafe { _mm256_permute2f128_ps::<0x20>(a[c], b[c]) })];
-    let high: [F32x8; 4] = array![c in 4 => F32x8(unsafe { _mm256_permute2f128_ps::<0x31>(a[c], b[c]) })];
-    [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
-}
-
-#[inline(always)]
-fn half(row: &Row, h: usize) -> __m256d {
-    unsafe { _mm256_load_pd(row.0[h * 4..h * 4 + 4].as_ptr()) }
-}
-
 impl Lanes for F32x8 {
     type Row = SingleRow;
+    type Double = F64x4;
     const SINGLE: bool = true;
     const COUNT: usize = CHUNK;
     #[inline(always)]
@@ -84,16 +50,15 @@ impl Lanes for F32x8 {
         unsafe { _mm256_store_ps(row.0[part * 8..part * 8 + 8].as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        F32x8(rounded(half(&rows[part], 0), half(&rows[part], 1)))
+    fn widened(self, piece: usize) -> F64x4 {
+        let half =
+            unsafe { if piece == 0 { _mm256_castps256_ps128(self.0) } else { _mm256_extractf128_ps::<1>(self.0) } };
+        F64x4(unsafe { _mm256_cvtps_pd(half) })
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        let row = &mut rows[part].0;
-        unsafe {
-            _mm256_store_pd(row[..4].as_mut_ptr(), _mm256_cvtps_pd(_mm256_castps256_ps128(self.0)));
-            _mm256_store_pd(row[4..].as_mut_ptr(), _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(self.0)));
-        }
+    fn rounded([low, high]: [F64x4; 2]) -> Self {
+        let low = unsafe { _mm256_castps128_ps256(_mm256_cvtpd_ps(low.0)) };
+        F32x8(unsafe { _mm256_insertf128_ps::<1>(low, _mm256_cvtpd_ps(high.0)) })
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -154,35 +119,6 @@ impl Lanes for F32x8 {
             let lower = _mm256_add_epi32(_mm256_castps_si256(lower.0), rounding);
             let upper = _mm256_and_si256(upper, _mm256_set1_epi32(UPPER_HALF as i32));
             F32x8(_mm256_castsi256_ps(_mm256_or_si256(upper, _mm256_srli_epi32::<16>(lower))))
-        }
-    }
-    #[inline(always)]
-    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8] {
-        turned(array![i in 8 => {
-            let own = &rows[index[part][i] as usize];
-            rounded(half(own, 0), half(own, 1))
-        }])
-    }
-    #[inline(always)]
-    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
-        turned(array![i in 8 => {
-            let (own, first) = (&rows[index[part][i] as usize], &origins[CHUNK * part + i]);
-            unsafe {
-                let low = _mm256_sub_pd(half(own, 0), half(first, 0));
-                rounded(low, _mm256_sub_pd(half(own, 1), half(first, 1)))
-            }
-        }])
-    }
-    #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
-        let turned = transpose_halves(force.map(|vector| vector.0));
-        for (i, pair) in turned.into_iter().enumerate() {
-            unsafe {
-                let first = _mm256_cvtps_pd(_mm256_castps256_ps128(pair));
-                _mm256_store_pd(out[part * 8 + i][corner].0.as_mut_ptr(), first);
-                let second = _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(pair));
-                _mm256_store_pd(out[part * 8 + 4 + i][corner].0.as_mut_ptr(), second);
-            }
         }
     }
 }

@@ -1,16 +1,11 @@
 //! A single number.
 
 use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
-use crate::lanes::{CHUNK, Corner, CornerForces, Force, Lanes, MOST_LANES, Numbers, Row, SingleRow};
-
-/// Local node of an element of a row.
-#[inline(always)]
-fn node(index: Corner, element: usize) -> usize {
-    index[element / CHUNK][element % CHUNK] as usize
-}
+use crate::lanes::{Lanes, SingleRow};
 
 impl Lanes for f32 {
     type Row = SingleRow;
+    type Double = f64;
     const SINGLE: bool = true;
     const COUNT: usize = 1;
     #[inline(always)]
@@ -26,12 +21,12 @@ impl Lanes for f32 {
         row.0[part] = self;
     }
     #[inline(always)]
-    fn load_double(rows: &[Row], part: usize) -> Self {
-        rows[part / CHUNK].number(part % CHUNK) as f32
+    fn widened(self, _piece: usize) -> f64 {
+        f64::from(self)
     }
     #[inline(always)]
-    fn store_double(self, rows: &mut [Row], part: usize) {
-        rows[part / CHUNK].set(part % CHUNK, f64::from(self));
+    fn rounded([all, _]: [f64; 2]) -> Self {
+        all as f32
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -64,18 +59,5 @@ impl Lanes for f32 {
     fn of_halves(upper: Self, lower: Self) -> Self {
         let rounded = |x: f32| x.to_bits().wrapping_add(ROUNDING);
         f32::from_bits((rounded(upper) & UPPER_HALF) | (rounded(lower) >> 16))
-    }
-    #[inline(always)]
-    fn gather(rows: &[Row], index: Corner, part: usize) -> [Self; 8] {
-        rows[node(index, part)].0.map(|x| x as f32)
-    }
-    #[inline(always)]
-    fn gather_from(rows: &[Row], origins: &[Row; MOST_LANES], index: Corner, part: usize) -> [Self; 8] {
-        let (own, first) = (&rows[node(index, part)], &origins[part]);
-        array![c in 8 => (own.0[c] - first.0[c]) as f32]
-    }
-    #[inline(always)]
-    fn spread(force: [Self; 4], out: &mut CornerForces, corner: usize, part: usize) {
-        out[part][corner] = Force(force.map(f64::from));
     }
 }

@@ -2,8 +2,8 @@
 
 use super::block::Group;
 use crate::lanes::{
-    CHUNK, Corner, CornerForces, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Pair, Row, Vectors,
-    Widths, array, prefetch, rows_at,
+    CHUNK, Corner, CornerForces, DoubleLanes, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Row,
+    Vectors, Widths, array, prefetch,
 };
 use crate::model::{BulkViscosity, StepModuli};
 
@@ -173,7 +173,7 @@ impl<'a> Pass<'a> {
         let (group, nodes, sink, instructions) = self.taken_apart();
         // Narrow builds compile one width: a good part of a build's time is in the others, for every law and element.
         if cfg!(any(one_width, test)) {
-            return chunks::<Pair<P>, N, S>(group, nodes, sink, step);
+            return chunks::<P::Portable, N, S>(group, nodes, sink, step);
         }
         match instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has.
@@ -182,7 +182,7 @@ impl<'a> Pass<'a> {
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
             Vectors::Avx2 => unsafe { chunks_avx2::<P::Avx2, N, S>(group, nodes, sink, step) },
-            _ => chunks::<Pair<P>, N, S>(group, nodes, sink, step),
+            _ => chunks::<P::Portable, N, S>(group, nodes, sink, step),
         }
     }
 }
@@ -305,10 +305,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             prefetch(share(next, 2 * part, shares));
             let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
             prefetch(share(next, 2 * part + 1, shares));
-            for corner in 0..N {
-                let [x, y, z] = &outcome.force;
-                V::spread([x[corner], y[corner], z[corner], outcome.rate], &mut corner_forces, corner, part);
-            }
+            bring(&outcome, S::BALANCED, &mut corner_forces, part);
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
             let (here, mut step) = (V::splat(row as f64), outcome.stable_step);
             if let Some(rows) = &mut steps {
@@ -324,9 +321,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             V::select_less(step, best, step, best).store(&mut smallest, part);
             let failed = V::load(&failed_row, part);
             V::select_less(V::splat(0.0), step, failed, failed.min(here)).store(&mut failed_row, part);
-        }
-        if V::SINGLE && S::BALANCED {
-            balance::<N>(&mut corner_forces);
         }
         for (next, connectivity) in connectivity.iter().enumerate() {
             let first = (chunk + next) * CHUNK;
@@ -355,17 +349,27 @@ fn share<R>(rows: &[R], place: usize, shares: usize) -> &[R] {
     rows.get(rows.len() * place / shares..rows.len() * (place + 1) / shares).unwrap_or_default()
 }
 
-/// Makes the forces of each element add up to nothing again, which they have been rounded away from: momentum is kept.
+/// Brings the forces of a part to where they are taken from; in single precision made to add up to nothing again in each element, which they
+/// have been rounded away from: momentum is kept.
 #[inline(always)]
-fn balance<const N: usize>(forces: &mut CornerForces) {
-    for corners in forces {
-        // The fourth number, which is no force, is summed along: four numbers are a register.
-        let mut sum = [0.0; 4];
-        for corner in &corners[1..N] {
-            sum = array![i in 4 => sum[i] + corner.0[i]];
+fn bring<V: Lanes, const N: usize>(outcome: &Outcome<V, N>, balanced: bool, to: &mut CornerForces, part: usize) {
+    let Outcome { force, rate, .. } = outcome;
+    for piece in 0..V::PIECES {
+        let own = V::PIECES * part + piece;
+        let rate = rate.widened(piece);
+        let mut sum = [V::Double::splat(0.0); 3];
+        for corner in 1..N {
+            let force = array![i in 3 => force[i][corner].widened(piece)];
+            sum = array![i in 3 => sum[i] + force[i]];
+            V::Double::spread([force[0], force[1], force[2], rate], to, corner, own);
         }
-        let [x, y, z, _] = array![i in 4 => 0.0 - sum[i]];
-        corners[0] = Force([x, y, z, corners[0].0[3]]);
+        let zero = V::Double::splat(0.0);
+        let first = if V::SINGLE && balanced {
+            array![i in 3 => zero - sum[i]]
+        } else {
+            array![i in 3 => force[i][0].widened(piece)]
+        };
+        V::Double::spread([first[0], first[1], first[2], rate], to, 0, own);
     }
 }
 
@@ -396,33 +400,27 @@ fn relative_corners<V: Lanes, const N: usize>(
     [x, v]: [&mut [[V; N]; 3]; 2],
 ) {
     let at = |corner: usize| -> Corner { [&connectivity[0][corner], &connectivity[connectivity.len() - 1][corner]] };
-    let zero = V::splat(0.0);
-    if V::SINGLE {
-        // Far from the origin single precision would leave nothing of a difference.
-        let origins = rows_at(nodes, at(0), part * V::COUNT..(part + 1) * V::COUNT);
-        for corner in 1..places {
-            let row = V::gather_from(nodes, &origins, at(corner), part);
-            for i in 0..3 {
-                (x[i][corner], v[i][corner]) = (row[i], row[4 + i]);
-            }
-        }
-        return;
-    }
-    let mut first = V::gather(nodes, at(0), part);
+    // Differences are those of doubles: far from the origin single precision would leave nothing of them.
+    let pieces = [V::PIECES * part, V::PIECES * (part + 1) - 1];
+    let mut first = array![h in 2 => V::Double::gather(nodes, at(0), pieces[h])];
     if about_axis {
-        (x[0][0], v[0][0], first[0], first[4]) = (first[0], first[4], zero, zero);
+        let zero = V::Double::splat(0.0);
+        (x[0][0], v[0][0]) = (V::rounded([first[0][0], first[1][0]]), V::rounded([first[0][4], first[1][4]]));
+        for first in &mut first {
+            (first[0], first[4]) = (zero, zero);
+        }
     }
     for corner in 1..places {
-        let row = V::gather(nodes, at(corner), part);
+        let rows = array![h in 2 => V::Double::gather(nodes, at(corner), pieces[h])];
         for i in 0..3 {
-            x[i][corner] = row[i] - first[i];
-            v[i][corner] = row[4 + i] - first[4 + i];
+            x[i][corner] = V::rounded(array![h in 2 => rows[h][i] - first[h][i]]);
+            v[i][corner] = V::rounded(array![h in 2 => rows[h][4 + i] - first[h][4 + i]]);
         }
     }
     for corner in places..N {
-        let row = V::gather(nodes, at(corner), part);
+        let rows = array![h in 2 => V::Double::gather(nodes, at(corner), pieces[h])];
         for i in 0..3 {
-            v[i][corner] = row[4 + i];
+            v[i][corner] = V::rounded([rows[0][4 + i], rows[1][4 + i]]);
         }
     }
 }
