@@ -1,6 +1,5 @@
 //! How contact is made from a model and a mesh.
 
-use super::arcs::Arcs;
 use super::check::node_face;
 use super::check::planes::PlaneNode;
 use super::contact_nodes::ContactNodes;
@@ -8,15 +7,16 @@ use super::enforcement::certificate::Bank;
 use super::enforcement::gain::Gain;
 use super::enforcement::iterations::Limits;
 use super::enforcement::resultants::{Resultants, Subject};
-use super::layout::Layout;
 use super::local_problem::{LocalProblem, Numbering};
-use super::pairings::Pairings;
+use super::observations::arcs::Arcs;
 use super::press_fit::PressFit;
 use super::ranks::remote::Remote;
 use super::ranks::routing::share_planes;
 use super::search::locate::Reach;
 use super::search::{SearchKind, neighbourhood};
-use super::skin::Skin;
+use super::surface::layout::Layout;
+use super::surface::pairings::Pairings;
+use super::surface::skin::Skin;
 use super::{Contact, Seen, Tally};
 use crate::comm::Communicator;
 use crate::mesh::Mesh;

@@ -2,9 +2,9 @@
 
 use super::geometry::motion::{NodeMotion, larger};
 use super::geometry::swept_box::SweptBox;
-use super::layout::{ABSENT, inverse};
 use super::node_result::NodeResult;
 use super::search::Box3;
+use super::surface::layout::{ABSENT, inverse};
 use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};

@@ -4,28 +4,21 @@
 //! rank are `ContactNodes`; check and enforcement happen in a `LocalProblem`, of whole bodies on one rank, of a region
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
-mod arcs;
 pub mod check;
 mod construction;
 mod contact_nodes;
 pub mod enforcement;
-mod exclusions;
 pub mod geometry;
-mod layout;
 mod local_problem;
-mod meetings;
 mod node_result;
-mod pairings;
+mod observations;
 mod press_fit;
 mod ranks;
 mod report;
-mod reshape;
 pub mod search;
-mod seen;
-mod skin;
 mod sparse;
 mod state;
-mod touching;
+mod surface;
 
 use super::constraints::{Constraint as HeldDirection, StepTimes};
 use super::erosion::Erosion;
@@ -33,7 +26,6 @@ use super::nodes::Nodes;
 use super::rigid::{RigidBodies, RigidBody};
 use crate::comm::{Communicator, Traffic};
 use crate::model::{ContactDecomposition, RigidSurface};
-use arcs::Arcs;
 use check::edge_edge;
 use check::edge_edge::EdgeContact;
 use check::node_face::{FaceContact, NONE};
@@ -47,21 +39,22 @@ use enforcement::mobility::BodyMobility;
 use enforcement::other_ranks::{Elsewhere, NoOtherRanks};
 use enforcement::resultants::Resultants;
 use geometry::paths::PathRange;
-use layout::{ABSENT, Layout};
 use local_problem::{History, LocalProblem, StepInput};
-use pairings::Pairings;
+use observations::arcs::{self, Arcs};
 use press_fit::PressFit;
 use ranks::remote::Remote;
 use search::locate::Reach;
 use search::{Search, neighbourhood};
-use skin::Skin;
+use surface::layout::{ABSENT, Layout};
+use surface::pairings::Pairings;
+use surface::skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
 pub(in crate::solver) use construction::skin;
 pub use enforcement::iterations::LOOSER;
+pub use observations::seen::{Looser, Seen};
 pub use report::{Report, Tally, Work};
-pub use seen::{Looser, Seen};
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
 const LINES_EVERY: u64 = 4;
@@ -125,7 +118,7 @@ impl Contact {
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
         self.arcs = Arcs::default();
         let old = std::mem::replace(&mut self.layout, self.skin.layout());
-        reshape::take_over(&mut self.layout, &old);
+        surface::reshape::take_over(&mut self.layout, &old);
         let old_contact_nodes = std::mem::take(&mut self.contact_nodes);
         let new = &self.layout;
         self.plane_nodes

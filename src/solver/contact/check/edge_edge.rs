@@ -12,8 +12,8 @@ use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
-use crate::solver::contact::pairings::Pairing;
 use crate::solver::contact::search::Box3;
+use crate::solver::contact::surface::pairings::Pairing;
 use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.

@@ -7,8 +7,8 @@ use crate::mesh::{HEX_SIDES, plane};
 use crate::solver::body::centroid;
 use crate::solver::contact::Contact;
 use crate::solver::contact::geometry::projection;
-use crate::solver::contact::layout::ABSENT;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
+use crate::solver::contact::surface::layout::ABSENT;
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 
 /// A node inside an element that is not its own.

@@ -14,12 +14,12 @@ use crate::solver::contact::enforcement::ledger::Ledger;
 use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
-use crate::solver::contact::layout::{ABSENT, Layout};
-use crate::solver::contact::pairings::{Pairing, Pairings};
 use crate::solver::contact::search::locate::{Candidate, Interface, Locator};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
-use crate::solver::contact::skin::Skin;
+use crate::solver::contact::surface::layout::{ABSENT, Layout};
+use crate::solver::contact::surface::pairings::{Pairing, Pairings};
+use crate::solver::contact::surface::skin::Skin;
 use crate::solver::elements::Touch;
 use crate::vector::{add, cross, dot, scaled, subtract};
 

@@ -7,7 +7,7 @@
 use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
 use crate::comm::ExactSum;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::layout::ABSENT;
+use crate::solver::contact::surface::layout::ABSENT;
 use crate::solver::rigid::{Compliance, Six, applied, product};
 use crate::vector::{add, cross, subtract};
 

@@ -3,15 +3,15 @@
 use super::LocalProblem;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
-use crate::solver::contact::arcs::{Arcs, OPPOSED};
 use crate::solver::contact::check::node_face::NONE;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, Origin};
 use crate::solver::contact::enforcement::resultants::{Resultants, Share, Side};
 use crate::solver::contact::geometry::projection::area_normal;
-use crate::solver::contact::meetings::Meetings;
 use crate::solver::contact::node_result::{Details, Status};
-use crate::solver::contact::seen::Seen;
+use crate::solver::contact::observations::arcs::{Arcs, OPPOSED};
+use crate::solver::contact::observations::meetings::Meetings;
+use crate::solver::contact::observations::seen::Seen;
 use crate::vector::dot;
 
 impl LocalProblem {

@@ -5,9 +5,9 @@ use super::regional::Regional;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use crate::solver::contact::check::planes::PlaneNode;
-use crate::solver::contact::layout::{Layout, inverse};
 use crate::solver::contact::local_problem::{LocalProblem, Numbering};
 use crate::solver::contact::search::neighbourhood::SearchResult;
+use crate::solver::contact::surface::layout::{Layout, inverse};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Who must know of whose points in the iterations.

@@ -3,10 +3,10 @@
 use crate::comm::{Communicator, gather_for_all};
 use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::contact_nodes::ContactNodes;
-use crate::solver::contact::layout::Layout;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::occupancy::Occupancy;
+use crate::solver::contact::surface::layout::Layout;
 
 /// What has come to this rank for its search.
 pub struct Regional {

@@ -22,10 +22,10 @@ use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::layout::{ABSENT, Layout};
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::node_result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
+use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Forces on a node without contact. No sum that begins with +0 comes out as −0.

@@ -12,7 +12,7 @@ use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origi
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::{self, Projection};
-use crate::solver::contact::pairings::Pairing;
+use crate::solver::contact::surface::pairings::Pairing;
 use crate::vector::{add, dot, scaled, subtract};
 
 /// No face.

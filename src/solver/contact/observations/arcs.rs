@@ -4,11 +4,11 @@
 //! Looked at every few steps, and only at nodes that are slaves: those that faces of others push. Of each node the first and the
 //! last time are kept; two faces count as touched together where all their nodes have touched within the same stretch of time.
 
-use super::Contact;
-use super::geometry::edges;
-use super::geometry::faces::Faces;
-use super::geometry::projection::area_normal;
 use crate::comm::Communicator;
+use crate::solver::contact::Contact;
+use crate::solver::contact::geometry::edges;
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::projection::area_normal;
 use crate::vector::dot;
 
 /// Steps from look to look.

@@ -1,10 +1,10 @@
 //! What the deck lets touch as it is now: points, faces, edges, and interfaces.
 
 use super::exclusions::Exclusions;
-use super::geometry::edges::{Edge, Shape};
-use super::geometry::faces::Faces;
-use super::meetings::Blocks;
-use super::search::locate::{Interface, Rule};
+use crate::solver::contact::geometry::edges::{Edge, Shape};
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::observations::meetings::Blocks;
+use crate::solver::contact::search::locate::{Interface, Rule};
 use std::sync::Arc;
 
 /// No point.

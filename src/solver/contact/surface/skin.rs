@@ -1,17 +1,17 @@
 //! The surfaces that the deck lets touch, found in the mesh, and layouts made of them, again when elements go.
 
 use super::exclusions::Exclusions;
-use super::geometry::edges;
-use super::geometry::faces::Faces;
-use super::geometry::surface::{Surface, back_nodes, face_nodes};
 use super::layout::Layout;
-use super::meetings;
-use super::search::Box3;
-use super::search::locate::{Interface, Rule};
 use super::touching::Touching;
 use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh};
 use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
 use crate::solver::Body;
+use crate::solver::contact::geometry::edges;
+use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::surface::{Surface, back_nodes, face_nodes};
+use crate::solver::contact::observations::meetings;
+use crate::solver::contact::search::Box3;
+use crate::solver::contact::search::locate::{Interface, Rule};
 use std::sync::Arc;
 
 /// Middle of the box around some points, or what is left of one without end.
@@ -44,7 +44,7 @@ pub struct Skin {
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
     touching: Touching,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
-    pub(super) free: Vec<(u32, u32)>,
+    pub(in crate::solver::contact) free: Vec<(u32, u32)>,
 }
 
 impl Skin {

@@ -1,8 +1,8 @@
 //! Which blocks have met which: any contact that was found counts, whether or not it pushed, so that what is missing here has had
 //! no say in anything.
 
-use super::layout::Layout;
 use crate::comm::Communicator;
+use crate::solver::contact::surface::layout::Layout;
 
 /// Blocks that are followed, each a bit: of meshes with more nothing is known but whether anything met anything.
 pub const FOLLOWED: usize = 128;

@@ -1,8 +1,8 @@
 //! Blocks that CONTACT EXCLUSION keeps from touching each other, or themselves.
 
-use super::geometry::faces::Faces;
 use crate::mesh::Mesh;
 use crate::model::Model;
+use crate::solver::contact::geometry::faces::Faces;
 
 /// Which blocks do not touch which, by their places in the mesh.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,9 +1,9 @@
 //! What contact has met in a run: what the deck could leave out follows from what is missing here.
 
-use super::enforcement::constraint::Constraint;
-use super::enforcement::iterations::{LOOSER, Outcome};
 use super::meetings::Meetings;
 use crate::comm::Communicator;
+use crate::solver::contact::enforcement::constraint::Constraint;
+use crate::solver::contact::enforcement::iterations::{LOOSER, Outcome};
 use crate::vector::dot;
 
 /// What a looser tolerance would have spared in all steps.

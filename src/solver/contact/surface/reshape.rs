@@ -4,13 +4,13 @@
 //! the same tables; each looks at the edges whose first face it has and at the faces of its elements, and tells the others what
 //! has changed.
 
-use super::Contact;
-use super::check::edge_edge;
-use super::geometry::edges::{self, Shape, Side};
-use super::geometry::faces::{THINNEST, half_thickness};
 use super::layout::{ABSENT, Layout};
 use crate::comm::{Communicator, numbers_of_others};
 use crate::partition::dynamic::Parcels;
+use crate::solver::contact::Contact;
+use crate::solver::contact::check::edge_edge;
+use crate::solver::contact::geometry::edges::{self, Shape, Side};
+use crate::solver::contact::geometry::faces::{THINNEST, half_thickness};
 use crate::solver::nodes::Nodes;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ const THINNINGS: u32 = THINNEST as u32 + 1;
 impl Contact {
     /// Counts the step, and when it is time looks which edges stand out now and how thick elements are. Whether edges have
     /// changed, so that all ranks must search; on many ranks history is on its way then. All ranks call it.
-    pub(super) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
+    pub(in crate::solver::contact) fn reshape(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         self.age += 1;
         if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
             return false;
@@ -39,7 +39,7 @@ impl Contact {
 
     /// Gives the faces of all elements the depths that they have now. Searches look as far as the depths of the start, so that
     /// candidates stay what they are. All ranks call it.
-    pub(super) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
+    pub(in crate::solver::contact) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
         let faces = &self.layout.faces;
         let mut changed = Vec::new();
         for (face, sides) in &self.thicknesses {
