@@ -63,7 +63,7 @@ decompositions: build  # contact shared out by bisection, in slices and with the
 	done; done
 
 verify: needed         # the problems with known answers only, at full size, with what they found
-	cargo test --release --test 'verif*' --test 'contact_*' -- --nocapture --include-ignored
+	cargo test --release --test 'verification_*' -- --nocapture --include-ignored
 
 man: build             # man pages from the option table and the grammar
 	$(URTO) generate man > man/urto.1

@@ -1,6 +1,7 @@
-//! The stress test of `comm.rs` over MPI. Started by a launcher (`mpiexec -n 4 mpi_selftest-…`) it is one rank;
+//! The stress test of `ranks/comm.rs` over MPI. Started by a launcher (`mpiexec -n 4 mpi_selftest-…`) it is one rank;
 //! started by `cargo test --features mpi` it runs itself under mpiexec, and says so when there is none.
 
+#[path = "ranks/stress.rs"]
 mod stress;
 
 use std::process::{Command, ExitCode, Stdio};

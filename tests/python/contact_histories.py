@@ -1,5 +1,5 @@
 """Momentum and energy of each block, summed over full plot states, against forces and works of contact in the history, for
-tests/other_programs.rs.
+tests/results/other_programs.rs.
 
     python3 tests/python/contact_histories.py run.e run.h DENSITY
 

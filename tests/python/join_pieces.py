@@ -1,5 +1,5 @@
 """Joins the pieces of a split run by the numbers of nodes and elements, as other programs do, and holds them against the
-file of an unsplit run; also checks what the pieces say of their neighbours. For tests/other_programs.rs.
+file of an unsplit run; also checks what the pieces say of their neighbours. For tests/results/other_programs.rs.
 
     python3 tests/python/join_pieces.py whole.e piece.e.3.0 piece.e.3.1 ...
 

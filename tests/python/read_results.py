@@ -1,4 +1,4 @@
-"""Reads an EXODUS file that urto wrote, as another program sees it, and prints what it finds for tests/other_programs.rs.
+"""Reads an EXODUS file that urto wrote, as another program sees it, and prints what it finds for tests/results/other_programs.rs.
 
     python3 tests/python/read_results.py netcdf|vtk run.e
 

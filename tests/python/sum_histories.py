@@ -1,4 +1,4 @@
-"""Sums over full plot states, made from scratch, against the histories that urto wrote, for tests/other_programs.rs.
+"""Sums over full plot states, made from scratch, against the histories that urto wrote, for tests/results/other_programs.rs.
 
     python3 tests/python/sum_histories.py run.e run.h DENSITY_OF_BLOCK_1 DENSITY_OF_BLOCK_2
 

@@ -1,0 +1,278 @@
+//! Input that is not what it seems, and outputs that cannot be what they should: every one is answered with a message and
+//! an exit code, soon, and no file is lost.
+
+use crate::program::{Desk, Left, bar_deck, box_mesh, project, put_bar};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const SOON: f64 = 1e-5;
+/// Everything here ends at once; what does not by then never will.
+const PATIENCE: Duration = Duration::from_secs(100);
+
+/// Runs the program, and ends it when it does not end by itself.
+fn urto_in_time(desk: &Desk, arguments: &[&str]) -> Left {
+    let mut child = desk.start(arguments);
+    let begun = Instant::now();
+    while child.try_wait().expect("a process").is_none() {
+        if begun.elapsed() > PATIENCE {
+            child.kill().expect("a process");
+            panic!("urto {} does not end", arguments.join(" "));
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    Left::of(child.wait_with_output().expect("its words"))
+}
+
+/// A folder with a bar, its recipe, and a deck of that.
+fn desk_with_a_recipe() -> Desk {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    desk.put("r.mesh", "{include(\"r.inc\")}\n");
+    desk.put("r.inc", "BOX, 1, 0., 0., 0., 1., 1., 2., 1, 1, 2\n");
+    desk.put("r.i", &bar_deck(SOON, ""));
+    desk
+}
+
+/// Files and their texts, of which none may change.
+fn contents(desk: &Desk) -> Vec<(std::path::PathBuf, Vec<u8>)> {
+    let files = std::fs::read_dir(desk.path(".")).expect("a folder").map(|entry| entry.expect("a file").path());
+    let mut contents: Vec<_> =
+        files.filter(|path| path.is_file()).map(|path| (path.clone(), std::fs::read(path).expect("a file"))).collect();
+    contents.sort();
+    contents
+}
+
+#[test]
+#[cfg(unix)]
+fn no_output_is_written_over_an_input() {
+    use std::os::unix::fs::symlink;
+    let desk = desk_with_a_recipe();
+    desk.put("deck.e", &bar_deck(SOON, ""));
+    desk.put("deck.shutdown", &bar_deck(SOON, ""));
+    desk.put("deck.o", &bar_deck(SOON, ""));
+    desk.put("top.i", "{include(\"top.e\")}");
+    desk.put("top.e", &bar_deck(SOON, ""));
+    std::fs::copy(desk.path("bar.g"), desk.path("me.e")).expect("a copy");
+    std::fs::copy(desk.path("bar.g"), desk.path("mine.e.part")).expect("a copy");
+    std::fs::copy(desk.path("bar.g"), desk.path("picture.png")).expect("a copy");
+    std::fs::hard_link(desk.path("bar.g"), desk.path("hard.e")).expect("a link");
+    std::fs::hard_link(desk.path("r.inc"), desk.path("hard.g")).expect("a link");
+    symlink("bar.g", desk.path("soft.e")).expect("a link");
+    symlink("r.mesh", desk.path("soft.g")).expect("a link");
+    std::fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.put("data.csv", "0, 1\n1, 2\n");
+    let before = contents(&desk);
+    for (arguments, words) in [
+        (&["mesh", "r.mesh", "-o", "r.mesh"][..], "r.mesh is the recipe, and would be written over"),
+        (&["mesh", "r.mesh", "-o", "./sub/../r.mesh"], "is the recipe r.mesh"),
+        (&["mesh", "r.mesh", "-o", "soft.g"], "soft.g is the recipe r.mesh"),
+        (&["mesh", "r.mesh", "-o", "hard.g"], "hard.g is the recipe r.inc"),
+        (&["mesh", "r.mesh", "-o", "r.inc"], "r.inc is the recipe"),
+        (&["deck.e", "-m", "bar.g"], "deck.e is the deck"),
+        (&["deck.o", "-m", "bar.g"], "deck.o is the deck"),
+        (&["deck.shutdown", "-m", "bar.g"], "deck.shutdown is the deck"),
+        (&["top.i", "-m", "bar.g"], "top.e is the deck"),
+        (&["bar.i", "-m", "me.e", "-o", "me"], "me.e is the mesh"),
+        (&["bar.i", "-m", "mine.e.part", "-o", "mine"], "mine.e.part is the mesh"),
+        (&["bar.i", "-o", "soft"], "soft.e is the mesh bar.g"),
+        (&["bar.i", "-o", "hard"], "hard.e is the mesh bar.g"),
+        (&["r.i", "-m", "r.mesh", "-o", "r.mesh", "-q", "--ranks", "1", "--split", "--restart", "r.mesh"], "r.mesh"),
+        (&["view", "picture.png"], "picture.png is the file to draw"),
+        (&["view", "bar.g", "-o", "picture.png", "--animate"], "no states"),
+        (
+            &["plot", "me.e", "-v", "KE", "--reference", "data.csv", "--csv", "-o", "data.csv"],
+            "data.csv is the reference",
+        ),
+        (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.i"], "bar.i is the deck"),
+        (&["scale", "bar.i", "--ranks", "1", "--csv", "bar.g"], "bar.g is the mesh"),
+        (&["scale", "r.i", "--ranks", "1", "--csv", "r.inc"], "r.inc is the recipe of the mesh"),
+    ] {
+        let left = desk.urto(arguments).with(2);
+        left.says(&[words]);
+        assert!(contents(&desk) == before, "urto {} changes files", arguments.join(" "));
+    }
+    // Outputs of their own names do no harm, and old results are replaced.
+    desk.urto(&["mesh", "r.mesh", "-o", "r.g"]).with(0);
+    desk.urto(&["mesh", "r.mesh", "-o", "r.g"]).with(0);
+    desk.urto(&["bar.i", "-q", "--split", "--ranks", "2"]).with(0);
+    desk.urto(&["join", "bar.e", "-o", "bar.e.2.1"]).with(2).says(&["bar.e.2.1 is one of the pieces"]);
+    desk.urto(&["join", "bar.e"]).with(0);
+    desk.urto(&["join", "bar.e"]).with(0);
+}
+
+#[test]
+fn a_restart_file_is_not_written_over_by_results() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "WRITE RESTART, 5.E-6\n");
+    desk.urto(&["bar.i", "-q"]).with(0);
+    std::fs::copy(desk.path("bar.rsout"), desk.path("again.o")).expect("a copy");
+    desk.put("bar.i", &bar_deck(2.0 * SOON, "WRITE RESTART, 5.E-6\n"));
+    desk.urto(&["bar.i", "-q", "--restart", "again.o", "-o", "again"]).with(2).says(&["again.o is the restart file"]);
+    // Its own restart states are what a run that goes on replaces.
+    desk.urto(&["bar.i", "-q", "--restart", "bar.rsout"]).with(0);
+}
+
+#[test]
+fn a_run_that_cannot_end_is_refused() {
+    let desk = Desk::new();
+    put_bar(&desk, 1e9, "");
+    desk.urto(&["check", "bar.i"]).with(2).says(&["would not come to an end", "TERMINATION TIME", "help: "]);
+    desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(2).says(&["would not come to an end"]);
+    put_bar(&desk, SOON, "TIME STEP SCALE, 1.E-20\n");
+    desk.urto(&["bar.i", "-q"]).with(2).says(&["would not come to an end", "TIME STEP SCALE"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn pipes_devices_and_folders_are_not_waited_for() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    for name in ["pipe", "pipe.mesh", "pipe.i"] {
+        assert!(Command::new("mkfifo").arg(desk.path(name)).status().expect("mkfifo").success());
+    }
+    std::os::unix::fs::symlink("/dev/zero", desk.path("zero.mesh")).expect("a link");
+    desk.put("include.i", "{include(\"pipe\")}\n");
+    desk.put("zero.i", "{include(\"zero.mesh\")}\n");
+    let no_file = "a pipe, a socket or a device, not a file";
+    for (arguments, words) in [
+        (&["pipe.i"][..], "there is no deck pipe.i"),
+        (&["check", "/dev/zero"], "there is no deck /dev/zero"),
+        (&["check", "bar.i", "-m", "pipe"], no_file),
+        (&["check", "bar.i", "-m", "pipe.mesh"], no_file),
+        (&["check", "bar.i", "-m", "zero.mesh"], no_file),
+        (&["check", "bar.i", "-m", "/dev/zero"], no_file),
+        (&["check", "bar.i", "-m", "."], "a folder, not a file"),
+        (&["check", "include.i", "-m", "bar.g"], no_file),
+        (&["check", "zero.i", "-m", "bar.g"], no_file),
+        (&["mesh", "pipe"], no_file),
+        (&["view", "pipe"], no_file),
+        (&["diff", "bar.g", "pipe"], no_file),
+        (&["bar.i", "--restart", "pipe"], no_file),
+    ] {
+        let left = urto_in_time(&desk, arguments).with(2);
+        left.says(&[words]);
+    }
+}
+
+#[test]
+fn rubbish_is_given_up_on_after_a_hundred_messages() {
+    let desk = Desk::new();
+    let mesh = box_mesh([1, 1, 2], [1.0; 3], false);
+    for (name, line, count) in [
+        ("unknown.i", "COMMANDO, 1, 2\n", 300_000),
+        ("numbers.i", "1 2 3\n", 300_000),
+        ("braces.i", "{\n", 300_000),
+        ("ends.i", "{endif}\n", 100_000),
+        ("undefined.i", "{x} {y}\n", 100_000),
+        ("choices.i", "PLOT NODAL, FORCE\n", 100_000),
+    ] {
+        desk.put(name, &line.repeat(count));
+        desk.put_mesh(&name.replace(".i", ".g"), &mesh);
+        let left = urto_in_time(&desk, &["check", name]).with(2);
+        assert!(left.err.len() < 100_000, "{name}: {} bytes of messages", left.err.len());
+    }
+    desk.urto(&["check", "unknown.i"]).says(&["line 101 and those after it are not read", "100 errors"]);
+    let group = format!("{}MATERIAL, 2, ELASTIC, 1.\n{}END\n", bar_deck(SOON, ""), "STIFFNESS = 1.\n".repeat(100_000));
+    desk.put("group.i", &group.replace("EXIT\n", ""));
+    desk.put_mesh("group.g", &mesh);
+    urto_in_time(&desk, &["check", "group.i"]).with(2).says(&["STIFFNESS"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn words_that_are_lost_show_in_the_exit_code() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the device that is full");
+    for arguments in [&["explain"][..], &["check", "bar.i"], &["generate", "man"], &["--help"], &["run", "bar.i"]] {
+        let output = desk.command(arguments).stdout(full()).stderr(Stdio::piped()).output().expect("it starts");
+        let left = Left::of(output).with(1);
+        left.says(&["cannot write to the standard output: No space left on device"]);
+        assert!(!left.err.contains("panicked"), "{}", left.err);
+    }
+    // With nobody to complain to.
+    let status = desk.command(&["check", "bar.i"]).stdout(full()).stderr(full()).status().expect("it starts");
+    assert_eq!(status.code(), Some(1));
+    let table = desk.urto(&["scale", "bar.i", "--ranks", "1", "--steps", "1", "--csv", "/dev/full"]);
+    table.with(1).says(&["/dev/full", "No space left"]);
+    std::os::unix::fs::symlink("/dev/full", desk.path("full.png")).expect("a link");
+    desk.urto(&["view", "bar.g", "-o", "full.png"]).with(1).says(&["cannot write full.png: No space left"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_that_cannot_be_written_is_called_so() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    // Not even the administrator makes files there.
+    desk.urto(&["bar.i", "-q", "-o", "/sys/bar"]).with(1).says(&["cannot write into the folder /sys"]);
+    desk.urto(&["view", "bar.g", "-o", "/sys/bar.png"]).with(1).says(&["cannot write /sys/bar.png"]);
+    desk.urto(&["view", "bar.g", "-o", "none/bar.png"]).with(1).says(&["cannot write none/bar.png"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn files_that_may_not_grow_are_a_message() {
+    let desk = desk_with_a_recipe();
+    for arguments in ["mesh r.mesh --refine 20 -o large.g", "view bar.g -o large.png", "run bar.i --quiet"] {
+        let script = format!("ulimit -f 2; exec '{}' {arguments}", crate::program::URTO);
+        let output = Command::new("sh").args(["-c", &script]).current_dir(desk.path(".")).output().expect("sh");
+        Left::of(output).with(1).says(&["error: ", "File too large"]);
+    }
+}
+
+#[test]
+fn carriage_returns_alone_end_lines() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    desk.put("old.i", &bar_deck(SOON, "$ {x = 1}\nPLOT TIME, {x}\n").replace('\n', "\r"));
+    desk.urto(&["old.i", "-q", "-m", "bar.g"]).with(0);
+    desk.put("wrong.i", &bar_deck(SOON, "PRESURE, 1, 1\n").replace('\n', "\r"));
+    desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["wrong.i:9:1", "9 | PRESURE, 1, 1\n"]);
+}
+
+#[test]
+fn damaged_hdf5_files_are_refused() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    for name in ["damaged_panic.g", "damaged_crash_1.g", "damaged_crash_2.g"] {
+        let file = project("tests/fixtures").join(name).display().to_string();
+        for arguments in [&["check", "bar.i", "-m", &file][..], &["view", &file], &["diff", &file, "bar.g"]] {
+            let left = urto_in_time(&desk, arguments).with(2);
+            left.says(&[name, "the HDF5 library fails on it", "help: the file is damaged"]);
+            assert!(!left.err.contains("panicked"), "{}", left.err);
+        }
+    }
+    let sound = project("tests/fixtures/netcdf4_compressed.g").display().to_string();
+    desk.urto(&["view", &sound]).with(0);
+}
+
+#[test]
+fn a_piece_is_not_taken_for_the_whole() {
+    let desk = Desk::new();
+    put_bar(&desk, SOON, "");
+    desk.urto(&["bar.i", "-q", "--split", "--ranks", "2", "-o", "cut"]).with(0);
+    let left = desk.urto(&["check", "bar.i", "-m", "cut.e.2.0"]).with(2);
+    left.says(&["cut.e.2.0: this is one of the 2 pieces", "urto join cut.e", "epu"]);
+    // A piece can be looked at all the same.
+    desk.urto(&["view", "cut.e.2.0", "-o", "piece.png"]).with(0);
+}
+
+#[test]
+fn blocks_and_sets_may_be_number_zero() {
+    let desk = Desk::new();
+    let mut mesh = box_mesh([2, 2, 8], [0.01, 0.01, 0.04], false);
+    mesh.blocks[0].id = 0;
+    mesh.node_sets[0].id = 0;
+    mesh.side_sets[0].id = 0;
+    mesh.node_ids = (0..mesh.node_ids.len() as i64).collect();
+    mesh.element_ids = (0..mesh.element_ids.len() as i64).collect();
+    desk.put_mesh("bar.g", &mesh);
+    let loads = "NO DISPLACEMENT, X, 0\nRIGID SURFACE, 0, 0., 0., -1., 0., 0., 1.\nCONTACT MATERIAL, 0\n\
+                 DEATH, 0, VOLUME, MIN, 0.1\nPLOT NODAL, CONTACT\n";
+    desk.put("bar.i", &bar_deck(SOON, loads).replace("MATERIAL, 1,", "MATERIAL, 0,"));
+    desk.urto(&["bar.i", "-q", "--ranks", "3"]).with(0);
+    assert_eq!(desk.results("bar.e").mesh().expect("a mesh").blocks[0].id, 0);
+    desk.put("bar.i", &bar_deck(SOON, loads).replace("MATERIAL, 1,", "MATERIAL, -1,"));
+    desk.urto(&["bar.i", "-q"]).with(2).says(&["it must be 0 or more, as the number of every block is"]);
+}

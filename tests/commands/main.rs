@@ -1,0 +1,14 @@
+//! The program at the shell: what it takes, what it says, and what its verbs do.
+
+mod advice;
+mod cli;
+mod input;
+mod scale;
+mod sweep;
+mod trade;
+mod warnings;
+
+#[path = "../program/mod.rs"]
+mod program;
+#[path = "../support/mod.rs"]
+mod support;

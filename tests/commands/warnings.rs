@@ -1,0 +1,262 @@
+//! What a run tells of itself: on the terminal, in the log, in the last line; quiet, strict, on any number of ranks, and
+//! after a restart.
+
+use crate::program::{Desk, Left};
+use urto::exodus::{RestartHeader, read_restart, write_restart};
+
+const STEEL: &str = "YOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+
+/// A desk with a deck and the recipe of its mesh.
+fn desk(deck: &str, recipe: &str) -> Desk {
+    let desk = Desk::new();
+    desk.put("case.i", &format!("TITLE\n case\n{deck}EXIT\n"));
+    desk.put("case.mesh", &format!("TITLE\n case\n{recipe}"));
+    desk
+}
+
+/// One of the warnings: a scene that provokes it, how it is called, and words of it with a number and a place.
+struct Scene {
+    desk: Desk,
+    label: &'static str,
+    words: &'static [&'static str],
+}
+
+/// A square block whose edge along z is pushed inwards: one corner of its section turns inside out, and the volume
+/// stays positive. `to` is how far, of the block's edge.
+fn dented(to: f64) -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 1.E-2\nPLOT TIME, 1.E-3\nOUTPUT TIME, 1.E-3\nPLOT ELEMENT, CORNERS\nFUNCTION, 1\n0., 0.\n1.E-2, 1.\nEND\n\
+         PRESCRIBED DISPLACEMENT, X, 1, 1, {0}\nPRESCRIBED DISPLACEMENT, Y, 1, 1, {0}\nNO DISPLACEMENT, X, 2\n\
+         NO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, Z, 2\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}",
+        -to
+    );
+    desk(
+        &deck,
+        "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 2\nNODE SET EDGE, 1, X, 1., Y, 1.\nNODE SET PLANE, 2, X, 0.\n\
+         NODE SET EDGE, 2, X, 1., Y, 0.\n",
+    )
+}
+
+/// A beam of one layer that is bent: its elements resist by hourglass stiffness alone.
+fn bent() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 2.E-3\nOUTPUT TIME, 2.E-4\nPRESCRIBED FORCE, Z, 2, 1, 1.E4\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+         NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nMATERIAL, 4, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(&deck, "BOX, 4, 0., 0., 0., 1., 0.1, 0.1, 10, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n")
+}
+
+/// A block that is pressed on another with one pass in a step, which is never enough.
+fn one_pass() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 4.E-3\nOUTPUT TIME, 4.E-4\nCONTACT MATERIAL\nCONTACT PASSES, 1, 1.E-14\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+         PRESCRIBED VELOCITY, Z, 2, 1, -1.\nNO DISPLACEMENT, Z, 1\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}\
+         MATERIAL, 2, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(
+        &deck,
+        "BOX, 1, 0., 0., 0., 1., 1., 0.5, 3, 3, 2\nBOX, 2, 0.1, 0.2, 0.5, 0.7, 0.7, 0.5, 4, 4, 2\n\
+         NODE SET PLANE, 1, Z, 0.\nNODE SET PLANE, 2, Z, 1.\n",
+    )
+}
+
+/// Two blocks that begin with an overlap of `depth`.
+fn overlapping(depth: f64) -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 4.E-5\nCONTACT MATERIAL\nCONTACT OVERLAP, REMOVE\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}MATERIAL, 2, ELASTIC, 7800.\n{STEEL}"
+    );
+    let upper = 1.0 - depth;
+    desk(&deck, &format!("BOX, 1, 0., 0., 0., 1., 1., 1., 2, 2, 2\nBOX, 2, 0.3, 0.3, {upper}, 0.4, 0.4, 1., 2, 2, 2\n"))
+}
+
+/// A block that is driven into another: nothing gives way.
+fn driven() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 1.E-2\nOUTPUT TIME, 1.E-3\nCONTACT MATERIAL\nCONTACT ENERGY LIMIT, 1.E9\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+         PRESCRIBED VELOCITY, Z, 2, 1, -80.\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n\
+         NO DISPLACEMENT, X, 2\nNO DISPLACEMENT, Y, 2\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}MATERIAL, 2, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(
+        &deck,
+        "BOX, 1, 0., 0., 0., 1., 1., 1., 3, 3, 2\nBOX, 2, 0.4, 0.4, 1.1, 0.2, 0.2, 0.4, 1, 1, 1\n\
+         NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 2, 2\n",
+    )
+}
+
+/// A plate that flies and falls to pieces: every node goes on by itself.
+fn dust() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 1.E-4\nOUTPUT TIME, 1.E-5\nINITIAL VELOCITY MATERIAL, 1, 100., 0., 0.\nDEATH, 1, VOLUME, MAX, 0.5\n\
+         MATERIAL, 1, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 0.1, 3, 3, 1\n")
+}
+
+fn scenes() -> [Scene; 7] {
+    let scene = |desk, label, words| Scene { desk, label, words };
+    [
+        scene(
+            dented(0.7),
+            "corners inside out in block 1",
+            &["corners of 2 elements of block 1, of 2,", "worst in element 1 at ("],
+        ),
+        scene(
+            bent(),
+            "hourglass energy of block 4",
+            &["hourglass energy of block 4 is", "% of its internal", "in element"],
+        ),
+        scene(one_pass(), "passes of contact run out", &["the passes of contact have run out in", "overlaps at node"]),
+        scene(
+            overlapping(0.01),
+            "nodes moved out of initial overlaps",
+            &["nodes were moved out of faces", ": node", "at ("],
+        ),
+        scene(
+            overlapping(0.75),
+            "nodes begin deep inside elements",
+            &["nodes of contact surfaces begin deep inside", "on element"],
+        ),
+        scene(
+            driven(),
+            "nodes deep inside elements",
+            &["4 nodes are deeper than half an element", "node", "on element 14 at ("],
+        ),
+        scene(
+            dust(),
+            "debris carries energy",
+            &["32 free nodes", "carry a kinetic energy of", "100 % of the largest", "at node"],
+        ),
+    ]
+}
+
+/// Lines of a text that begin like this, which differ on no number of ranks.
+fn lines<'a>(text: &'a str, with: &str) -> Vec<&'a str> {
+    text.lines().filter(|line| line.contains(with)).collect()
+}
+
+#[test]
+fn every_warning_stands_in_three_places_and_is_the_same_on_any_ranks() {
+    for Scene { desk, label, words } in scenes() {
+        let left = desk.urto(&["case.i", "--ranks", "1"]).with(0);
+        let told = lines(&left.err, "warning: ");
+        let of_it = |line: &str| words.iter().all(|word| line.contains(word));
+        assert_eq!(told.iter().filter(|line| of_it(line)).count(), 1, "{label}: once on the terminal\n{}", left.err);
+        let log = desk.text("case.o");
+        let in_log = lines(&log, "***** WARNING: AT STEP");
+        assert_eq!(in_log.iter().filter(|line| of_it(line)).count(), 1, "{label}: once in the log\n{log}");
+        assert_eq!(left.err.matches("help: ").count(), told.len(), "{label}: each with advice\n{}", left.err);
+        assert_eq!(log.matches("\n  advice: ").count(), in_log.len(), "{label}: each with advice\n{log}");
+        let count = told.len();
+        let done = lines(&left.out, "done: ");
+        let end = format!(", with {count} warning");
+        assert!(done.len() == 1 && done[0].contains(&end) && done[0].contains(label), "{label}: {done:?}");
+        assert!(log.contains("W A R N I N G S") && log.contains(&label.to_uppercase()), "{label}: at the end\n{log}");
+        for ranks in ["2", "3"] {
+            let again = desk.urto(&["case.i", "--ranks", ranks, "-o", "more"]).with(0);
+            assert_eq!(lines(&again.err, "warning: "), told, "{label} on {ranks} ranks");
+            assert_eq!(lines(&desk.text("more.o"), "WARNING"), lines(&log, "WARNING"), "{label} on {ranks} ranks");
+        }
+    }
+}
+
+#[test]
+fn quiet_runs_warn_and_strict_ones_fail() {
+    let desk = overlapping(0.01);
+    let quiet = desk.urto(&["case.i", "--quiet"]).with(0);
+    assert_eq!(quiet.out, "");
+    assert!(quiet.err.starts_with("warning: bodies overlap in the mesh"), "{}", quiet.err);
+    let strict = desk.urto(&["case.i", "--quiet", "--strict"]).with(1);
+    assert!(
+        strict.err.contains("error: the run ended, with 1 warning: nodes moved out of initial overlaps"),
+        "{}",
+        strict.err
+    );
+    assert!(desk.text("case.o").contains("THE RUN IS COMPLETE, WITH 1 WARNING"), "strict runs are whole");
+    // Warnings of the deck count, too, and are not kept back.
+    desk.put("bar.i", &crate::program::bar_deck(1e-5, "TIME STEP SCALE, 1.01\n"));
+    desk.put_mesh("bar.g", &crate::program::box_mesh([1, 1, 2], [0.01, 0.01, 0.04], false));
+    let of_deck = desk.urto(&["bar.i", "-q", "--strict"]).with(1);
+    of_deck.says(&["TIME STEP SCALE: the factor is above 1", "with 1 warning: of the deck or the mesh"]);
+    desk.put("bar.i", &crate::program::bar_deck(1e-5, ""));
+    let sound: Left = desk.urto(&["bar.i", "-q", "--strict"]).with(0);
+    assert_eq!((sound.out.as_str(), sound.err.as_str()), ("", ""));
+    desk.put("bar.i", &crate::program::bar_deck(1e-8, ""));
+    let brief = desk.urto(&["bar.i", "-q"]).with(0);
+    assert!(brief.err.contains("the run is one step, made shorter to end there"), "{}", brief.err);
+}
+
+/// What has been warned of before a restart is not told again, but counts.
+#[test]
+fn a_continued_run_knows_what_it_was_warned_of() {
+    let desk = dented(0.7);
+    let deck = desk.text("case.i");
+    desk.put("case.i", &deck.replace("EXIT", "WRITE RESTART, 9.E-3\nEXIT"));
+    let whole = desk.urto(&["case.i", "-o", "whole", "--ranks", "2"]).with(0);
+    let told = lines(&whole.err, "warning: ").len();
+    assert!(told > 0 && lines(&whole.err, "corners of").len() == 1, "{}", whole.err);
+    let state = desk.path("whole.rsout.1");
+    let state = if state.exists() { state } else { desk.path("whole.rsout") };
+    let state = state.display().to_string();
+    let rest = desk.urto(&["case.i", "-o", "rest", "--restart", &state, "--ranks", "3", "--strict"]).with(1);
+    assert_eq!(lines(&rest.err, "warning: "), [""; 0], "{}", rest.err);
+    rest.says(&[&format!(", with {told} warning"), "corners inside out in block 1"]);
+}
+
+/// The state of a version that knew nothing of all this.
+#[test]
+fn a_state_without_findings_is_refused() {
+    let desk = dented(0.1);
+    let deck = desk.text("case.i");
+    desk.put("case.i", &deck.replace("EXIT", "WRITE RESTART, 5.E-3\nEXIT"));
+    desk.urto(&["case.i", "-q"]).with(0);
+    let found = read_restart(&desk.path("case.rsout")).expect("a restart file");
+    let identity = found.identity.replace("format: 2", "format: 1");
+    assert_ne!(identity, found.identity);
+    let header =
+        RestartHeader { mesh: &found.mesh, title: "old", qa: [const { String::new() }; 4], info: Vec::new(), identity };
+    let old = desk.path("old.rsout");
+    write_restart(&old, &header, found.snapshot, || Ok(())).expect("it can be written");
+    let left = desk.urto(&["case.i", "--restart", "old.rsout"]).with(2);
+    left.says(&[
+        "error: old.rsout is of another version",
+        "form 1",
+        "needs form 2",
+        "what contact has made",
+        "help: run from the start",
+    ]);
+}
+
+/// A block that is pushed through itself: long before its step collapses, its corners turn inside out.
+#[test]
+fn what_came_first_is_named_first() {
+    let desk = dented(1.6);
+    let left = desk.urto(&["case.i", "-q", "--ranks", "2"]).with(1);
+    let error = lines(&left.err, "error: ");
+    assert_eq!(error.len(), 1, "{}", left.err);
+    let (first, then) = (error[0].find("corners of 2 elements"), error[0].find("time step has collapsed"));
+    assert!(first.is_some() && first < then, "{}", error[0]);
+    assert!(error[0].contains("that came first, at step"), "{}", error[0]);
+    // A block that is coarse and bent has hourglass energy before, which is worth a warning but no cause.
+    let told = lines(&left.err, "warning: ");
+    assert!(told[0].contains("hourglass energy of block 1") && told[1].contains("corners of 2 elements"), "{told:?}");
+    assert!(desk.text("case.o").contains("***** ERROR: AT STEP"));
+}
+
+/// The field that is plotted, and DEATH by it.
+#[test]
+fn corners_are_plotted_and_may_end_an_element() {
+    let desk = dented(0.7);
+    desk.urto(&["case.i", "-q"]).with(0);
+    let results = desk.results("case.e");
+    let at = |state: usize| results.element("CORNER", state).expect("the variable");
+    let last = results.times().len() - 1;
+    assert!(at(0).iter().all(|corner| (corner - 1.0).abs() < 1e-12), "{:?}", at(0));
+    // A corner at (0.3, 0.3) of a square of unit edges: its Jacobian is 1 − 2·0.7 = −0.4, the mean one 1 − 0.7 = 0.3.
+    let expected = -0.4 / 0.3;
+    assert!(at(last).iter().all(|corner| (corner - expected).abs() < 0.05), "{:?}, {expected}", at(last));
+    let deck = desk.text("case.i");
+    desk.put("case.i", &deck.replace("EXIT", "DEATH, 1, CORNER, MIN, 0.\nEXIT"));
+    desk.urto(&["case.i", "-o", "dead"]).with(0);
+    assert!(desk.text("dead.o").contains("ELEMENTS TAKEN AWAY"));
+    assert!(!desk.text("dead.o").contains("INSIDE OUT"), "they are gone before a line is due");
+}

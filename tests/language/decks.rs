@@ -1,0 +1,641 @@
+//! The command language from outside: wrong decks with their whole messages, right decks, and a hundred thousand
+//! mutilated ones.
+
+use std::{fs, path::Path};
+
+use proptest::prelude::*;
+use urto::{
+    deck::{self, Deck, Source, Status, language},
+    material::{self, ElasticPlastic, Law, MATERIALS, Origin, Property, Range},
+    mesh::{Block, Mesh, NodeSet, SideSet},
+    model::{
+        self, Direction, ElementField, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli,
+        examine,
+    },
+};
+
+/// Two blocks of 1 × 1 × 2 hexahedra along z: node sets 1 (x = 0), 2 (y = 0), 3 (z = 0), 4 (top) and an empty 9;
+/// side sets 100 (bottom) and 200 (top).
+fn two_blocks() -> Mesh {
+    let coordinates: Vec<[f64; 3]> =
+        (0..20).map(|i| [f64::from(i % 2), f64::from(i / 2 % 2), f64::from(i / 4)]).collect();
+    let hex = |layer: u32| [0, 1, 3, 2, 4, 5, 7, 6].map(|corner| 4 * layer + corner);
+    let nodes = |keep: fn([f64; 3]) -> bool| -> Vec<u32> {
+        (0..20).filter(|&i| keep([f64::from(i % 2), f64::from(i / 2 % 2), f64::from(i / 4)])).collect()
+    };
+    let node_set = |id, nodes| NodeSet { id, name: String::new(), nodes };
+    let side_set = |id, sides| SideSet { id, name: String::new(), sides };
+    Mesh {
+        blocks: vec![
+            Block { name: "lower".into(), ..Block::hexahedra_of(1, [hex(0), hex(1)]) },
+            Block::hexahedra_of(2, [hex(2), hex(3)]),
+        ],
+        node_sets: vec![
+            node_set(1, nodes(|x| x[0] == 0.0)),
+            node_set(2, nodes(|x| x[1] == 0.0)),
+            node_set(3, nodes(|x| x[2] == 0.0)),
+            node_set(4, nodes(|x| x[2] == 4.0)),
+            node_set(9, Vec::new()),
+        ],
+        side_sets: vec![side_set(100, vec![(0, 4)]), side_set(200, vec![(3, 5)])],
+        node_ids: (1..=20).collect(),
+        element_ids: (1..=4).collect(),
+        coordinates: coordinates.into(),
+        ..Mesh::default()
+    }
+}
+
+/// Compares a text with a file; with URTO_BLESS=1 in the environment, writes the file instead.
+fn golden(path: &Path, text: &str) -> Result<(), String> {
+    if std::env::var_os("URTO_BLESS").is_some() {
+        return fs::write(path, text).map_err(|e| e.to_string());
+    }
+    let expected = fs::read_to_string(path).unwrap_or_default();
+    if expected == text {
+        return Ok(());
+    }
+    Err(format!("{}: expected\n{expected}\ngot\n{text}\nURTO_BLESS=1 accepts this", path.display()))
+}
+
+fn files(folder: &str, extension: &str) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<_> = entries.filter(|path| path.extension().is_some_and(|e| e == extension)).collect();
+    files.sort();
+    files
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn problem(text: &str) -> Problem {
+    examine(Source::new("t.i", text), None).unwrap_or_else(|messages| panic!("{messages}"))
+}
+
+#[test]
+fn wrong_decks_are_answered_as_written_down() {
+    let decks = files("tests/language/wrong_decks", "i");
+    assert!(decks.len() >= 60, "only {} wrong decks", decks.len());
+    let mut failures = Vec::new();
+    for path in decks {
+        let bytes = fs::read(&path).expect("the file was listed");
+        let text = match examine(Source::from_bytes(name(&path), &bytes), Some(&two_blocks())) {
+            Ok(problem) => problem.diagnostics.render(false),
+            Err(messages) => messages.render(false),
+        };
+        assert!(text.is_ascii() || !bytes.is_ascii(), "{}: plain messages are ASCII", path.display());
+        assert!(!text.is_empty(), "{}: nothing to say about it", path.display());
+        failures.extend(golden(&path.with_extension("expected"), &text).err());
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_command_that_is_built_is_used_by_a_deck() {
+    let mut used: Vec<String> = Vec::new();
+    for path in files("decks", "i") {
+        let (deck, found) = Deck::read(Source::open(&path).expect("the file was listed"), language());
+        assert!(!found.has_errors(), "{found}");
+        used.extend(deck.cards.iter().map(|card| card.name.clone()));
+    }
+    for entry in language().commands().filter(|e| e.status == Status::Built && e.name != "EXIT") {
+        assert!(used.contains(&entry.name), "no deck in decks/ uses {}", entry.name);
+    }
+}
+
+#[test]
+fn the_language_is_described_in_full() {
+    for entry in &language().entries {
+        assert!(!entry.does.is_empty(), "{} does nothing", entry.name);
+        for name in &entry.see {
+            assert!(language().entry(name).is_some(), "{} refers to {name}", entry.name);
+        }
+        let example = entry.example.join("\n");
+        if entry.status != Status::Built || example.is_empty() {
+            assert_ne!(entry.status, Status::Built, "{} has no example", entry.name);
+            continue;
+        }
+        let (deck, found) = Deck::read(Source::new(entry.name.as_str(), example), language());
+        let real = found.errors().filter(|e| !e.labels.is_empty()).count();
+        assert!(real == 0, "the example of {}: {found}", entry.name);
+        assert!(entry.name == "EXIT" || deck.cards[0].name == entry.name);
+    }
+}
+
+/// What PRONTO's language has for solids of hexahedra, as far as it is known, and where each form comes from; `V` is seen in
+/// a deck or a print file of PRONTO, `R` recalled.
+const VERIFIED: &str = "TITLE/TERMINATION TIME/OUTPUT TIME/PLOT TIME/WRITE RESTART/AXISYMMETRIC/NO DISPLACEMENT/
+    INITIAL VELOCITY MATERIAL/CONTACT SURFACE/PLOT NODAL/PLOT ELEMENT/PLOT STATE/MATERIAL";
+const RECALLED: &str = "PLANE STRAIN/READ RESTART/TIME STEP SCALE/HOURGLASS STIFFENING/BULK VISCOSITY/FUNCTION/EXIT/
+    EQUATION OF STATE/DETONATION POINT/NO ROTATION/PRESCRIBED DISPLACEMENT/PRESCRIBED VELOCITY/PRESCRIBED ACCELERATION/
+    PRESCRIBED FORCE/PRESSURE/ADAPTIVE PRESSURE/DISTRIBUTED LOAD/THERMAL STRESS/SILENT BC/INITIAL VELOCITY NODESET/
+    INITIAL VELOCITY ANGULAR/CONTACT MATERIAL/CONTACT DATA/CONTACT NODE SET/RIGID SURFACE/DELETE MATERIAL/DEATH/ACTIVE LIMITS/
+    MATERIAL POINT/INTEGRATION POINTS/SHELL/THICKNESS SCALE/SPH";
+/// What SANTOS adds, which is refused.
+const SANTOS: &str = "STEP CONTROL/RESIDUAL TOLERANCE/MAXIMUM ITERATIONS/MAXIMUM TOLERANCE/PREDICTOR SCALE FACTOR/
+    MINIMUM DAMPING FACTOR/INTERMEDIATE PRINT/ELASTIC SOLUTION/AUTO STEP/INITIAL STRESS";
+/// Material models with their spellings.
+const MODELS: &str =
+    "ELASTIC/ELASTIC PLASTIC/LOW DEN FOAM/LOW DENSITY FOAM/SOIL N FOAMS/SOILS AND FOAMS/SOIL AND CRUSHABLE FOAM/
+    VISCOPLASTIC/EP POWER HARD/DAMAGE/JOINTED ROCK/ORTHOTROPIC CRUSH/BAMMANN/VISCOELASTIC/CRUSHED SALT/THERMOELASTIC/
+    HYDRODYNAMIC/EP HYDRODYNAMIC/EP HYDRO/JOHNSON COOK/MOONEY RIVLIN/FOAM PLASTICITY/CONCRETE";
+const EQUATIONS: &str = "MG US-UP/MG POWER SERIES/JWL/IDEAL GAS";
+
+/// Every command and model of PRONTO's is either built, or refused or idle with a reason; what is of shells and particles
+/// waits for them. Nothing is left that only says that it is not there.
+#[test]
+fn the_language_of_pronto_is_known() {
+    let list = |names: &'static str| names.split('/').map(str::trim);
+    for (names, origin) in [(VERIFIED, Origin::Verified), (RECALLED, Origin::Recalled), (SANTOS, Origin::Recalled)] {
+        for name in list(names) {
+            let entry = language().entry(name).unwrap_or_else(|| panic!("{name} is not in the grammar"));
+            assert_eq!(entry.from, origin, "{name}");
+            let later = entry.family == "element";
+            assert!(later || !matches!(entry.status, Status::Planned { .. }), "{name} is neither built nor refused");
+        }
+    }
+    let has = |entry: &material::Entry, name: &str| entry.name == name || entry.aliases.contains(&name);
+    for name in list(MODELS) {
+        let refused = language().entry(name).is_some_and(|entry| matches!(entry.status, Status::Refused(_)));
+        assert!(refused || MATERIALS.iter().any(|entry| has(entry, name)), "{name} is neither built nor refused");
+    }
+    for name in list(EQUATIONS) {
+        let known = material::EQUATIONS_OF_STATE.iter().any(|e| e.name == name || e.aliases.contains(&name));
+        assert!(known, "there is no {name}");
+    }
+    // What is neither in these lists nor ours has come from nowhere.
+    for entry in language().commands().filter(|entry| entry.from != Origin::Ours) {
+        assert!(
+            [VERIFIED, RECALLED, SANTOS].into_iter().flat_map(list).any(|name| name == entry.name),
+            "{}",
+            entry.name
+        );
+    }
+}
+
+/// A deck in the manner of 1988: blanks for commas, remarks behind data, small and capital letters, no EXIT.
+const OLD_MANNER: &str = "TITLE
+ CASK - 10\" PUNCH, I = 1-4, O = 3-8  (5/1/88)
+TERMINATION TIME 40.0D-3
+PLOT TIME         1.0E-3
+plot nod       DISPL, REACTION, VELOCITY
+PLOT ELEMENT   STRESS, STRAIN, PRESSURE, *  $ goes on
+               VONMISES, ENERGY, DENSITY
+PLOT STATE     EQPS
+$
+$     #   MATERIAL
+$     1   OUTER SHELL
+$
+INITIAL VELOCITY MATERIAL  1 0, -175.8
+NO DISPLACEMENT X 1
+NO DISPLACEMENT X 1
+NO DISPLACEMENT Y 11
+
+MATERIAL, 1, ELASTIC PLASTIC, 7.324E-4   $ STEEL -- ROOM TEMPERATURE
+YOUNGS MODULUS, 28.1+6
+POISSONS RATIO,  0.3
+YIELD STRESS    34.0E3
+HARDENING MODULUS 3.12E5
+BETA, 0.0
+END
+";
+
+#[test]
+fn a_deck_in_the_old_manner() {
+    let Problem { model, diagnostics, .. } = problem(OLD_MANNER);
+    assert_eq!(diagnostics.render(false), "");
+    assert_eq!(model.title, " CASK - 10\" PUNCH, I = 1-4, O = 3-8  (5/1/88)");
+    assert_eq!(model.termination_time, 0.04);
+    assert_eq!(model.plot, PlotSchedule { interval: Some(1e-3), start: 0.0, stop: 0.08 });
+    assert_eq!(model.plot_requests.nodal, [NodalField::Displacement, NodalField::Reaction, NodalField::Velocity]);
+    assert_eq!(model.plot_requests.element.len(), 6);
+    assert_eq!(model.plot_requests.state, ["EQPS"]);
+    let velocity = [0.0, -175.8, 0.0];
+    assert_eq!(model.initial_velocities, [InitialVelocity::Material { block: 1, velocity }]);
+    assert_eq!(model.no_displacements.len(), 3); // repeating a card is legal
+    let law = ElasticPlastic { young: 28.1e6, poisson: 0.3, yield_stress: 34e3, hardening: 3.12e5, beta: 0.0 };
+    assert_eq!(model.materials[0].law, Law::ElasticPlastic(law));
+    assert_eq!(model.materials[0].density, 7.324e-4);
+    let notes: Vec<&str> = diagnostics.notes().map(|note| note.message.as_str()).collect();
+    assert_eq!(notes, ["assumed PLOT NODAL for `plot nod`", "assumed DISPLACEMENT for `DISPL`"]);
+}
+
+/// Every kind of expression and block.
+const EXPRESSIONS: &str = "TITLE
+ BAR OF {n = 4} BLOCKS {{length = 2.5}}
+$ {E = 28.1e6}  {steps = 10}  {nu = 0.3}   steel
+$ {include(\"tests/language/wrong_decks/include/expressions.inc\")}
+TERMINATION TIME {end = 40.0E-3}
+{if(n > 2 && nu < 0.5)}
+PLOT TIME {end / 40}
+{elseif(n == 1)}
+PLOT TIME 7
+{else}
+PLOT TIME {undefined}
+{endif}
+{loop(2, i, 1)}
+NO DISPLACEMENT {i == 1 ? \"X\" : 'Y'} {10 * i + 1}
+{endloop}
+$ {ECHO(OFF)}
+{c = sqrt(E / 7.324e-4)}
+$ {ECHO(ON)}
+{ifdef(length)}
+INITIAL VELOCITY MATERIAL  1 0, {-hypot(3, 4) * length}
+{endif}
+MATERIAL, 1, ELASTIC, {7.324e-4}
+YOUNGS MODULUS = {E}
+POISSONS RATIO = {nu}
+END
+";
+
+#[test]
+fn a_deck_of_expressions_means_what_it_evaluates_to() {
+    let Problem { model, diagnostics, .. } = problem(EXPRESSIONS);
+    assert_eq!(diagnostics.render(false), "");
+    assert_eq!((model.title.as_str(), model.termination_time), (" BAR OF 4 BLOCKS", 0.04));
+    assert_eq!((model.plot.interval, model.output_interval), (Some(1e-3), 1e-4));
+    let held: Vec<_> = model.no_displacements.iter().map(|held| (held.direction, held.node_set)).collect();
+    assert_eq!(held, [(Direction::X, 11), (Direction::Y, 21)]);
+    let velocity = [0.0, -12.5, 0.0];
+    assert_eq!(model.initial_velocities, [InitialVelocity::Material { block: 1, velocity }]);
+    assert_eq!(model.materials[0].law, Law::Elastic(urto::material::Elastic { young: 28.1e6, poisson: 0.3 }));
+}
+
+/// The least that a deck must say.
+const LEAST: &str = "TERM TIME 1\nMATERIAL 1 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
+
+#[test]
+fn defaults_of_a_deck_that_says_little() {
+    let model = problem(LEAST).model;
+    assert_eq!((model.time_step.scale, model.time_step.growth), (1.0, 1.1));
+    assert_eq!(model.time_step.moduli, StepModuli::Elastic);
+    assert_eq!((model.bulk_viscosity.linear, model.bulk_viscosity.quadratic), (0.06, 1.2));
+    assert_eq!(model.hourglass, model::DEFAULT_HOURGLASS);
+    assert_eq!((model.output_interval, model.plot.interval, model.plot.stop), (0.01, None, 2.0));
+    assert_eq!(model.plot_requests.nodal, [NodalField::Displacement]);
+}
+
+#[test]
+fn hourglass_commands_in_either_order() {
+    let hourglass = |text: &str| problem(&format!("{LEAST}{text}")).model.hourglass;
+    let flanagan = |stiffness, viscosity| Hourglass::FlanaganBelytschko { stiffness, viscosity };
+    assert_eq!(hourglass("HOURGLASS STIFFENING"), flanagan(0.05, 0.0));
+    assert_eq!(hourglass("HOURGLASS STIFFENING, 0.01, 0.03"), flanagan(0.01, 0.03));
+    assert_eq!(hourglass("HOURGLASS STIFFENING,, 0.03"), flanagan(0.05, 0.03));
+    assert_eq!(hourglass("HOURGLASS CONTROL, FLAN BELY"), flanagan(0.05, 0.0));
+    let both = "HOURGLASS STIFFENING, 0.02\nHOURGLASS CONTROL, FLANAGAN BELYTSCHKO, 0.5";
+    assert_eq!(hourglass(both), flanagan(0.01, 0.0));
+    let reversed = "HOURGLASS CONTROL, FLANAGAN BELYTSCHKO, 0.5\nHOURGLASS STIFFENING, 0.02";
+    assert_eq!(hourglass(reversed), flanagan(0.01, 0.0));
+    assert_eq!(hourglass("HOURGLASS CONTROL, ASSUMED STRAIN, 0.3"), Hourglass::AssumedStrain { factor: 0.3 });
+}
+
+#[test]
+fn words_mean_what_analysts_mean() {
+    let fields = |text: &str| problem(&format!("{LEAST}PLOT ELEMENT, {text}\n")).model.plot_requests.element;
+    assert_eq!(fields("STRE"), [ElementField::Stress], "PRONTO has no other word that begins so");
+    assert_eq!(fields("STRET, ROT"), [ElementField::Stretch, ElementField::Rotation]);
+    assert_eq!(fields("STRA"), [ElementField::Strain]);
+    for apostrophe in ["'", "\u{2019}"] {
+        let deck = LEAST.replace("YOU MOD", &format!("Young{apostrophe}s modulus"));
+        assert_eq!(problem(&deck).model.materials, problem(LEAST).model.materials);
+    }
+    let velocity = |fields: &str| problem(&format!("{LEAST}INITIAL VELOCITY MATERIAL, 1{fields}\n")).model;
+    for (fields, expected) in
+        [(",,,-5.", [0.0, 0.0, -5.0]), (",2.", [2.0, 0.0, 0.0]), (",,3.", [0.0, 3.0, 0.0]), (",0.", [0.0; 3])]
+    {
+        let given = InitialVelocity::Material { block: 1, velocity: expected };
+        assert_eq!(velocity(fields).initial_velocities, [given], "{fields}");
+    }
+}
+
+#[test]
+fn distribution_factors_are_told_to_be_unused_where_they_would_matter() {
+    let mut mesh = two_blocks();
+    mesh.weighted = [vec![3], vec![200]];
+    let head = with_a_neighbour("MATERIAL 1 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n");
+    let warnings = |commands: &str| -> Vec<String> {
+        let problem = examine(Source::new("t.i", format!("{head}{commands}")), Some(&mesh));
+        let problem = problem.unwrap_or_else(|messages| panic!("{messages}"));
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect()
+    };
+    let told = "PRESSURE: the distribution factors of side set 200 are not used";
+    assert_eq!(warnings("PRESSURE, 200, 1\nPRESSURE, 100, 1\nNO DISPLACEMENT, X, 3\n"), [told]);
+    let told = "PRESCRIBED FORCE: the distribution factors of node set 3 are not used";
+    assert_eq!(warnings("PRESCRIBED FORCE, X, 3, 1\nPRESCRIBED VELOCITY, X, 4, 1\n"), [told]);
+}
+
+#[test]
+fn all_stands_for_every_block_of_contact() {
+    let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
+    let contact = |text: &str| problem(&format!("{LEAST}{blocks}{text}")).model.contact;
+    assert_eq!(contact("CONTACT MATERIAL, ALL\n").materials, contact("CONTACT MATERIAL\n").materials);
+    assert_ne!(contact("CONTACT MATERIAL, 1\n").materials, contact("CONTACT MATERIAL, ALL\n").materials);
+    let coefficient = |text: &str, a: i64, b: i64| -> Option<f64> {
+        let data = contact(&format!("CONTACT MATERIAL, ALL\n{text}")).data;
+        let found: Vec<_> = data.iter().filter(|d| d.materials == [a, b] || d.materials == [b, a]).collect();
+        assert!(found.len() < 2, "{a} and {b} are paired once");
+        found.first().map(|data| data.friction.at_rest)
+    };
+    let all = "CONTACT DATA, ALL, ALL, 0.2\n";
+    for (a, b) in [(1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)] {
+        assert_eq!(coefficient(all, a, b), Some(0.2));
+    }
+    for text in [format!("{all}CONTACT DATA, 3, 1, 0.5\n"), format!("CONTACT DATA, 3, 1, 0.5\n{all}")] {
+        assert_eq!(coefficient(&text, 1, 3), Some(0.5), "what is said of a pair holds over what is said of all");
+        assert_eq!(coefficient(&text, 1, 2), Some(0.2));
+    }
+    let one = "CONTACT DATA, 2, ALL, 0.3, 0.25\n";
+    assert_eq!((coefficient(one, 2, 3), coefficient(one, 3, 1)), (Some(0.3), None));
+}
+
+#[test]
+fn loads_refer_to_functions_wherever_they_stand() {
+    let text = format!(
+        "{LEAST}PRESSURE 7 20 3.0\nGRAVITY 0 0 -9.81\nPRES VELO z 4 10\nRIGID SURFACE 7 0 0 0 0 0 -2\n\
+         FUNCTION 10\n0 1\nEND\nFUNCTION 20\n0 0\n1 5\nEND\n"
+    );
+    let model = problem(&text).model;
+    assert_eq!(model.functions[model.pressures[0].function].points, [(0.0, 0.0), (1.0, 5.0)]);
+    assert_eq!(model.gravities[0].function, None);
+    let motion = model.prescribed_motions[0];
+    assert_eq!((motion.direction, motion.node_set, motion.function, motion.scale), (Direction::Z, 4, 0, 1.0));
+    assert_eq!(model.rigid_surfaces[0].normal, [0.0, 0.0, -1.0]);
+}
+
+#[test]
+fn commands_that_are_not_built_stop_or_warn() {
+    for entry in language().commands().filter(|e| e.status != Status::Built) {
+        let fields = if entry.name == "NO ROTATION" { "X, 2" } else { "1, 2" };
+        let end = if entry.form == deck::Form::Group { "\nEND" } else { "" };
+        let result = examine(Source::new("t.i", format!("{LEAST}{}, {fields}{end}", entry.name)), None);
+        match entry.status {
+            Status::Planned { physics: false } | Status::Idle(_) => {
+                let problem = result.unwrap_or_else(|messages| panic!("{messages}"));
+                assert_eq!(problem.diagnostics.warnings().count(), 1, "{}", entry.name);
+            }
+            _ => assert_eq!(result.map_err(|d| d.errors().count()).err(), Some(1), "{}", entry.name),
+        }
+    }
+}
+
+/// A value that a property takes.
+fn some_value(range: Range) -> f64 {
+    let likely = [1.0, 0.3, 0.5 * (low(range) + high(range))];
+    likely.into_iter().find(|&value| range.contains(value)).expect("a value in the range")
+}
+
+fn low(range: Range) -> f64 {
+    if let Range::Between { low, .. } = range { low.0 } else { 0.0 }
+}
+
+fn high(range: Range) -> f64 {
+    if let Range::Between { high, .. } = range { high.0 } else { 2.0 }
+}
+
+/// A group of a block with lines for all these properties but one, which may stand there misspelt.
+fn group(head: &str, properties: &[Property], left_out: Option<&str>, instead: &str) -> String {
+    let line = |p: &Property| match left_out {
+        Some(keyword) if keyword == p.keyword => instead.to_string(),
+        _ => format!("{} = {}\n", p.keyword, some_value(p.range)),
+    };
+    format!("{head}\n{}END\n", properties.iter().map(line).collect::<String>())
+}
+
+/// A deck with a sound material for block 2, so that block 1 could take it.
+fn with_a_neighbour(groups: &str) -> String {
+    format!(
+        "TERMINATION TIME 1\nFUNCTION 1\n0 0\n1 1\nEND\n{groups}\
+         MATERIAL 2 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n"
+    )
+}
+
+/// The groups of block 1 for every law and every equation of state: what goes before, its head, its properties, what
+/// goes after.
+fn groups_of_all_laws() -> Vec<(String, String, &'static [Property])> {
+    let gas = "EQUATION OF STATE 1 IDEAL GAS\nGAMMA 1.4\nINITIAL ENERGY 1\nEND\n";
+    let laws = MATERIALS.iter().map(|law| {
+        let before = if law.name.contains("HYDRO") { gas } else { "" };
+        (before.to_string(), format!("MATERIAL 1, {}, 1.", law.name), law.properties)
+    });
+    let fluid = MATERIALS.iter().find(|law| law.name == "HYDRODYNAMIC").expect("the law of fluids").properties;
+    let equations = material::EQUATIONS_OF_STATE.iter().map(move |equation| {
+        let before = group("MATERIAL 1 HYDRODYNAMIC 1.", fluid, None, "");
+        (before, format!("EQUATION OF STATE 1, {}", equation.name), equation.properties)
+    });
+    laws.chain(equations).collect()
+}
+
+/// Errors of a deck that must have some; what it would compute, if it has none.
+fn errors_of(text: &str) -> Vec<String> {
+    match examine(Source::new("t.i", text), Some(&two_blocks())) {
+        Ok(problem) => panic!("taken:\n{text}\n{:?}", problem.model.materials),
+        Err(messages) => messages.errors().map(|d| d.message.clone()).collect(),
+    }
+}
+
+#[test]
+fn every_forgotten_property_is_named_and_no_block_gets_another_law() {
+    let mut tried = 0;
+    for (before, head, properties) in groups_of_all_laws() {
+        for property in properties.iter().filter(|p| p.default.is_none()) {
+            let deck = with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(property.keyword), "")));
+            let errors = errors_of(&deck);
+            let said = errors.iter().any(|e| e.ends_with(&format!("{} is missing", property.keyword)));
+            assert!(said, "{}: {errors:?}\n{deck}", property.keyword);
+            tried += 1;
+        }
+        // All of them forgotten.
+        let required: Vec<&str> = properties.iter().filter(|p| p.default.is_none()).map(|p| p.keyword).collect();
+        if !required.is_empty() {
+            let deck = with_a_neighbour(&format!("{before}{head}\nEND\n"));
+            let errors = errors_of(&deck);
+            assert!(errors.iter().any(|e| required.iter().all(|keyword| e.contains(keyword))), "{errors:?}\n{deck}");
+        }
+    }
+    assert!(tried > 60, "{tried} lines of all laws");
+}
+
+#[test]
+fn every_misspelt_property_is_an_error() {
+    for (before, head, properties) in groups_of_all_laws() {
+        for property in properties {
+            let keyword = property.keyword;
+            let value = some_value(property.range);
+            // A letter too much, no value, a word for a value, another line's keyword.
+            let mut lines = vec![format!("{keyword}QQQ {value}\n"), format!("{keyword} ROUGHLY\n")];
+            if property.default.is_none() {
+                lines.push(format!("{keyword}\n"));
+            }
+            lines
+                .extend(properties.iter().filter(|p| p.keyword != keyword).map(|p| format!("{} {value}\n", p.keyword)));
+            for line in lines {
+                errors_of(&with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(keyword), &line))));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_without_a_law_for_every_block_is_refused() {
+    let (mesh, mut model) = (two_blocks(), problem(&with_a_neighbour("")).model);
+    let missing = urto::solver::Body::new(&mesh, &model).err().map(|e| e.to_string());
+    assert_eq!(missing.as_deref(), Some("element block 1 has no MATERIAL"));
+    model.materials.clear();
+    assert!(urto::solver::Body::new(&mesh, &model).is_err());
+}
+
+/// Pieces that a mutation puts into a deck.
+const PIECES: &[&str] = &[
+    "\n",
+    ",",
+    "=",
+    " ",
+    "*",
+    "$",
+    "'",
+    "''",
+    "END",
+    "\nEND\n",
+    "MATERIAL",
+    "FUNCTION",
+    "TITLE",
+    "\nTITLE",
+    "PLOT",
+    "1E999",
+    "-1",
+    "0",
+    "1.5+3",
+    "99999999999999999999",
+    "\u{2212}1",
+    "\u{fffd}",
+    "\0",
+    "\r\n",
+    "\t",
+    "\u{feff}",
+    "\u{df}",
+    "{x}",
+    "XYZ",
+    "{",
+    "}",
+    "{{",
+    "}}",
+    "\\{",
+    "{x = 2}",
+    "{x++}",
+    "{1/0}",
+    "{\"a\"//'b'}",
+    "(",
+    ")",
+    "?",
+    ":",
+    "++",
+    "\n{if(x > 1)}\n",
+    "\n{else}\n",
+    "\n{endif}\n",
+    "\n{loop(3)}\n",
+    "\n{endloop}\n",
+    "{include(\"tests/language/wrong_decks/include/times.inc\")}",
+    "{ECHO(OFF)}",
+    "\n{VERBATIM(ON)}\n",
+];
+
+/// Applies one mutation: deletes, repeats or cuts a stretch, or puts a piece in. Positions are taken modulo the length.
+fn mutate(text: &mut Vec<char>, (kind, at, length, piece): (u8, usize, usize, usize)) {
+    let at = at % (text.len() + 1);
+    let end = (at + length).min(text.len());
+    match kind % 4 {
+        0 => drop(text.drain(at..end)),
+        1 => text.extend_from_within(at..end),
+        2 => text.truncate(text.len() - length.min(text.len()) / 8),
+        _ => drop(text.splice(at..at, PIECES[piece % PIECES.len()].chars())),
+    }
+}
+
+/// What an expression or a block can hold another of, before it and after it.
+const SHELLS: &[(&str, &str)] = &[
+    ("(", ")"),
+    ("-", ""),
+    ("!", ""),
+    ("1+", ""),
+    ("", "-1"),
+    ("1*1+", ""),
+    ("2^", ""),
+    ("", "^1"),
+    ("1<", ""),
+    ("1&&", ""),
+    ("", "||0"),
+    ("'a'//", ""),
+    ("", "//''"),
+    ("x=", ""),
+    ("x+=", ""),
+    ("++", ""),
+    ("1?", ":1"),
+    ("0?1:", ""),
+    ("sqrt(", ")"),
+    ("max(1,", ",2)"),
+    ("1,", ""),
+    ("}{", ""),
+    ("\\{", "\\}"),
+    ("\n{if(1)}\n", "\n{endif}\n"),
+    ("\n{else}\n", ""),
+    ("\n{loop(1)}\n", "\n{endloop}\n"),
+];
+
+/// Expressions as long and as deep as nobody writes them, on a stack of two megabytes, as every test has: in decks and in
+/// recipes they have a value or are refused.
+#[test]
+fn long_and_deep_expressions_are_answered() {
+    let shells = prop::collection::vec((0..SHELLS.len(), prop_oneof![1usize..5, 90usize..110, 1usize..15_000]), 1..4);
+    let cores = prop::sample::select(vec!["1", "'a'", "x", "", "1 2", "(", "f(1)"]);
+    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(500));
+    let outcome = cases.run(&(shells, cores, any::<bool>()), |(shells, core, closed)| {
+        let mut expression = core.to_string();
+        for (shell, count) in shells {
+            let (before, after) = SHELLS[shell];
+            expression = [&before.repeat(count), expression.as_str(), &after.repeat(count)].concat();
+        }
+        let brace = if closed { "}" } else { "" };
+        let deck = format!("{LEAST}$ {{{{x = 1}}}}{{{expression}{brace}\n");
+        if let Err(messages) = examine(Source::new("t.i", deck), None) {
+            prop_assert!(!messages.render(false).is_empty());
+        }
+        // A box that lacks most of its fields, so that no number makes it a large mesh.
+        let recipe = format!("BOX, {{{expression}{brace}\n");
+        prop_assert!(urto::mesher::make(&recipe, "t.mesh", 1).is_err());
+        Ok(())
+    });
+    outcome.unwrap_or_else(|why| panic!("{why}"));
+    let sum = format!("{{1{}}}", "+1".repeat(11_999));
+    assert_eq!(problem(&LEAST.replace("TIME 1", &format!("TIME {sum}"))).model.termination_time, 12_000.0);
+}
+
+#[test]
+fn a_hundred_thousand_mutilated_decks_are_answered() {
+    let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours"), EXPRESSIONS];
+    let mesh = two_blocks();
+    let mutations = prop::collection::vec((any::<u8>(), any::<usize>(), 0usize..60, any::<usize>()), 1..8);
+    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(100_000));
+    let outcome = cases.run(&(0usize..3, mutations), |(seed, mutations)| {
+        let mut text: Vec<char> = seeds[seed].chars().collect();
+        mutations.into_iter().for_each(|mutation| mutate(&mut text, mutation));
+        let text: String = text.into_iter().collect();
+        let messages = match examine(Source::new("t.i", text), Some(&mesh)) {
+            Ok(problem) => {
+                for block in &mesh.blocks {
+                    let materials = &problem.model.materials;
+                    prop_assert!(materials.iter().any(|m| m.block == block.id), "block {} has no law", block.id);
+                }
+                problem.diagnostics
+            }
+            Err(messages) => messages,
+        };
+        for label in messages.errors().flat_map(|diagnostic| &diagnostic.labels) {
+            let (file, span) = messages.source().origin_of(label.span);
+            prop_assert!(file.text().get(span.start..span.end).is_some(), "a span cuts a character");
+        }
+        messages.render(false);
+        Ok(())
+    });
+    outcome.unwrap_or_else(|why| panic!("{why}"));
+}

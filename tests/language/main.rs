@@ -1,0 +1,9 @@
+//! The command language and what is written about it: decks, recipes, manual pages, the tutorial.
+
+mod decks;
+mod man;
+mod recipes;
+mod tutorial;
+
+#[path = "../program/mod.rs"]
+mod program;

@@ -1,0 +1,12 @@
+//! Files that a run leaves: in pieces, for other programs, when it is killed, and to go on from.
+
+mod kill;
+mod other_programs;
+mod pieces;
+mod restart;
+mod restart_files;
+
+#[path = "../program/mod.rs"]
+mod program;
+#[path = "../support/mod.rs"]
+mod support;

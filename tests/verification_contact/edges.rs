@@ -1,0 +1,149 @@
+//! Edges that stand out against the lines of flat faces, edges that come to stand out, and overlaps that stay.
+//!
+//! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact.
+
+use crate::support::meshes::{add_node_set, recipe};
+use crate::support::penetration::{Skin, deepest};
+use crate::support::run::{Run, model, run, run_on};
+use crate::support::{at_least, between};
+use urto::mesh::Mesh;
+use urto::solver::Body;
+
+/// Deepest point of an edge in any plot state, as a part of a face.
+fn deepest_edge(run: &Run, mesh: &Mesh) -> f64 {
+    let skin = Skin::new(mesh);
+    let of = |state: &crate::support::run::State| {
+        deepest(skin.edges_inside(&state.positions(mesh))).map_or(0.0, |one| one.part)
+    };
+    run.states.iter().map(of).fold(0.0, f64::max)
+}
+
+fn elastic(block: usize, density: f64, modulus: f64, poisson: f64) -> String {
+    format!("MATERIAL, {block}, ELASTIC, {density}\nYOUNGS MODULUS = {modulus}\nPOISSONS RATIO = {poisson}\nEND\n")
+}
+
+/// A stiff brick of coarse elements stands on its long edge over a soft plate, across the lines of its mesh.
+fn brick_on_edge() -> Mesh {
+    recipe(
+        "TITLE\n brick on edge\nBOX, 1, -0.03, -0.03, -0.01, 0.06, 0.06, 0.01, 10, 10, 2\n\
+         BOX, 2, -0.02, -0.005, -0.005, 0.04, 0.01, 0.01, 2, 2, 2\nROTATE, 2, X, 45.\nROTATE, 2, Z, 20.\n\
+         TRANSLATE, 2, 0.001, 0.0013, 0.00708\n",
+    )
+}
+
+fn falling(edges: &str) -> String {
+    format!(
+        "TITLE\n brick on edge\nTERMINATION TIME, 1.E-4\nOUTPUT TIME, 1.E-6\nPLOT TIME, 5.E-6\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -20.\n\
+         CONTACT MATERIAL\nCONTACT EDGES, {edges}\n{}{}",
+        elastic(1, 2000., 5e9, 0.3),
+        elastic(2, 7850., 200e9, 0.3)
+    )
+}
+
+#[test]
+fn a_long_edge_does_not_sink_in_between_the_nodes() {
+    let mesh = brick_on_edge();
+    let [with, without] = ["ALL", "ON"].map(|edges| run(&falling(edges), &mesh));
+    let case = "brick on edge";
+    // Half a hundredth of the smaller of face and ten elements is left alone, and passes leave a little.
+    between(case, "deepest point of an edge, of a face", deepest_edge(&with, &mesh), 0.0, 0.01);
+    at_least(case, "the same where edges meet only edges that stand out", deepest_edge(&without, &mesh), 0.03);
+    between(case, "worst energy balance", with.worst_balance(), 0.0, 1e-4);
+    let taken = -with.last().totals.contact / with.initial_energy;
+    // Nodes that meet something still lose what a plastic impact of their masses would: at most that of the edge's nodes,
+    // a sixteenth of the brick's mass.
+    between(case, "work of contact over initial energy", taken, -1e-6, 0.0625);
+    let first = with.lines[0].totals.momentum[2];
+    let drift = |line: &crate::support::run::Line| ((line.totals.momentum[2] - first) / first).abs();
+    between(case, "drift of momentum", with.lines.iter().map(drift).fold(0.0, f64::max), 0.0, 1e-12);
+}
+
+/// A flat strip of four elements in x under a block; its nodes are driven up like a tent, the ridge along y in the middle.
+fn tent() -> Mesh {
+    let mut mesh = recipe(
+        "TITLE\n tent\nBOX, 1, -0.01, 0., 0., 0.02, 0.02, 0.001, 4, 2, 1\n\
+         BOX, 2, -0.01, -0.002, 0.0055, 0.02, 0.024, 0.008, 4, 8, 3\n",
+    );
+    add_node_set(&mut mesh, 1, |p| p[2] < 0.002 && p[0].abs() < 1e-9);
+    add_node_set(&mut mesh, 2, |p| p[2] < 0.002 && (p[0].abs() - 0.005).abs() < 1e-9);
+    add_node_set(&mut mesh, 3, |p| p[2] < 0.002 && p[0].abs() > 0.009);
+    add_node_set(&mut mesh, 4, |p| p[2] < 0.002);
+    add_node_set(&mut mesh, 5, |p| p[2] > 0.013);
+    mesh
+}
+
+fn folding(edges: &str) -> String {
+    let held = [("X", 4), ("Y", 4), ("Z", 3), ("X", 5), ("Y", 5), ("Z", 5)];
+    let held: String = held.map(|(axis, set)| format!("NO DISPLACEMENT, {axis}, {set}\n")).concat();
+    format!(
+        "TITLE\n tent\nTERMINATION TIME, 5.5E-4\nOUTPUT TIME, 1.E-5\nPLOT TIME, 1.E-5\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nCONTACT MATERIAL\nCONTACT EDGES, {edges}\nFUNCTION, 1\n0., 1.\nEND\n\
+         PRESCRIBED VELOCITY, Z, 1, 1, 10.\nPRESCRIBED VELOCITY, Z, 2, 1, 5.\n{held}{}{}",
+        elastic(1, 2000., 1e9, 0.),
+        elastic(2, 1000., 1e8, 0.3)
+    )
+}
+
+#[test]
+fn a_fold_meets_the_lines_of_a_face() {
+    let mesh = tent();
+    let [with, without] = ["ALL", "ON"].map(|edges| run(&folding(edges), &mesh));
+    // Faces beside the ridge turn by 2 atan(5.5/10) = 58 degrees: an edge that stands out, of nodes a centimetre apart.
+    between("tent", "deepest point of an edge, of a face", deepest_edge(&with, &mesh), 0.0, 0.02);
+    at_least("tent", "the same where lines take no part", deepest_edge(&without, &mesh), 0.05);
+}
+
+/// The same strip under a bar that stands on its edge along x, which crosses the ridge between the nodes of both.
+fn tent_under_a_bar() -> Mesh {
+    let mut mesh = recipe(
+        "TITLE\n tent\nBOX, 1, -0.01, 0., 0., 0.02, 0.02, 0.001, 4, 2, 1\n\
+         BOX, 2, -0.01, -0.003, -0.003, 0.02, 0.006, 0.006, 3, 2, 2\nROTATE, 2, X, 45.\nTRANSLATE, 2, 0., 0.005, 0.00975\n",
+    );
+    add_node_set(&mut mesh, 1, |p| p[2] < 0.002 && p[0].abs() < 1e-9);
+    add_node_set(&mut mesh, 2, |p| p[2] < 0.002 && (p[0].abs() - 0.005).abs() < 1e-9);
+    add_node_set(&mut mesh, 3, |p| p[2] < 0.002 && p[0].abs() > 0.009);
+    add_node_set(&mut mesh, 4, |p| p[2] < 0.002);
+    add_node_set(&mut mesh, 5, |p| p[2] > 0.0105);
+    mesh
+}
+
+#[test]
+fn a_fold_meets_an_edge() {
+    let mesh = tent_under_a_bar();
+    let [with, without] = ["ON", "OFF"].map(|edges| run(&folding(edges), &mesh));
+    // The ridge is flat in the mesh, and at 48 degrees when it meets the bar.
+    between("tent under a bar", "deepest point of an edge, of a face", deepest_edge(&with, &mesh), 0.0, 0.01);
+    at_least("tent under a bar", "the same without edges", deepest_edge(&without, &mesh), 0.05);
+}
+
+#[test]
+fn folds_are_the_same_on_any_number_of_ranks() {
+    let mesh = tent();
+    let deck = folding("ALL");
+    let bits = |run: &Run| run.end().positions(&mesh).concat().iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+    let one = bits(&run(&deck, &mesh));
+    for ranks in [2, 3, 5] {
+        assert!(bits(&run_on(ranks, &deck, &mesh).whole()) == one, "positions differ on {ranks} ranks");
+    }
+}
+
+#[test]
+fn overlaps_too_deep_to_be_taken_out_are_told() {
+    let mesh = recipe(
+        "TITLE\n deep\nBOX, 1, 0., 0., 0., 0.01, 0.01, 0.01, 4, 4, 4\n\
+         BOX, 2, 0.003, 0.003, 0.004, 0.004, 0.004, 0.012, 2, 2, 3\n",
+    );
+    let deck = format!(
+        "TITLE\n deep\nTERMINATION TIME, 1.E-7\nCONTACT MATERIAL\n{}{}",
+        elastic(1, 7850., 200e9, 0.3),
+        elastic(2, 7850., 200e9, 0.3)
+    );
+    let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
+    // The lower nine nodes and the eight around the middle of the column, and the node of the cube's top in the column.
+    assert_eq!((overlap.nodes, overlap.deep.nodes), (0, 18));
+    assert!((overlap.deep.deepest - 0.004).abs() < 1e-12, "{:?}", overlap.deep);
+    assert_eq!(mesh.coordinates[overlap.deep.node as usize].map(|x| (1e3 * x).round()), [5.0, 5.0, 4.0]);
+    let told = overlap.deep.warning(&mesh).unwrap_or_default();
+    assert!(told.contains("18 nodes") && told.contains("4.0000e-3"), "{told}");
+}

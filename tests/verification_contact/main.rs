@@ -1,0 +1,17 @@
+//! Contact against known answers, and in random scenes: what it must never do.
+
+mod bars;
+mod cases;
+mod edges;
+mod energy;
+mod erosion;
+mod extremes;
+mod friction;
+mod press_fit;
+mod rigid;
+mod shells;
+mod solids;
+mod tied;
+
+#[path = "../support/mod.rs"]
+mod support;

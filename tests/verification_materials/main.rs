@@ -1,0 +1,9 @@
+//! Material laws at work in whole runs: shocks, detonations, gases and large expansion, impact.
+
+mod fluids;
+mod gas_scenes;
+mod impact;
+mod shocks;
+
+#[path = "../support/mod.rs"]
+mod support;

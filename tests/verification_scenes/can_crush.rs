@@ -1,0 +1,87 @@
+//! The can crush (V-29): a can with a fixed bottom under a plate that falls on it tilted, and folds upon itself.
+//!
+//! `cargo test --test verification_scenes can_crush:: -- --nocapture` prints the numbers of docs/verification.md. It crushes a can
+//! of a fifth of the elements; the cans of the decks, which take minutes, are part of `make verify`.
+
+use crate::support::meshes::recipe;
+use crate::support::penetration::nothing_deeper;
+use crate::support::run::{Run, run_on};
+use crate::support::{at_least, between, close};
+use urto::mesh::Mesh;
+
+const DECK: &str = include_str!("../../decks/can_crush.i");
+const RECIPE: &str = include_str!("../../meshes/can_crush.mesh");
+const PAPER_DECK: &str = include_str!("../../decks/can_crush_paper.i");
+const PAPER_RECIPE: &str = include_str!("../../meshes/can_crush_paper.mesh");
+
+/// A text with one part, which must be there, changed.
+fn with(text: &str, old: &str, new: &str) -> String {
+    assert!(text.contains(old), "there is no {old:?} any more");
+    text.replace(old, new)
+}
+
+#[test]
+fn v29_meshes_are_those_of_the_paper() {
+    for text in [RECIPE, PAPER_RECIPE] {
+        let mesh = recipe(text);
+        assert_eq!((mesh.element_count(), mesh.coordinates.len()), (7152, 10088));
+    }
+}
+
+#[test]
+fn v29_energy_of_the_plates() {
+    // ½ ρ V v² of 16 x 8 x 2.5 and of 22 x 11 x 2.5 cubic inches at 5000 in/s.
+    let at_rest = |deck: &str, end: &str| with(deck, end, "TERMINATION TIME, 1.E-6");
+    let run = run_on(2, &at_rest(DECK, "TERMINATION TIME, 4.3E-3"), &recipe(RECIPE)).whole();
+    close("V-29", "initial kinetic energy", run.initial_energy, 0.5 * 7.324e-4 * 320.0 * 25e6, 1e-12);
+    let run = run_on(2, &at_rest(PAPER_DECK, "TERMINATION TIME, 3.2E-3"), &recipe(PAPER_RECIPE)).whole();
+    close("V-29 paper", "initial kinetic energy", run.initial_energy, 5.551e6, 1e-3);
+}
+
+#[test]
+fn v29_coarse_can_is_crushed() {
+    let text = with(RECIPE, "3,       40,     40,    HALF", "2,       24,     24,    HALF");
+    let mesh = recipe(&with(&text, "28, 28, 3", "14, 14, 2"));
+    let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 4.E-5"), &mesh).whole();
+    check("V-29 coarse", &run, &mesh);
+}
+
+#[test]
+#[ignore = "minutes; make verify runs it"]
+fn v29_can_is_crushed() {
+    let mesh = recipe(RECIPE);
+    let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
+    check("V-29", &run, &mesh);
+}
+
+#[test]
+#[ignore = "minutes; make verify runs it"]
+fn v29_can_of_the_paper_is_crushed() {
+    let mesh = recipe(PAPER_RECIPE);
+    let run = run_on(2, &with(PAPER_DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
+    check("V-29 paper", &run, &mesh);
+}
+
+/// Energy, folds that touch, and no node inside anything.
+fn check(case: &str, run: &Run, mesh: &Mesh) {
+    between(case, "worst energy balance", run.worst_balance(), 0.0, 0.02);
+    // What contact takes is booked apart, but must be as small: an elastic impact takes nothing.
+    let taken = -run.last().totals.contact / run.initial_energy;
+    between(case, "work of contact forces over the initial energy", taken, -1e-6, 0.02);
+    // Every can is crushed in earnest: it takes up at least half of what the smaller plate brings.
+    let lost = run.initial_energy - run.last().totals.kinetic;
+    at_least(case, "energy that the can has taken up", lost, 0.5 * 2.9296e6);
+    at_least(case, "nodes of the can that have touched the can in a state", folded(run, mesh) as f64, 20.0);
+    nothing_deeper(case, run, mesh, 0.05);
+}
+
+/// The number of nodes of the can that meet an element of the can in any state.
+fn folded(run: &Run, mesh: &Mesh) -> usize {
+    let can = mesh.blocks[0].len();
+    let of_can = |element: f64| mesh.element_ids[..can].binary_search(&(element as i64)).is_ok();
+    let mut nodes: Vec<u32> = mesh.blocks[0].nodes.clone();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let meets = |n: u32| run.states.iter().any(|state| of_can(state.nodal("CONTFACE")[n as usize]));
+    nodes.into_iter().filter(|&n| meets(n)).count()
+}

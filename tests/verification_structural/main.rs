@@ -1,0 +1,11 @@
+//! Shells, beams and trusses against known answers.
+
+mod beams;
+mod shell_extremes;
+mod shell_tubes;
+mod shells;
+mod square_tube;
+mod trusses;
+
+#[path = "../support/mod.rs"]
+mod support;
