@@ -4,6 +4,7 @@
 //! meet; it has numbers of its own, in the order of the layout, so that ties fall the same way.
 
 mod costs;
+mod history;
 mod outcome;
 
 use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict};
@@ -31,21 +32,7 @@ use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use std::sync::Arc;
 
-/// What contact carries from step to step, by the numbers of the layout.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct History {
-    /// Points and the faces that they touch.
-    pub points: Vec<(u32, [FaceContact; MAX_FACES])>,
-    /// Pairs of edges that touch.
-    pub edges: Vec<EdgeContact>,
-    /// Nodes of planes with contact.
-    pub planes: Vec<PlaneHistory>,
-    /// Points that have cost more than to sleep in the last step, and how much more; see [`LocalProblem::costs`].
-    pub costs: Vec<(u32, u32)>,
-}
-
-/// A node of a plane: its number among those of all planes, and what its contact carries.
-pub type PlaneHistory = (u32, Carried);
+pub use history::{History, PlaneHistory};
 
 /// Numbers in the layout of the points, faces and edges of a local problem, ascending: the place in a list is the local number.
 #[derive(Debug, Clone, Default)]
@@ -240,50 +227,6 @@ impl LocalProblem {
         self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
     }
 
-    /// What is carried from step to step.
-    pub fn history(&self) -> History {
-        let face = |face: u32| if face == NONE { NONE } else { self.numbering.faces[face as usize] };
-        let points = self.numbering.points.iter().enumerate().map(|(here, &point)| (self.history[here], point));
-        let touching = points.filter(|(past, _)| *past != NO_CONTACT);
-        let points =
-            touching.map(|(past, point)| (point, past.map(|past| FaceContact { face: face(past.face), ..past })));
-        let edges = self.edge_history.iter();
-        let planes = self.planes.iter().filter(|plane_node| plane_node.carried != Carried::NOTHING);
-        History {
-            points: points.collect(),
-            edges: edges
-                .map(|past| EdgeContact { pair: past.pair.map(|e| self.numbering.edges[e as usize]), ..*past })
-                .collect(),
-            planes: planes.map(|plane_node| (plane_node.number, plane_node.carried)).collect(),
-            costs: self.costs(),
-        }
-    }
-
-    /// Puts back what was carried, as far as it concerns what is here.
-    pub fn restore(&mut self, mut history: History) {
-        for (point, pasts) in history.points {
-            let here = place(&self.numbering.points, point) as usize;
-            if here < self.history.len() {
-                let mine = self.history.own(here);
-                *mine = pasts.map(|past| FaceContact { face: place(&self.numbering.faces, past.face), ..past });
-                // Those first whose faces are left.
-                mine.sort_by_key(|past| past.face == NONE);
-            }
-        }
-        history.edges.sort_by_key(|past| past.pair);
-        let edge = |edge: u32| self.numbering.edges.binary_search(&edge).ok().map(|edge| edge as u32);
-        let pairs = history.edges.into_iter().filter_map(|past| {
-            let [first, second] = past.pair;
-            Some(EdgeContact { pair: [edge(first)?, edge(second)?], ..past })
-        });
-        self.edge_history = pairs.collect();
-        for (number, carried) in history.planes {
-            if let Ok(plane_node) = self.planes.binary_search_by_key(&number, |plane_node| plane_node.number) {
-                self.planes[plane_node].carried = carried;
-            }
-        }
-    }
-
     /// Finds the constraints of a step, whose motion is in `motion`; `met` learns which blocks meet.
     pub fn find_constraints(&mut self, setting: &StepInput, step: &StepTimes, met: &mut Meetings) {
         match self.motion.instructions().vectors() {
@@ -454,28 +397,6 @@ impl LocalProblem {
                     constraints.push(*constraint);
                 }
                 EdgeVerdict::Apart(apart) => locator.let_pair_wait(place, apart),
-            }
-        }
-    }
-
-    /// Keeps the force of a constraint: the iterations of the next step begin with it.
-    fn remember(&mut self, constraint: usize) {
-        let c = self.constraints[constraint];
-        match c.origin {
-            Origin::Face(_, place) => {
-                let past = &mut self.history.own(c.members[0] as usize)[place as usize];
-                past.carried = c.carried;
-            }
-            Origin::Edges(first, second) => {
-                let pair = [first, second].map(|edge| place(&self.numbering.edges, edge));
-                if let Ok(i) = self.edge_history.binary_search_by(|past| past.pair.cmp(&pair)) {
-                    self.edge_history[i].carried = c.carried;
-                }
-            }
-            Origin::Plane(number) => {
-                if let Ok(plane_node) = self.planes.binary_search_by_key(&number, |plane_node| plane_node.number) {
-                    self.planes[plane_node].carried = c.carried;
-                }
             }
         }
     }
