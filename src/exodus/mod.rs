@@ -5,29 +5,19 @@
 //! [`Mesh`](crate::mesh::Mesh). The netCDF library serialises all calls in a process, so one rank should read and
 //! write for all.
 
-mod arrays;
-mod checksum;
-mod compare;
-pub mod container;
-mod error;
-mod genesis;
-mod names;
+mod file;
+mod mesh;
 pub mod pieces;
-mod probe;
-mod read;
-mod restart;
 mod results;
-mod results_writer;
-mod slabs;
-pub mod tables;
-mod write;
 
-pub use compare::{Comparison, Difference, Place, Tolerance, compare};
-pub use error::{MeshError, ResultsError};
-pub use probe::{probe_with, try_out};
-pub use read::{read_mesh, read_mesh_together};
-pub use restart::{Restart, RestartHeader, read_restart, restart_number, write_restart};
+pub use file::container;
+pub use file::error::{MeshError, ResultsError};
+pub use file::probe::{probe_with, try_out};
+pub use file::slabs::Together;
+pub use mesh::read::{read_mesh, read_mesh_together};
+pub use mesh::tables;
+pub use mesh::write::{names_in_writing, write_mesh};
 pub use results::Results;
-pub use results_writer::{ResultsHeader, ResultsWriter, StateWriter};
-pub use slabs::Together;
-pub use write::{names_in_writing, write_mesh};
+pub use results::compare::{Comparison, Difference, Place, Tolerance, compare};
+pub use results::restart::{Restart, RestartHeader, read_restart, restart_number, write_restart};
+pub use results::writer::{ResultsHeader, ResultsWriter, StateWriter};

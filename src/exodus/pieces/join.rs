@@ -1,12 +1,12 @@
 //! Pieces become the file that an unsplit run writes, byte for byte.
 
-use super::super::error::ResultsError;
-use super::super::names;
-use super::super::results::Results;
-use super::super::results_writer::{ResultsHeader, ResultsWriter};
 use super::gather::Gathering;
 use super::read::{Told, told};
 use super::{Sizes, parts_of_name, piece_path};
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::file::names;
+use crate::exodus::results::Results;
+use crate::exodus::results::writer::{ResultsHeader, ResultsWriter};
 use crate::mesh::{Mesh, Places};
 use std::path::{Path, PathBuf};
 

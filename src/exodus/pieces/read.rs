@@ -1,11 +1,11 @@
 //! What a piece says of itself: its part of the mesh, and its places in the whole.
 
-use super::super::arrays::Arrays;
-use super::super::error::ResultsError;
-use super::super::names::{self, WholeFamily};
-use super::super::read;
-use super::super::results::Results;
 use super::Sizes;
+use crate::exodus::file::arrays::Arrays;
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::file::names::{self, WholeFamily};
+use crate::exodus::mesh::read;
+use crate::exodus::results::Results;
 use crate::mesh::{Part, Places};
 use std::path::Path;
 

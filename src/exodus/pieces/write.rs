@@ -1,8 +1,8 @@
 //! The arrays that make a file a piece.
 
-use super::super::names::{self, WholeFamily};
-use super::super::write::{Writer, one_based};
 use super::Piece;
+use crate::exodus::file::names::{self, WholeFamily};
+use crate::exodus::mesh::write::{Writer, one_based};
 
 /// Version of the Nemesis conventions.
 const NEMESIS_VERSION: f32 = 2.6;

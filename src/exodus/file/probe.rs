@@ -14,8 +14,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use super::arrays::Arrays;
-use super::results::Results;
+use crate::exodus::file::arrays::Arrays;
+use crate::exodus::results::Results;
 
 /// The program that tries files, and what stands before the file on its command line.
 static PROGRAM: OnceLock<(PathBuf, Vec<OsString>)> = OnceLock::new();
@@ -48,7 +48,7 @@ pub fn try_out(path: &Path) {
 ///
 /// # Errors
 /// When it does not survive the file.
-pub(super) fn vouch(path: &Path) -> Result<(), String> {
+pub(in crate::exodus) fn vouch(path: &Path) -> Result<(), String> {
     let Some((program, arguments)) = PROGRAM.get() else { return Ok(()) };
     let mut command = Command::new(program);
     command.args(arguments).arg(path).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());

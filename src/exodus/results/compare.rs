@@ -5,8 +5,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::error::ResultsError;
-use super::results::Results;
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::results::Results;
 use crate::mesh::Mesh;
 
 /// How far two values may lie apart and still count as equal.

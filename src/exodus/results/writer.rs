@@ -9,11 +9,11 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::container::{Container, Layout, inspect};
-use super::error::ResultsError;
-use super::pieces::Piece;
-use super::restart::Extra;
-use super::write::{Contents, LINE_WIDTH, cut, write_file};
+use crate::exodus::file::container::{Container, Layout, inspect};
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::mesh::write::{Contents, LINE_WIDTH, cut, write_file};
+use crate::exodus::pieces::Piece;
+use crate::exodus::results::restart::Extra;
 use crate::mesh::Mesh;
 
 /// Offset of the number of records in every netCDF classic file.
@@ -71,7 +71,11 @@ impl ResultsWriter {
     }
 
     /// The same, with what EXODUS knows nothing of.
-    pub(super) fn create_with(path: &Path, header: &ResultsHeader, extra: &Extra) -> Result<Self, ResultsError> {
+    pub(in crate::exodus) fn create_with(
+        path: &Path,
+        header: &ResultsHeader,
+        extra: &Extra,
+    ) -> Result<Self, ResultsError> {
         let mesh = header.mesh;
         let mut qa = mesh.qa.clone();
         qa.push(header.qa.clone());
@@ -107,7 +111,7 @@ impl ResultsWriter {
     }
 
     /// Waits until all that was written is on the disk, where it outlives a power failure.
-    pub(super) fn sync(&self) -> Result<(), ResultsError> {
+    pub(in crate::exodus) fn sync(&self) -> Result<(), ResultsError> {
         self.file.sync_all().map_err(ResultsError::io("write", &self.path))
     }
 

@@ -5,24 +5,24 @@ use std::path::{Path, PathBuf};
 use netcdf::types::NcTypeDescriptor;
 use netcdf::{FileMut, Options};
 
-use super::arrays::Character;
-use super::error::ResultsError;
-use super::names::{self, Family};
-use super::pieces::Piece;
-use super::restart::{self, Extra};
+use crate::exodus::file::arrays::Character;
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::file::names::{self, Family};
+use crate::exodus::pieces::Piece;
+use crate::exodus::results::restart::{self, Extra};
 use crate::mesh::Mesh;
 
 /// The version of the EXODUS conventions that these files keep.
 const EXODUS_VERSION: f32 = 8.03;
 /// Width of a QA text and of an info line, with the final NUL.
 const STRING_WIDTH: usize = 33;
-pub(super) const LINE_WIDTH: usize = 81;
+pub(in crate::exodus) const LINE_WIDTH: usize = 81;
 /// From this many bytes on a variable needs the 64-bit data format; older libraries fail at 2 GiB.
 const LARGE_VARIABLE: usize = 1 << 31;
 
 /// What a file holds beside the mesh. Empty lists are left out of the file.
 #[derive(Default)]
-pub(super) struct Contents<'a> {
+pub(in crate::exodus) struct Contents<'a> {
     pub title: &'a str,
     pub qa: &'a [[String; 4]],
     pub info: &'a [String],
@@ -44,7 +44,7 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<(), ResultsError> {
 }
 
 /// Writes a complete file without states, first under another name.
-pub(super) fn write_file(path: &Path, mesh: &Mesh, contents: &Contents) -> Result<(), ResultsError> {
+pub(in crate::exodus) fn write_file(path: &Path, mesh: &Mesh, contents: &Contents) -> Result<(), ResultsError> {
     let unfinished = beside(path);
     let written = Writer::create(&unfinished, mesh, contents).and_then(|mut writer| {
         writer.define()?;
@@ -71,8 +71,8 @@ fn beside(path: &Path) -> PathBuf {
 }
 
 /// A file being defined and filled.
-pub(super) struct Writer<'a> {
-    pub(super) file: FileMut,
+pub(in crate::exodus) struct Writer<'a> {
+    pub(in crate::exodus) file: FileMut,
     mesh: &'a Mesh,
     contents: &'a Contents<'a>,
     /// Numbers need 64 bits.
@@ -141,18 +141,22 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds dimensions; one of length zero is left out, as netCDF would make it unlimited.
-    pub(super) fn dimensions(&mut self, list: &[(&str, usize)]) -> netcdf::Result<()> {
+    pub(in crate::exodus) fn dimensions(&mut self, list: &[(&str, usize)]) -> netcdf::Result<()> {
         for &(name, length) in list.iter().filter(|(_, length)| *length > 0) {
             self.file.add_dimension(name, length)?;
         }
         Ok(())
     }
 
-    pub(super) fn variable<T: NcTypeDescriptor>(&mut self, name: &str, dimensions: &[&str]) -> netcdf::Result<()> {
+    pub(in crate::exodus) fn variable<T: NcTypeDescriptor>(
+        &mut self,
+        name: &str,
+        dimensions: &[&str],
+    ) -> netcdf::Result<()> {
         self.file.add_variable::<T>(name, dimensions).map(drop)
     }
 
-    pub(super) fn numbers(&mut self, name: &str, dimension: &str) -> netcdf::Result<()> {
+    pub(in crate::exodus) fn numbers(&mut self, name: &str, dimension: &str) -> netcdf::Result<()> {
         if self.wide { self.variable::<i64>(name, &[dimension]) } else { self.variable::<i32>(name, &[dimension]) }
     }
 
@@ -283,11 +287,11 @@ impl<'a> Writer<'a> {
         self.put_extra()
     }
 
-    pub(super) fn values<T: NcTypeDescriptor>(&mut self, name: &str, values: &[T]) -> netcdf::Result<()> {
+    pub(in crate::exodus) fn values<T: NcTypeDescriptor>(&mut self, name: &str, values: &[T]) -> netcdf::Result<()> {
         self.file.variable_mut(name).ok_or("no such variable")?.put_values(values, ..)
     }
 
-    pub(super) fn put_numbers(&mut self, name: &str, values: &[i64]) -> netcdf::Result<()> {
+    pub(in crate::exodus) fn put_numbers(&mut self, name: &str, values: &[i64]) -> netcdf::Result<()> {
         if values.is_empty() { Ok(()) } else { self.values(name, values) }
     }
 
@@ -385,7 +389,7 @@ fn all_names<'a>(mesh: &'a Mesh, contents: &'a Contents) -> impl Iterator<Item =
     blocks.chain(sets).chain(variables)
 }
 
-pub(super) fn one_based(indices: &[u32]) -> Vec<i32> {
+pub(in crate::exodus) fn one_based(indices: &[u32]) -> Vec<i32> {
     indices.iter().map(|&i| i as i32 + 1).collect()
 }
 
@@ -395,7 +399,7 @@ fn pad(text: &str, width: usize) -> impl Iterator<Item = Character> {
 }
 
 /// At most `length` bytes of a text, cut between characters and before a NUL.
-pub(super) fn cut(text: &str, length: usize) -> &str {
+pub(in crate::exodus) fn cut(text: &str, length: usize) -> &str {
     let text = text.split('\0').next().unwrap_or_default();
     let end = (0..=length.min(text.len())).rev().find(|&end| text.is_char_boundary(end));
     &text[..end.unwrap_or(0)]

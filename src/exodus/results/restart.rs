@@ -7,18 +7,18 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::checksum::{self, Seal};
-use super::error::ResultsError;
-use super::pieces::Piece;
-use super::results::Results;
-use super::results_writer::{ResultsHeader, ResultsWriter};
+use crate::exodus::file::checksum::{self, Seal};
+use crate::exodus::file::error::ResultsError;
+use crate::exodus::pieces::Piece;
+use crate::exodus::results::Results;
+use crate::exodus::results::writer::{ResultsHeader, ResultsWriter};
 use crate::mesh::Mesh;
 use crate::restart::{List, Snapshot};
 
 /// Global attribute that makes an EXODUS file a restart file; it says of what problem.
-pub(super) const IDENTITY: &str = "urto_restart";
+pub(in crate::exodus) const IDENTITY: &str = "urto_restart";
 /// Global attribute that lists the further variables.
-pub(super) const LISTS: &str = "urto_lists";
+pub(in crate::exodus) const LISTS: &str = "urto_lists";
 
 const BROKEN: &str = "the restart file is damaged: its bytes are not those that were written, as the checksum at its end \
      shows\nhelp: a run from it could go wrong unseen; copy the file again from where it was written";
@@ -53,7 +53,7 @@ pub struct RestartHeader<'a> {
 
 /// What a file holds that EXODUS knows nothing of.
 #[derive(Default)]
-pub(super) struct Extra<'a> {
+pub(in crate::exodus) struct Extra<'a> {
     /// What makes the file a piece of a larger one, if it is one.
     pub piece: Option<&'a Piece>,
     /// What the state is a state of, in a restart file.
@@ -191,6 +191,6 @@ fn lists(path: &Path, results: &Results) -> Result<Vec<List>, ResultsError> {
 }
 
 /// Name of the netCDF variable of a list.
-pub(super) fn list_variable(name: &str) -> String {
+pub(in crate::exodus) fn list_variable(name: &str) -> String {
     format!("urto_{name}")
 }

@@ -1,12 +1,17 @@
 //! A results file seen from outside: its states, variables and mesh.
 
+pub(in crate::exodus) mod compare;
+pub(in crate::exodus) mod restart;
+pub(in crate::exodus) mod writer;
+
 use std::path::{Path, PathBuf};
 
 use netcdf::{Extent, Extents};
 
-use super::arrays::{Arrays, Reason};
-use super::error::{MeshError, ResultsError};
-use super::{names, read};
+use crate::exodus::file::arrays::{Arrays, Reason};
+use crate::exodus::file::error::{MeshError, ResultsError};
+use crate::exodus::file::names;
+use crate::exodus::mesh::read;
 use crate::mesh::Mesh;
 
 /// An EXODUS II file opened for reading its results. Files without states are fine: they have no times.
@@ -49,12 +54,12 @@ impl Results {
     }
 
     /// The file's name.
-    pub(super) fn path(&self) -> &Path {
+    pub(in crate::exodus) fn path(&self) -> &Path {
         &self.path
     }
 
     /// The file's arrays, for what EXODUS knows nothing of.
-    pub(super) fn arrays(&self) -> &Arrays {
+    pub(in crate::exodus) fn arrays(&self) -> &Arrays {
         &self.arrays
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Nothing here touches a file, so that every rule about what a mesh may hold can be tried on arrays in memory.
 
-use super::names;
+use crate::exodus::file::names;
 use crate::mesh::check::{Problem, Problems, counted};
 use crate::mesh::exterior::SIDES;
 use crate::mesh::hexahedron::Form;
@@ -186,7 +186,7 @@ impl BlockTable {
 
     /// What the elements are by type name, with or without the number of nodes in it; without a type by the number of
     /// nodes. `None` when they are of no kind that is known.
-    pub(super) fn kind(&self, dimensions: usize) -> Option<Kind> {
+    pub(in crate::exodus) fn kind(&self, dimensions: usize) -> Option<Kind> {
         let name = self.element_type.to_ascii_uppercase();
         let mut all = Kind::all(dimensions).iter().copied();
         all.find(|kind| kind.is_named(&name) && kind.nodes() == self.nodes_per_element)

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use super::arrays::Reason;
+use crate::exodus::file::arrays::Reason;
 
 /// Arrays from this many bytes on are read in slabs; smaller ones are faster read by all.
 const SMALLEST: usize = 1 << 18;
@@ -26,7 +26,7 @@ pub trait Together {
 }
 
 /// A number in the bytes that travel.
-pub(super) trait Travels: Copy {
+pub(in crate::exodus) trait Travels: Copy {
     fn pack(self) -> [u8; 8];
     fn unpack(bytes: [u8; 8]) -> Self;
 }
@@ -50,7 +50,7 @@ impl Travels for f64 {
 }
 
 /// The length of an array's first dimension, where it is worth reading in slabs.
-pub(super) fn rows(shape: Option<Vec<usize>>) -> Option<usize> {
+pub(in crate::exodus) fn rows(shape: Option<Vec<usize>>) -> Option<usize> {
     let shape = shape?;
     let size = shape.iter().fold(8usize, |size, &length| size.saturating_mul(length));
     shape.first().copied().filter(|_| size >= SMALLEST)
@@ -60,7 +60,7 @@ pub(super) fn rows(shape: Option<Vec<usize>>) -> Option<usize> {
 ///
 /// # Errors
 /// On every process that of the first which could not read.
-pub(super) fn read<T: Travels>(
+pub(in crate::exodus) fn read<T: Travels>(
     together: &mut dyn Together,
     rows: usize,
     part: impl FnOnce(Range<usize>) -> Result<Vec<T>, Reason>,

@@ -6,15 +6,15 @@
 
 use std::path::Path;
 
-use super::arrays::{Arrays, Reason};
-use super::container::{Container, inspect};
-use super::error::MeshError;
-use super::genesis;
-use super::names::{self, Family};
-use super::pieces;
-use super::probe;
-use super::slabs::{self, Together};
-use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
+use crate::exodus::file::arrays::{Arrays, Reason};
+use crate::exodus::file::container::{Container, inspect};
+use crate::exodus::file::error::MeshError;
+use crate::exodus::file::names::{self, Family};
+use crate::exodus::file::probe;
+use crate::exodus::file::slabs::{self, Together};
+use crate::exodus::mesh::genesis;
+use crate::exodus::mesh::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
+use crate::exodus::pieces;
 use crate::mesh::Mesh;
 use crate::mesh::check::{self, Problem, Problems, counted};
 
@@ -89,12 +89,12 @@ fn checked(path: &Path, mesh: Mesh) -> Result<Mesh, MeshError> {
 }
 
 /// The mesh of a file that is open already.
-pub(super) fn assemble(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+pub(in crate::exodus) fn assemble(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
     assemble_with(path, arrays, false, None)
 }
 
 /// The part of a mesh that a piece holds; it may be without nodes and elements.
-pub(super) fn assemble_part(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
+pub(in crate::exodus) fn assemble_part(path: &Path, arrays: &Arrays) -> Result<Mesh, MeshError> {
     assemble_with(path, arrays, true, None)
 }
 
@@ -112,7 +112,7 @@ fn assemble_with(
 }
 
 /// Opens a file after a look at its first bytes, and after another process has tried it where that is needed.
-pub(super) fn open(path: &Path) -> Result<Arrays, MeshError> {
+pub(in crate::exodus) fn open(path: &Path) -> Result<Arrays, MeshError> {
     open_with(path, probe::vouch)
 }
 
@@ -159,13 +159,13 @@ fn open_with(path: &Path, vouch: impl FnOnce(&Path) -> Result<(), String>) -> Re
 }
 
 /// Quality-assurance records: four texts each.
-pub(super) fn qa_records(arrays: &Arrays) -> Vec<[String; 4]> {
+pub(in crate::exodus) fn qa_records(arrays: &Arrays) -> Vec<[String; 4]> {
     let mut texts = arrays.texts(names::QA).into_iter();
     std::iter::from_fn(|| Some([texts.next()?, texts.next()?, texts.next()?, texts.next()?])).collect()
 }
 
 /// Number of nodes, from whatever speaks of it.
-pub(super) fn node_count(arrays: &Arrays) -> usize {
+pub(in crate::exodus) fn node_count(arrays: &Arrays) -> usize {
     let last = |name| arrays.shape(name).and_then(|shape| shape.last().copied());
     let said = arrays.dimension(names::NUM_NODES);
     said.or_else(|| last(names::COORDINATES[0])).or_else(|| last(names::PACKED_COORDINATES)).unwrap_or(0)

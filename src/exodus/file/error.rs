@@ -18,7 +18,7 @@ pub struct MeshError {
 
 impl MeshError {
     /// A refusal with one reason.
-    pub(super) fn single(path: &Path, what: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(in crate::exodus) fn single(path: &Path, what: impl Into<String>, help: impl Into<String>) -> Self {
         let mut problems = Problems::default();
         problems.add(|| Problem::new(what, help));
         MeshError { path: path.to_owned(), problems }
@@ -133,11 +133,11 @@ impl ResultsError {
         }
     }
 
-    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+    pub(in crate::exodus) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| ResultsError::Io { action, path: path.to_owned(), source }
     }
 
-    pub(super) fn netcdf(action: impl Into<String>, path: &Path) -> impl FnOnce(netcdf::Error) -> Self {
+    pub(in crate::exodus) fn netcdf(action: impl Into<String>, path: &Path) -> impl FnOnce(netcdf::Error) -> Self {
         move |source| ResultsError::Netcdf { action: action.into(), path: path.to_owned(), source }
     }
 }

@@ -3,7 +3,7 @@
 //! The netCDF library reads zeros where a classic file is cut short, and allocates what a damaged header demands.
 //! The header grammar of the classic formats is small (netCDF file format specification: classic, 64-bit offset and
 //! 64-bit data), so it is read here: it tells how long the file must be, and where each state begins, which lets
-//! [`super::ResultsWriter`] append states in an order that survives a kill at any instant.
+//! [`ResultsWriter`](crate::exodus::ResultsWriter) append states in an order that survives a kill at any instant.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};

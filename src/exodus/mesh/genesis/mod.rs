@@ -11,8 +11,8 @@ use std::path::Path;
 
 use records::{Broken, Records};
 
-use super::error::MeshError;
-use super::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
+use crate::exodus::file::error::MeshError;
+use crate::exodus::mesh::tables::{BlockTable, NodeSetTable, SideSetTable, Tables};
 use crate::mesh::Kind;
 use crate::mesh::check::{Problem, Problems, counted};
 
@@ -33,7 +33,7 @@ struct Counts {
 const WRITE_AGAIN: &str = "copy or write it again; a program or a copy left it incomplete";
 
 /// The arrays of a mesh file of FORTRAN records.
-pub(super) fn read(path: &Path) -> Result<Tables, MeshError> {
+pub(in crate::exodus) fn read(path: &Path) -> Result<Tables, MeshError> {
     let bytes = std::fs::read(path).map_err(|e| MeshError::single(path, format!("cannot be read: {e}"), ""))?;
     let mut problems = Problems::default();
     let broken = |Broken(what): Broken| MeshError::single(path, format!("EXODUS I: {what}"), WRITE_AGAIN);
