@@ -24,21 +24,21 @@ macro_rules! parameters {
 
         impl $law {
             /// Its parameters, in the order of manual and print log.
-            pub(super) const PROPERTIES: &'static [$crate::material::Property] = &[$($($property),+),+];
+            pub(in $crate::material) const PROPERTIES: &'static [$crate::material::Property] = &[$($($property),+),+];
 
             /// Makes it from what a deck gives.
             ///
             /// # Errors
             ///
             /// A property names a function that is not there.
-            pub(super) fn read(given: &$crate::material::Given) -> Result<$law, $crate::material::Refusal> {
+            pub(in $crate::material) fn read(given: &$crate::material::Given) -> Result<$law, $crate::material::Refusal> {
                 let mut parameters = $crate::material::parameters::Parameters::new(given, Self::PROPERTIES);
                 $($(let $other = { let $given = given; $from };)+)?
                 Ok($law { $($field: parameters.take()?,)+ $($($other,)+)? })
             }
 
             /// Its parameters as numbers.
-            pub(super) fn values(&self) -> Vec<f64> {
+            pub(in $crate::material) fn values(&self) -> Vec<f64> {
                 let mut values = Vec::with_capacity(Self::PROPERTIES.len());
                 $($crate::material::parameters::Parameter::tell(&self.$field, &mut values);)+
                 values

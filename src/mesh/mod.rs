@@ -10,7 +10,6 @@ mod coordinates;
 pub mod corners;
 pub mod exterior;
 pub mod hexahedron;
-mod kind;
 pub mod locate;
 mod part;
 pub mod plane;
@@ -20,9 +19,9 @@ mod shape;
 pub use connectivity::Connectivity;
 pub use coordinates::Coordinates;
 pub use hexahedron::{HEX_SIDES, UNIT_CUBE};
-pub use kind::Kind;
 pub use part::{Part, Places};
 pub use shape::Shape;
+pub use shape::kind::Kind;
 
 /// In how many dimensions the nodes of a mesh lie.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -1,23 +1,19 @@
-//! The laws. A law is one file here and one line in [`laws!`](self) below.
+//! The laws. A law is one file, here or in a room of its kind, and one line in [`laws!`](self) below.
 
 // Law files take from this room all that a law is made of: the one of `adding` then fits a list of its own as well.
 use super::*;
 
+mod crushable;
 mod elastic;
-mod elastic_plastic;
 mod ep_hydrodynamic;
 mod hydrodynamic;
-mod johnson_cook;
-mod low_density_foam;
+mod metals;
 mod mooney_rivlin;
-mod orthotropic_crush;
-mod piecewise_plastic;
-mod plastic;
-mod power_hardening;
-mod soil;
 #[cfg(test)]
 mod tests;
-mod viscoplastic;
+
+use crushable::{low_density_foam, orthotropic_crush, soil};
+use metals::{elastic_plastic, johnson_cook, piecewise_plastic, plastic, power_hardening, viscoplastic};
 
 pub use elastic::Elastic;
 pub use elastic_plastic::ElasticPlastic;

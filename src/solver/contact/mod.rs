@@ -5,18 +5,14 @@
 //! of space on many (`remote`). Nothing that comes out depends on how many there are.
 
 pub mod check;
-mod construction;
-mod contact_nodes;
 pub mod enforcement;
 pub mod geometry;
 mod local_problem;
-mod node_result;
+mod nodes;
 mod observations;
 mod press_fit;
 mod ranks;
-mod report;
 pub mod search;
-mod sparse;
 mod state;
 mod surface;
 
@@ -30,31 +26,31 @@ use check::edge_edge;
 use check::edge_edge::EdgeContact;
 use check::node_face::{FaceContact, NONE};
 use check::planes::PlaneNode;
-use construction::alone;
-use contact_nodes::ContactNodes;
-use enforcement::certificate::Bank;
-use enforcement::gain::Gain;
+use enforcement::accounts::certificate::Bank;
+use enforcement::accounts::gain::Gain;
+use enforcement::accounts::resultants::Resultants;
 use enforcement::iterations::{Limits, Outcome};
 use enforcement::mobility::BodyMobility;
 use enforcement::other_ranks::{Elsewhere, NoOtherRanks};
-use enforcement::resultants::Resultants;
 use geometry::paths::PathRange;
 use local_problem::{History, LocalProblem, StepInput};
+use nodes::ContactNodes;
 use observations::arcs::{self, Arcs};
 use press_fit::PressFit;
 use ranks::remote::Remote;
 use search::locate::Reach;
 use search::{Search, neighbourhood};
+use surface::construction::alone;
 use surface::layout::{ABSENT, Layout};
 use surface::pairings::Pairings;
 use surface::skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
-pub(in crate::solver) use construction::skin;
 pub use enforcement::iterations::LOOSER;
+pub use observations::report::{Report, Tally, Work};
 pub use observations::seen::{Looser, Seen};
-pub use report::{Report, Tally, Work};
+pub(in crate::solver) use surface::construction::skin;
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
 const LINES_EVERY: u64 = 4;

@@ -6,8 +6,8 @@
 
 use super::check::edge_edge::EdgeContact;
 use super::check::node_face::{FaceContact, NO_CONTACT, NONE};
+use super::enforcement::accounts::certificate::Bank;
 use super::enforcement::carried::{Carried, WIDTH};
-use super::enforcement::certificate::Bank;
 use super::geometry::edges::Shape;
 use super::local_problem::{History, PlaneHistory};
 use super::surface::layout::Layout;

@@ -3,9 +3,11 @@
 pub(super) mod body;
 pub(super) mod constraints;
 mod exchange;
+pub(super) mod fit;
 mod function;
 pub mod nodes;
 mod rotations;
+pub(super) mod trial;
 
 pub use body::{Body, Cut, NoMaterial, centroid};
 pub use rotations::Rotations;

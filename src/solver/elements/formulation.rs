@@ -1,8 +1,8 @@
 //! What every kind of element says of itself. The rest of the solver asks by these roles and knows no element by name.
 
 use super::block::{Group, NewElement};
-use super::exact::Steps;
 use super::pass::{Pass, PassOutcome, PassSettings};
+use super::solids::exact::Steps;
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
 use crate::mesh::{Block, Shape};

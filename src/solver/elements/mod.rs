@@ -1,23 +1,15 @@
 //! Elements: from positions and velocities to corner forces, block by block in chunks of eight.
 //!
-//! A kind of element is a folder here and a line in the list below: see `docs/adding-an-element.md`.
+//! A kind of element is a folder in `solids` or `structural` and a line in the list below: see `docs/adding-an-element.md`.
 
-pub mod beam;
 mod block;
 mod bulk_viscosity;
-pub mod eight_points;
-mod exact;
 pub mod fields;
-mod fluid;
 mod formulation;
-pub mod hexahedron;
 mod pass;
-pub mod quadrilateral;
-pub mod shell;
+pub mod solids;
 mod state_rows;
-mod step_modulus;
-pub mod truss;
-mod uniaxial;
+pub mod structural;
 
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
@@ -26,10 +18,12 @@ use crate::model::{Model, Precision};
 use crate::solver::nodes::Nodes;
 
 pub use block::{ElementBlock, Group, NewElement};
-pub use exact::Steps;
 pub use formulation::{Energies, Entry, Formulation, PointEntry, Probe, Sample, StoredRow, Touch, Unfit};
 pub use pass::{Given, Outcome, Pass, PassOutcome, PassSettings, Sink, StepKernel};
-pub use shell::triangle;
+pub use solids::exact::Steps;
+pub use solids::{eight_points, hexahedron, quadrilateral};
+pub use structural::shell::triangle;
+pub use structural::{beam, shell, truss};
 
 macro_rules! elements {
     ($($module:ident :: $element:ident),+ $(,)?) => {

@@ -9,6 +9,7 @@
 mod energy;
 mod finding;
 mod place;
+pub(super) mod stop;
 mod symptoms;
 #[cfg(test)]
 mod tests;

@@ -187,7 +187,7 @@ impl Solver {
     /// Whether contact has made so much that all energies must be looked at.
     fn contact_is_suspect(&mut self, comm: &mut dyn Communicator) -> bool {
         // Without contact nobody says anything.
-        totals::contact_gain(&mut self.domain, comm) > symptoms::contact_gain::THRESHOLD * self.watch.base()
+        totals::contact_gain(&mut self.domain, comm) > symptoms::contact::gain::THRESHOLD * self.watch.base()
     }
 
     fn examine(&mut self, due: When, comm: &mut dyn Communicator) -> Result<(), Stop> {
@@ -214,7 +214,7 @@ impl Solver {
 
     /// The reason to stop with the cause that came before it.
     fn because(&self, stop: Stop) -> Stop {
-        let own = matches!(stop, Stop::Contact { .. }).then_some(symptoms::contact_gain::CODE);
+        let own = matches!(stop, Stop::Contact { .. }).then_some(symptoms::contact::gain::CODE);
         // Of those seen in one look the first in the list.
         match self.watch.causes.first().copied().filter(|first| Some(first.code) != own) {
             Some(first) => Stop::After { first: Box::new(first), stop: Box::new(stop) },
@@ -229,7 +229,7 @@ impl Solver {
         if share > facts.contact_limit {
             let exam = Exam { solver: self, facts, totals: *totals, supplied: self.watch.base() };
             let mut evidence = Evidence { share, amount: totals.contact_gain, ..Evidence::default() };
-            symptoms::contact_gain::place(&exam, &mut evidence, comm);
+            symptoms::contact::gain::place(&exam, &mut evidence, comm);
             return Err(Stop::Contact { evidence: Box::new(evidence), limit: facts.contact_limit });
         }
         energy::check(totals, self.initial_energy, self.watch.supplied, facts.energy_floor)

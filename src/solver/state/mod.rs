@@ -5,6 +5,7 @@
 //! said whether it belongs to the state (visited), to the problem, or to the step (`_`).
 
 mod elements;
+pub(super) mod remembered;
 mod works;
 
 use super::loads::{self, LOADS, Places};

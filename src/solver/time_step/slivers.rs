@@ -1,8 +1,8 @@
 //! The few elements that set the step of all: what a little more mass in them would buy.
 
 use crate::comm::{Communicator, ExactSum};
+use crate::solver::ElementPlace;
 use crate::solver::health::elements;
-use crate::solver::stop::ElementPlace;
 use crate::solver::{Solver, domain::Domain};
 
 /// What mass scaling of the first state would bring.

@@ -1,7 +1,7 @@
 //! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the iterations.
 
+use super::accounts::certificate::{Target, penetration_after};
 use super::carried::Carried;
-use super::certificate::{Target, penetration_after};
 use crate::model::Friction;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::vector::{add, dot, scaled};

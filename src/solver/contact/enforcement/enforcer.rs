@@ -15,11 +15,11 @@
 //! before (Nesterov 1983, the sequence of Beck and Teboulle 2009), but not where a force would turn back (O'Donoghue
 //! and Candès 2015, for each force by itself).
 
+use super::accounts::certificate::{Sums, Target, Terms, tangential};
+use super::accounts::ledger::Ledger;
 use super::carried::Carried;
-use super::certificate::{Sums, Target, Terms, tangential};
 use super::constraint::{Constraint, ConstraintState, Response};
 use super::iterations::{Limits, Outcome, Times};
-use super::ledger::Ledger;
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
 use super::sweep;

@@ -1,6 +1,6 @@
 //! What the enforcement on one rank asks of the other ranks.
 
-use super::certificate::Sums;
+use super::accounts::certificate::Sums;
 use super::constraint::{Constraint, ConstraintState, Response};
 use crate::comm::{Communicator, ExactSum};
 

@@ -3,8 +3,8 @@
 //! They take most of the time of enforcement, so that they are written in whole vectors: three components of a velocity and the
 //! load of a node are one.
 
+use super::accounts::certificate::tangential;
 use super::carried::Carried;
-use super::certificate::tangential;
 use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
 use super::iterations::Times;
 use crate::lanes::{InstructionSet, Vectors, array};

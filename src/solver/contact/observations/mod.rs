@@ -2,4 +2,5 @@
 
 pub mod arcs;
 pub mod meetings;
+pub mod report;
 pub mod seen;

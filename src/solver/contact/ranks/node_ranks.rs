@@ -1,7 +1,7 @@
 //! Which ranks have the node of a point.
 
 use crate::comm::{Communicator, numbers_of_others};
-use crate::solver::contact::contact_nodes::ContactNodes;
+use crate::solver::contact::nodes::ContactNodes;
 
 /// For each point the rank that owns its node, and all ranks of which it is a node.
 pub struct NodeRanks {

@@ -9,7 +9,7 @@ use super::node_ranks::NodeRanks;
 use crate::comm::Communicator;
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{self, Axes, Bisection, Earlier, Parcels};
-use crate::solver::contact::contact_nodes::ContactNodes;
+use crate::solver::contact::nodes::ContactNodes;
 
 /// A cut stays where it is while it shares out its points to within this part. Where contact happens is not spread as
 /// evenly as points are, so that exact cuts would gain little, and to find them anew takes many rounds.

@@ -2,7 +2,7 @@
 
 use crate::comm::{Communicator, gather_for_all};
 use crate::partition::dynamic::{Parcels, Records};
-use crate::solver::contact::contact_nodes::ContactNodes;
+use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::occupancy::Occupancy;

@@ -2,8 +2,8 @@
 
 use super::locate::{Candidate, Interface, Rule};
 use crate::solver::contact::check::{edge_edge, node_face};
-use crate::solver::contact::contact_nodes::ContactNodes;
 use crate::solver::contact::geometry::edges;
+use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::search::occupancy::{CellRange, Occupancy};
 use crate::solver::contact::search::{Box3, Candidates, Search};
 use crate::solver::contact::surface::layout::{Layout, inverse};

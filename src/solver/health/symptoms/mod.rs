@@ -1,18 +1,15 @@
 //! What a run may suffer from, one file each: a measure, a threshold, words and advice.
 
 mod brief;
-pub mod contact_gain;
+pub mod contact;
 mod corners;
 mod debris;
 mod given_back;
 pub mod hourglass;
 mod imbalance;
-mod overlap_deep;
-mod overlap_moved;
-mod passes;
 mod runaway;
-mod sunk;
-mod tied_held;
+
+use contact::{gain, overlap_deep, overlap_moved, passes, sunk, tied_held};
 
 use super::finding::Evidence;
 use super::watch::Exam;
@@ -44,7 +41,7 @@ pub struct Symptom {
 pub static SYMPTOMS: [Symptom; 13] = [
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
-    contact_gain::SYMPTOM,
+    gain::SYMPTOM,
     hourglass::SYMPTOM,
     given_back::SYMPTOM,
     corners::SYMPTOM,

@@ -1,0 +1,59 @@
+//! Whether a mesh can be computed as the model has it.
+
+use crate::mesh::{Mesh, Shape};
+use crate::model::{Model, Precision, Unknown};
+use crate::solver::elements;
+use std::collections::BTreeSet;
+
+/// Why blocks of a mesh cannot be computed as the model has them, each with the number of the block.
+pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
+    let all = mesh.blocks.iter().filter_map(unfit);
+    all.chain(without_eight_points(mesh, model)).chain(beyond_single(mesh, model)).collect()
+}
+
+/// Blocks whose numbers single precision cannot hold.
+fn beyond_single(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let asked = |block: &&crate::mesh::Block| {
+        let one_point = block.shape == Shape::Hexahedron && !elements::eight_points::asked_for(block.id, model);
+        one_point && model.precision == Precision::Single
+    };
+    let unfit = |block: &crate::mesh::Block| {
+        let material = model.materials.iter().find(|material| material.block == block.id)?;
+        let body = (material.density, material.law.moduli());
+        Some((block.id, elements::hexahedron::single_precision::range::beyond(block, &mesh.coordinates, body)?))
+    };
+    mesh.blocks.iter().filter(asked).filter_map(unfit).collect()
+}
+
+/// Blocks that are to have eight points and whose elements have not eight corners.
+fn without_eight_points(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let asked = |block: &&crate::mesh::Block| elements::eight_points::asked_for(block.id, model);
+    let others = mesh.blocks.iter().filter(|block| block.shape != Shape::Hexahedron).filter(asked);
+    let unfit = |block: &crate::mesh::Block| {
+        let [_, shapes] = block.shape.names();
+        let reason = format!("ELEMENT, EIGHT POINTS is for hexahedra, and these are {shapes}");
+        (block.id, elements::Unfit { reason, help: "take the line out".to_string() })
+    };
+    others.map(unfit).collect()
+}
+
+/// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.
+pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
+    let turns = |block: &&crate::mesh::Block| {
+        elements::Element::of_block(block, model).is_ok_and(|element| element.entry().rotations)
+    };
+    let turning: BTreeSet<u32> = mesh.blocks.iter().filter(turns).flat_map(|block| &block.nodes).copied().collect();
+    // A rigid body turns with any of its nodes; a moment needs one of its own.
+    let is_rigid = |block: &&crate::mesh::Block| model.rigid_bodies.iter().any(|body| body.contains(&block.id));
+    let rigid: BTreeSet<u32> = mesh.blocks.iter().filter(is_rigid).flat_map(|block| &block.nodes).copied().collect();
+    let loads =
+        |set: i64| model.prescribed_forces.iter().any(|force| force.of == Unknown::Rotation && force.node_set == set);
+    let can_turn = |set: i64, node: &u32| turning.contains(node) || (rigid.contains(node) && !loads(set));
+    let idle = |set: &&i64| mesh.node_set(**set).is_some_and(|own| !own.nodes.iter().any(|node| can_turn(**set, node)));
+    let held = model.no_displacements.iter().map(|held| (held.of, held.node_set));
+    let driven = model.prescribed_motions.iter().map(|motion| (motion.of, motion.node_set));
+    let loaded = model.prescribed_forces.iter().map(|force| (force.of, force.node_set));
+    let all = held.chain(driven).chain(loaded).filter(|(of, _)| *of == Unknown::Rotation).map(|(_, set)| set);
+    all.collect::<BTreeSet<i64>>().iter().filter(idle).copied().collect()
+}

@@ -1,0 +1,324 @@
+//! The beam: two nodes with rotations, one point along it, fibres over its section by any law in uniaxial stress.
+//!
+//! Its axes turn with the line between the nodes and with their mean rotation about it. Rates at mid-step:
+//!
+//! ε = e₁·v₂₁/L, κ = (ω₂ − ω₁)/L in e₁, e₂, e₃, γ_y = e₂·v₂₁/L − e₃·ω̄, γ_z = e₃·v₂₁/L + e₂·ω̄.
+//!
+//! A fibre is strained by ε + z κ_y − y κ_z. Shear has the residual flexibility of bending, so that one element is exact under
+//! forces at its ends. Forces are the transpose of the rates, at the end of the step.
+
+mod kernel;
+mod section;
+
+use super::shell::unfit_law;
+use crate::lanes::{Matrix3, Sym3};
+use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
+use crate::mesh::{Block, Shape};
+use crate::model::{self, Model};
+use crate::solver::body::centroid;
+use crate::solver::elements::{
+    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample, StoredRow,
+    Touch, Unfit,
+};
+use crate::solver::nodes::Nodes;
+use crate::vector::{dot, normalized, scaled, subtract};
+use kernel::{BeamStep, axes, young_and_shear};
+use section::{MOST_FIBRES, Section};
+
+/// Rows of a beam's state; those of its fibres follow.
+mod rows {
+    /// y axis of the section, in space.
+    pub const AXIS: usize = 0;
+    /// Length at the start.
+    pub const START: usize = 3;
+    /// Rotary inertia of a node over its mass.
+    pub const INERTIA: usize = 4;
+    /// N, T, M_y, M_z, Q_y, Q_z.
+    pub const RESULTANTS: usize = 5;
+    /// Internal energy since the start.
+    pub const INTERNAL_ENERGY: usize = 11;
+    /// First row of the fibres.
+    pub const POINTS: usize = 12;
+}
+
+/// Rows of a fibre; those of its law follow.
+mod point_rows {
+    /// Stress along the fibre.
+    pub const STRESS: usize = 0;
+    /// What is left of the stress across it.
+    pub const ACROSS: usize = 1;
+    /// 1 where the fibre carries nothing any more.
+    pub const LOST: usize = 2;
+    /// First row of the law.
+    pub const LAW: usize = 3;
+}
+
+const ROWS: [StoredRow; rows::POINTS] = [
+    StoredRow { name: "BEAMYX", dimension: "-" },
+    StoredRow { name: "BEAMYY", dimension: "-" },
+    StoredRow { name: "BEAMYZ", dimension: "-" },
+    StoredRow { name: "BEAMLENG", dimension: "length" },
+    StoredRow { name: "BEAMINER", dimension: "length^2" },
+    StoredRow { name: "BEAMN", dimension: "force" },
+    StoredRow { name: "BEAMT", dimension: "force*length" },
+    StoredRow { name: "BEAMMY", dimension: "force*length" },
+    StoredRow { name: "BEAMMZ", dimension: "force*length" },
+    StoredRow { name: "BEAMQY", dimension: "force" },
+    StoredRow { name: "BEAMQZ", dimension: "force" },
+    StoredRow { name: "EINTERN", dimension: "energy" },
+];
+
+const POINT_ROWS: [StoredRow; point_rows::LAW] = [
+    StoredRow { name: "BEAMSIG", dimension: "force/length^2" },
+    StoredRow { name: "BEAMACRS", dimension: "force/length^2" },
+    StoredRow { name: "BEAMLOST", dimension: "-" },
+];
+
+pub(in crate::solver::elements) static ENTRY: Entry = Entry {
+    name: "BEAM",
+    summary: "Two nodes with rotations; fibres over its section, any law of solids in uniaxial stress.",
+    shape: Shape::Bar,
+    rotations: true,
+    rows: &ROWS,
+    points: Some(PointEntry { rows: &POINT_ROWS, lost: point_rows::LOST, layered: false }),
+    energies: Energies { internal: rows::INTERNAL_ENERGY, hourglass: None, viscous: None },
+    viscous_stress: None,
+};
+
+/// What holds for all beams of a block.
+#[derive(Debug, Clone)]
+pub struct Beam {
+    section: Section,
+    /// Vector in the plane of the beam and its y axis.
+    direction: Option<[f64; 3]>,
+    moduli: Moduli,
+}
+
+/// Number of dimensions that a form of cross section has.
+fn dimensions(form: &str) -> usize {
+    match form {
+        "RECTANGLE" | "TUBE" => 2,
+        "I" => 4,
+        _ => 1,
+    }
+}
+
+/// What a block says of its beams: the dimensions of the command and the vector of their y axis, or where it gives none those of the
+/// mesh, which are the first attributes.
+fn given_by(command: &model::Section, block: &Block) -> Result<([f64; 4], [f64; 3]), Unfit> {
+    let numbers = ["a", "b", "c", "d"].map(|field| command.number(field));
+    let vector = ["yx", "yy", "yz"].map(|field| command.number(field));
+    if !numbers[0].is_nan() {
+        return Ok((numbers, vector));
+    }
+    let form = command.word("form").unwrap_or_default();
+    let needed = dimensions(form);
+    let unfit = |reason: String, help: &str| Unfit { reason: format!("BEAM SECTION: {reason}"), help: help.into() };
+    let first = block.attributes_of(0);
+    if first.len() < needed {
+        let reason =
+            format!("{form} has {needed} dimensions, and neither the deck nor the attributes of the mesh give them");
+        return Err(unfit(reason, "give them with BEAM SECTION"));
+    }
+    if (1..block.len()).any(|element| block.attributes_of(element) != first) {
+        let help = "give the elements of each section a block of their own, or the dimensions in BEAM SECTION";
+        return Err(unfit("the attributes of the block's beams are not all the same".into(), help));
+    }
+    if let Some(bad) = first[..needed].iter().find(|dimension| !(**dimension > 0.0 && dimension.is_finite())) {
+        return Err(unfit(format!("the mesh gives {bad} as a dimension"), "give them with BEAM SECTION"));
+    }
+    let dimensions = [0, 1, 2, 3].map(|i| if i < needed { first[i] } else { f64::NAN });
+    let of_mesh = first.get(needed..needed + 3).and_then(|rest| rest.try_into().ok());
+    let given = vector.iter().any(|component| !component.is_nan());
+    Ok((dimensions, if given { vector } else { of_mesh.unwrap_or(vector) }))
+}
+
+/// The cross section of a form with these dimensions, of which there may be fewer.
+fn section(form: &str, [a, b, c, d]: [f64; 4]) -> Result<Section, Unfit> {
+    let unfit = |reason: String| Err(Unfit { reason: format!("BEAM SECTION: {reason}"), help: String::new() });
+    let needed = dimensions(form);
+    if [a, b, c, d][..needed].iter().any(|dimension| dimension.is_nan()) {
+        return unfit(format!("{form} has {needed} dimensions"));
+    }
+    match form {
+        "RECTANGLE" => Ok(Section::rectangle(a, b)),
+        "TUBE" if b > a => unfit(format!("the wall is {b}, thicker than the radius {a}")),
+        "TUBE" => Ok(Section::tube(a, b)),
+        "I" if 2.0 * c >= a || d > b => unfit("flanges and web do not fit into height and width".to_string()),
+        "I" => Ok(Section::i_beam(a, b, c, d)),
+        _ => Ok(Section::rod(a)),
+    }
+}
+
+impl Beam {
+    /// The y axis of a beam that lies along a vector, at the start.
+    fn y_axis(&self, along: [f64; 3]) -> [f64; 3] {
+        let least =
+            (0..3).fold(0, |least: usize, axis| if along[axis].abs() < along[least].abs() { axis } else { least });
+        let mut other = [0.0; 3];
+        other[least] = 1.0;
+        axes(&along, &self.direction.unwrap_or(other)).e[1]
+    }
+
+    /// Rotary inertia of a node over its mass, by which no rotation is faster than the beam stretches.
+    fn inertia(&self, length: f64) -> f64 {
+        let Section { area, moments: [iy, iz], torsion, shear_correction, .. } = self.section;
+        let [young, mu] = young_and_shear(self.moduli);
+        let stiffness =
+            |moment: f64| 1.0 / (1.0 / (shear_correction * mu * area) + length * length / (12.0 * young * moment));
+        let shear = stiffness(iy).max(stiffness(iz));
+        let own = 0.25 * length * length * shear / (young * area - shear);
+        own.max((iy + iz) / area).max(mu / young * torsion / area)
+    }
+}
+
+impl Formulation for Beam {
+    fn takes(block: &Block, model: &Model) -> bool {
+        model.section("BEAM SECTION", block.id).is_some()
+    }
+
+    fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit> {
+        if let Some(unfit) = unfit_law(block, model) {
+            return Err(unfit);
+        }
+        let missing = || Unfit { reason: "its beams have no section".into(), help: "give it with BEAM SECTION".into() };
+        let given = model.section("BEAM SECTION", block.id).ok_or_else(missing)?;
+        let (dimensions, direction) = given_by(given, block)?;
+        let direction = direction.map(|component| if component.is_nan() { 0.0 } else { component });
+        let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law);
+        let moduli = law.map_or(Moduli { lambda: 0.0, two_mu: 1.0 }, Law::moduli);
+        Ok(Beam {
+            section: section(given.word("form").unwrap_or_default(), dimensions)?,
+            direction: normalized(direction),
+            moduli,
+        })
+    }
+
+    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+        let along = subtract(element.corners[1], element.corners[0]);
+        let length = dot(along, along).sqrt();
+        let inertia = self.inertia(length);
+        let (of_mass, of_inertia) = shares.split_at_mut(2);
+        of_mass.fill(0.5);
+        of_inertia.fill(0.5 * inertia);
+        density * self.section.area * length
+    }
+
+    fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start {
+        let along = subtract(element.corners[1], element.corners[0]);
+        self.rest(along, own);
+        let y = self.y_axis(along);
+        Start { centre: centroid(&element.corners), volume: element.mass / density, frame: columns(axes(&along, &y).e) }
+    }
+
+    fn run(&self, pass: Pass, law: &Law, _: f64, settings: &PassSettings) -> PassOutcome {
+        law.accept(OfLaw { pass, beam: self, times: [settings.time, settings.time_step] })
+    }
+
+    fn stand_in(&self, density: f64, edge: f64, own: &mut [f64]) -> f64 {
+        self.rest([edge, 0.0, 0.0], own);
+        density * self.section.area * edge
+    }
+
+    fn points(&self) -> usize {
+        self.section.fibres.len()
+    }
+
+    fn point_share(&self, point: usize) -> f64 {
+        self.section.fibres[point][2] / self.section.area
+    }
+
+    fn point_stress(&self, group: &Group, i: usize, point: usize) -> Sym3<f64> {
+        let stride = (group.stride - rows::POINTS) / self.points();
+        uniaxial_stress(group.value(i, rows::POINTS + point * stride + point_rows::STRESS))
+    }
+
+    fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
+        let along = chord(group, i, nodes);
+        self.section.area * dot(along, along).sqrt()
+    }
+
+    fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        columns(axes(&chord(group, i, nodes), &group.values(i, rows::AXIS)).e)
+    }
+
+    fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+        uniaxial_stress(group.value(i, rows::RESULTANTS) / self.section.area)
+    }
+
+    fn touch(&self, _: &[f64]) -> Touch {
+        Touch::Nodes(self.section.radius)
+    }
+
+    fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
+        let along = chord(group, i, nodes);
+        let long = dot(along, along).sqrt() / group.value(i, rows::START);
+        Sym3 { xx: long, yy: 1.0, zz: 1.0, xy: 0.0, yz: 0.0, zx: 0.0 }
+    }
+
+    fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
+        let [n, t, my, mz, qy, qz] = group.values(i, rows::RESULTANTS);
+        [n, 0.0, 0.0, my, mz, t, qy, qz]
+    }
+
+    fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
+        let [a, b]: [[f64; 3]; 2] = group.velocities(i, nodes);
+        let v = subtract(b, a);
+        let before = subtract(chord(group, i, nodes), scaled(v, time_step));
+        let omega = [2, 3].map(|corner| nodes.velocity(group.node(i, corner)));
+        let lying = axes(&before, &group.values(i, rows::AXIS));
+        let rates = lying.rates(&v, &omega);
+        let [n, t, my, mz, qy, qz] = group.values(i, rows::RESULTANTS);
+        let along: f64 = [n, t, my, mz].iter().zip(rates.along).map(|(force, rate)| force * rate).sum();
+        let work = 0.5 * time_step * lying.length * (along + qy * rates.shear[0] + qz * rates.shear[1]);
+        if work.is_finite() { work } else { 0.0 }
+    }
+}
+
+impl Beam {
+    /// Rows of a beam along a vector that has not been strained.
+    fn rest(&self, along: [f64; 3], own: &mut [f64]) {
+        let length = dot(along, along).sqrt();
+        own[rows::AXIS..rows::AXIS + 3].copy_from_slice(&self.y_axis(along));
+        own[rows::START] = length;
+        own[rows::INERTIA] = self.inertia(length);
+    }
+}
+
+fn uniaxial_stress(xx: f64) -> Sym3<f64> {
+    Sym3 { xx, yy: 0.0, zz: 0.0, xy: 0.0, yz: 0.0, zx: 0.0 }
+}
+
+fn chord(group: &Group, i: usize, nodes: &Nodes) -> [f64; 3] {
+    let [a, b]: [[f64; 3]; 2] = group.positions(i, nodes);
+    subtract(b, a)
+}
+
+fn columns([e1, e2, e3]: [[f64; 3]; 3]) -> Matrix3<f64> {
+    [0, 1, 2].map(|i| [e1[i], e2[i], e3[i]])
+}
+
+/// A pass that still has to learn its law.
+struct OfLaw<'a> {
+    pass: Pass<'a>,
+    beam: &'a Beam,
+    times: [f64; 2],
+}
+
+impl KernelVisitor for OfLaw<'_> {
+    type Output = PassOutcome;
+
+    fn visit<K: Kernel>(self, law: K) -> PassOutcome {
+        let Section { area, moments: [iy, iz], torsion, shear_correction, fibres: own, .. } = &self.beam.section;
+        let mut fibres = [[0.0; 3]; MOST_FIBRES];
+        fibres.iter_mut().zip(own).for_each(|(place, fibre)| *place = *fibre);
+        self.pass.over(&BeamStep {
+            law,
+            moduli: self.beam.moduli,
+            times: self.times,
+            section: [*area, *iy, *iz, *torsion, *shear_correction],
+            count: own.len(),
+            fibres,
+        })
+    }
+}

@@ -1,0 +1,150 @@
+//! The truss alone: what must hold for any motion and law.
+
+use super::{Truss, rows};
+use crate::lanes::{Force, InstructionSet, Row};
+use crate::material::{Elastic, ElasticPlastic, Law};
+use crate::model::{BulkViscosity, StepModuli};
+use crate::solver::domain::state_names;
+use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
+
+const YOUNG: f64 = 200e9;
+const DENSITY: f64 = 8000.0;
+const AREA: f64 = 2e-4;
+const STEEL: Law = Law::Elastic(Elastic { young: YOUNG, poisson: 0.3 });
+
+/// One truss whose two nodes are moved by hand.
+struct Rig {
+    block: ElementBlock,
+    nodes: Vec<Row>,
+    forces: Vec<Force>,
+    settings: PassSettings,
+}
+
+impl Rig {
+    fn new(ends: [[f64; 3]; 2], law: Law) -> Rig {
+        let element = Element::Truss(Truss { area: Some(AREA) });
+        let length = (0..3).map(|i| (ends[1][i] - ends[0][i]).powi(2)).sum::<f64>().sqrt();
+        let new = NewElement {
+            place: 0,
+            nodes: vec![0, 1],
+            corners: ends.to_vec(),
+            mass: DENSITY * AREA * length,
+            added: 0.0,
+            attributes: Vec::new(),
+        };
+        let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
+        let block = ElementBlock {
+            index: 0,
+            id: 1,
+            density: DENSITY,
+            state_names: state_names(&law),
+            border: group(&[]),
+            interior: group(&[new]),
+            element: element.clone(),
+            law: law.clone(),
+            keeps_steps: false,
+            rigid: false,
+        };
+        let row = |[x, y, z]: [f64; 3]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        let settings = PassSettings {
+            time: 0.0,
+            time_step: 0.0,
+            kick: 0.0,
+            bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
+            moduli: StepModuli::Elastic,
+            instructions: InstructionSet::default(),
+        };
+        Rig { block, nodes: ends.map(row).to_vec(), forces: vec![Force::default(); 2], settings }
+    }
+
+    /// Moves both nodes to places in a step of one second.
+    fn step_to(&mut self, ends: [[f64; 3]; 2]) -> PassOutcome {
+        for (row, end) in self.nodes.iter_mut().zip(ends) {
+            (0..3).for_each(|i| (row.0[4 + i], row.0[i]) = (end[i] - row.0[i], end[i]));
+        }
+        self.forces.fill(Force::default());
+        self.settings.time_step = 1.0;
+        let sink = Sink::Nodes { forces: &mut self.forces, border: &[] };
+        self.block.run(&self.nodes, &[], sink, &self.settings)
+    }
+
+    fn state(&self, row: usize) -> f64 {
+        self.block.interior.value(0, row)
+    }
+}
+
+fn close(what: &str, a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance, "{what}: {a:e} instead of {b:e}");
+}
+
+/// Turned by a radian a step and moved, a truss under tension keeps its stress, and the forces follow it.
+#[test]
+fn rigid_motion_leaves_the_stress_alone() {
+    let mut rig = Rig::new([[0.0; 3], [1.0, 0.0, 0.0]], STEEL);
+    rig.step_to([[0.0; 3], [1.001, 0.0, 0.0]]);
+    let tension = rig.state(rows::STRESS);
+    close("tension", tension, YOUNG * 1e-3, YOUNG * 1e-6);
+    for step in 1..=50 {
+        let (angle, drift) = (f64::from(step), 10.0 * f64::from(step));
+        let at = |r: f64| [drift + r * angle.cos(), r * angle.sin(), -drift];
+        rig.step_to([at(0.0), at(1.001)]);
+        close("stress", rig.state(rows::STRESS), tension, 1e-9 * tension);
+        let force = &rig.forces[0].0;
+        let pull = force[0] * angle.cos() + force[1] * angle.sin();
+        close("force on the first node", pull, tension * AREA, 1e-3 * tension * AREA);
+    }
+}
+
+/// ν of contraction in tension: the area shrinks by exp(−2νε); the stress across is nothing.
+#[test]
+fn the_area_follows_the_strain_across() {
+    let mut rig = Rig::new([[0.0; 3], [0.0, 0.0, 2.0]], STEEL);
+    for step in 1..=10 {
+        rig.step_to([[0.0; 3], [0.0, 0.0, 2.0 + 2e-3 * f64::from(step)]]);
+    }
+    let strain = libm::log(1.01);
+    close("strain across", rig.state(rows::LATERAL), -0.3 * strain, 1e-6 * strain);
+    assert!(rig.state(rows::ACROSS).abs() < 1e-9 * YOUNG);
+    let force = AREA * libm::exp(-0.6 * strain) * YOUNG * strain;
+    close("force", -rig.forces[1].0[2], force, 1e-6 * force);
+    // Loaded and let go along one way, nothing is kept.
+    for step in (0..10).rev() {
+        rig.step_to([[0.0; 3], [0.0, 0.0, 2.0 + 2e-3 * f64::from(step)]]);
+    }
+    let most = 0.5 * force * 0.02;
+    close("energy", rig.state(rows::INTERNAL_ENERGY), 0.0, 1e-9 * most);
+}
+
+/// Yield in uniaxial stress is at the yield stress itself, and stays there; across it is nothing.
+#[test]
+fn flows_at_the_yield_stress() {
+    let law = ElasticPlastic { young: YOUNG, poisson: 0.3, yield_stress: 400e6, hardening: 0.0, beta: 1.0 };
+    let mut rig = Rig::new([[0.0; 3], [1.0, 0.0, 0.0]], Law::ElasticPlastic(law));
+    for step in 1..=100 {
+        let way = 0.01 * (f64::from(step) * 0.07).sin();
+        rig.step_to([[0.0; 3], [1.0 + way, 0.0, 0.0]]);
+        assert!(rig.state(rows::STRESS).abs() < 400e6 * 1.001, "{}", rig.state(rows::STRESS));
+        assert!(rig.state(rows::ACROSS).abs() < 400e6 * 1e-3, "{}", rig.state(rows::ACROSS));
+    }
+    // At the end it is squeezed, well beyond yield.
+    close("stress", rig.state(rows::STRESS), 400e6, 400e6 * 1e-3);
+}
+
+/// √(M/k) is what the two masses need: 2/ω with ω² = 4 k/M.
+#[test]
+fn the_stable_step_is_length_over_bar_speed() {
+    let mut rig = Rig::new([[0.0; 3], [0.5, 0.0, 0.0]], STEEL);
+    let found = rig.step_to([[0.0; 3], [0.5, 0.0, 0.0]]);
+    close("step", found.stable_step, 0.5 / (YOUNG / DENSITY).sqrt(), 1e-12);
+    assert_eq!(found.failed, None);
+    let found = rig.step_to([[0.0; 3], [0.0; 3]]);
+    assert_eq!(found.failed, Some(0));
+}
+
+#[test]
+fn the_page_on_adding_an_element_shows_what_is_built() {
+    let page = include_str!("../../../../../docs/adding-an-element.md");
+    for file in [include_str!("mod.rs"), include_str!("truss.cards")] {
+        assert!(page.contains(file), "docs/adding-an-element.md is stale");
+    }
+}

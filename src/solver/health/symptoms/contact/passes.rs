@@ -1,0 +1,53 @@
+//! The passes of contact run out: overlaps are left from step to step.
+
+use crate::comm::Communicator;
+use crate::solver::health::finding::{Evidence, percent};
+use crate::solver::health::place::worst_nodes;
+use crate::solver::health::symptoms::{Symptom, When};
+use crate::solver::health::watch::Exam;
+
+/// Fewer steps than these say nothing.
+const ENOUGH: u64 = 100;
+
+pub const SYMPTOM: Symptom = Symptom {
+    code: 9,
+    when: When::Energies,
+    threshold: 0.1,
+    cause: f64::INFINITY,
+    measure: |exam, _| {
+        let contact = exam.solver.domain.contact.as_ref();
+        let tally = contact.and_then(|contact| contact.report()).map(|report| report.tally);
+        let enough = tally.filter(|tally| tally.steps >= ENOUGH);
+        let evidence = enough.map(|tally| Evidence {
+            share: tally.capped as f64 / tally.steps as f64,
+            amount: tally.left,
+            count: tally.capped,
+            of: tally.steps as f64,
+            ..Evidence::default()
+        });
+        evidence.into_iter().collect()
+    },
+    place,
+    label: |_| "passes of contact run out".into(),
+    words: |evidence| {
+        let Evidence { share, amount, count, of, .. } = *evidence;
+        format!(
+            "the passes of contact have run out in {count} of {of} steps with contact, {}; they have left overlaps of up to \
+             {amount:.1e} of a face; now most overlaps at {}",
+            percent(share),
+            evidence.places()
+        )
+    },
+    advice: "more CONTACT PASSES, or a coarser tolerance there; light nodes between stiff faces and long chains of bodies \
+             settle slowly: a mesh that is finer in the softer body, or a smaller TIME STEP SCALE, helps",
+};
+
+/// Nodes with the largest overlap now.
+fn place(exam: &Exam, evidence: &mut Evidence, comm: &mut dyn Communicator) {
+    let domain = &exam.solver.domain;
+    let values = domain.contact.iter().flat_map(|contact| contact.node_values());
+    let owned = values.filter(|(node, _)| domain.nodes.owned[*node as usize]);
+    let overlaps: Vec<(u32, f64)> = owned.map(|(node, values)| (node, -values[3])).collect();
+    let [first, ..] = worst_nodes(exam, &overlaps, comm);
+    evidence.spots[0] = first;
+}
