@@ -4,6 +4,7 @@
 //! [`sections::Section`]. Forces, masses and energies are those of a unit of thickness,
 //! or of the whole turn of 2π radians.
 
+mod end;
 mod exact;
 mod fluid;
 pub mod hourglass;
