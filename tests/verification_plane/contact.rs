@@ -3,9 +3,10 @@
 use crate::support::close;
 use crate::support::continued::{Case, assert_same};
 use crate::support::meshes::recipe;
-use crate::support::run::{Run, State, run, run_on};
+use crate::support::run::{Run, State, model, run, run_on};
 use crate::support::{at_least, between};
 use urto::mesh::Mesh;
+use urto::solver::Body;
 
 /// Mean velocity of a block along an axis, by mass.
 fn mean(state: &State, mesh: &Mesh, block: usize, name: &str) -> f64 {
@@ -295,4 +296,23 @@ fn restarts_have_the_same_bits() {
     let first = case.part(2, None, 200);
     let continued = case.part(1, Some(&first.end), 60);
     assert_same("rings", &whole, &continued);
+}
+
+/// A square that begins in the middle of another: as in space, what is deeper than half an element is refused with place and depth,
+/// and told where the deck keeps it. Its four corners are in elements of the other, 1.5 below the nearest edge.
+#[test]
+fn overlaps_too_deep_to_be_taken_out_are_refused() {
+    let mesh = recipe("RECTANGLE, 1, 0., 0., 4., 4., 4, 4\nRECTANGLE, 2, 1.5, 1.5, 1., 1., 1, 1\n");
+    for analysis in ["AXISYMMETRIC", "PLANE STRAIN"] {
+        let deck = rods(analysis, "CONTACT MATERIAL\n");
+        let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
+        assert_eq!(overlap.deep.nodes, 4, "{analysis}");
+        close("deep", "depth", overlap.deep.deepest, 1.5, 1e-12);
+        let refusal = overlap.refusal(&mesh).expect("a refusal");
+        assert!(refusal.contains("4 nodes") && refusal.contains("1.5000e0 below"), "{refusal}");
+        let kept = deck.replace("CONTACT MATERIAL\n", "CONTACT MATERIAL\nCONTACT OVERLAP, KEEP\n");
+        let overlap = Body::new(&mesh, &model(&kept, &mesh)).expect("materials").overlap;
+        let told = overlap.deep.warning(&mesh).expect("a warning");
+        assert!(told.contains("4 nodes"), "{told}");
+    }
 }

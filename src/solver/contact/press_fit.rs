@@ -28,7 +28,7 @@ impl PressFit {
         Some(PressFit { duration: duration.unwrap_or_else(|| TRANSITS * transit(mesh, model, body)) })
     }
 
-    /// The part of a tolerated overlap that is left after a step; 1 when all is done.
+    /// Factor on the tolerated overlap over this step; 1 once nothing is tolerated any more.
     pub fn remaining(&self, step: &StepTimes) -> f64 {
         if step.time >= self.duration {
             return 1.0;

@@ -2,7 +2,7 @@
 
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
-use crate::mesh::{HEX_SIDES, Mesh};
+use crate::mesh::{HEX_SIDES, Mesh, plane};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
 use crate::solver::constraints::StepTimes;
@@ -30,8 +30,11 @@ const NOTHING: f64 = 1e-9;
 /// it is.
 const STUCK: f64 = 1e-4;
 
-/// A point nearer to an outer face than this part of half the element touches it.
+/// A point nearer to an outer face than this part of half the element touches it, once what overlaps has been moved out.
 const CLEARLY: f64 = 0.01;
+
+/// The same where overlaps stay: contact knows points as deep as half the element.
+const KNOWN: f64 = 1.0;
 
 /// Of so many nodes that are left inside elements the depth is measured.
 const MEASURED: usize = 1000;
@@ -85,8 +88,8 @@ impl Crowded {
 /// Overlaps that moving nodes cannot remove, because the deck holds them or others are in the way.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stuck {
-    /// Number of overlaps of nodes with faces.
-    pub overlaps: usize,
+    /// Number of nodes behind faces.
+    pub nodes: usize,
     /// The deepest, a length.
     pub deepest: f64,
     /// Its node, from 0 in the mesh file.
@@ -98,7 +101,7 @@ impl Overlap {
     pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
         let ((count, deepest, node), why) = match (self.deep, self.stuck) {
             (deep, _) if deep.nodes > 0 => ((deep.nodes, deep.deepest, deep.node), "deeper than half an element"),
-            (_, stuck) => ((stuck.overlaps, stuck.deepest, stuck.node), "held by the deck or between others"),
+            (_, stuck) => ((stuck.nodes, stuck.deepest, stuck.node), "held by the deck or between others"),
         };
         let [x, y, z] = mesh.coordinates.get(node as usize)?;
         (count > 0).then(|| {
@@ -191,7 +194,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
     if matches!(model.contact.control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_)) {
-        return Overlap { deep: deep_overlap(body, &layout), ..Default::default() };
+        return Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() };
     }
     let pairings = Pairings::new(mesh, model, body);
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
@@ -223,20 +226,22 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             positions[node] = within(there, before[node], farthest[point]);
         }
     }
-    Overlap { deep: deep_overlap(body, &layout), stuck, ..moved(&before, body, &layout) }
+    Overlap { deep: deep_overlap(body, &layout, CLEARLY), stuck, ..moved(&before, body, &layout) }
 }
 
 impl Stuck {
-    /// Overlaps that are more than round-off of what was removed.
+    /// Overlaps that are more than round-off of what was removed. The constraints of a node follow each other.
     fn of(constraints: &[Constraint], layout: &Layout) -> Stuck {
         let deep = constraints.iter().filter(|c| -c.gap > STUCK * c.size);
+        let mut last = None;
         deep.fold(Stuck::default(), |sum, c| {
             let worst = if -c.gap > sum.deepest {
                 (-c.gap, layout.nodes[c.members[0] as usize])
             } else {
                 (sum.deepest, sum.node)
             };
-            Stuck { overlaps: sum.overlaps + 1, deepest: worst.0, node: worst.1 }
+            let is_new = last.replace(c.members[0]) != Some(c.members[0]);
+            Stuck { nodes: sum.nodes + usize::from(is_new), deepest: worst.0, node: worst.1 }
         })
     }
 }
@@ -248,11 +253,12 @@ fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
     if length > most { add(from, scaled(path, most / length)) } else { there }
 }
 
-/// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks.
-fn deep_overlap(body: &Body, layout: &Layout) -> DeepOverlap {
+/// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks, deeper than this part of half
+/// the element.
+fn deep_overlap(body: &Body, layout: &Layout, part: f64) -> DeepOverlap {
     let Some(automatic) = layout.automatic() else { return DeepOverlap::default() };
-    let elements = hexahedra(body, layout, automatic);
-    let corners = |place: u32| body.corners(&elements[place as usize].1);
+    let elements = solid_elements(body, layout, automatic);
+    let corners = |place: u32| plane::solid(&body.corners(&elements[place as usize].1));
     let boxes: Vec<Box3> = (0..elements.len() as u32).map(|place| Box3::around(&corners(place))).collect();
     let at = |point: usize| body.positions[layout.nodes[point] as usize];
     let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };
@@ -271,7 +277,7 @@ fn deep_overlap(body: &Body, layout: &Layout) -> DeepOverlap {
             face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
         };
         let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
-        let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, at(point)));
+        let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, (at(point), part)));
         let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
         deep.nodes += 1;
         // A great number says enough: the depth of those that come first.
@@ -292,25 +298,26 @@ fn deep_overlap(body: &Body, layout: &Layout) -> DeepOverlap {
     deep
 }
 
-/// Elements of the blocks with faces of an interface, each by its canonical number and its nodes. Only hexahedra have an
-/// inside.
-fn hexahedra(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
-    let mut blocks: Vec<u32> = interface.faces.iter().map(|&face| layout.faces.block[face as usize]).collect();
+/// Solid elements of the blocks with faces of an interface, each by its canonical number and its nodes as [`plane::eight`] has
+/// them. Surfaces have no inside.
+fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
+    let of_solids = interface.faces.iter().filter(|&&face| !layout.faces.is_two_sided(face));
+    let mut blocks: Vec<u32> = of_solids.map(|&face| layout.faces.block[face as usize]).collect();
     blocks.sort_unstable();
     blocks.dedup();
     let of_blocks = (0u32..).zip(body.element_nodes.iter()).zip(&*body.element_block);
     let of_blocks = of_blocks.filter(|(_, block)| blocks.binary_search(block).is_ok());
-    of_blocks.filter_map(|((element, nodes), _)| Some((element, nodes.try_into().ok()?))).collect()
+    of_blocks.map(|((element, nodes), _)| (element, plane::eight(nodes))).collect()
 }
 
-/// Whether a point in an element is on one of its outer faces rather than behind it.
-fn touches_a_side(body: &Body, layout: &Layout, element: u32, point: [f64; 3]) -> bool {
+/// Whether a point in an element is no deeper below one of its outer faces than this part of half the element.
+fn touches_a_side(body: &Body, layout: &Layout, element: u32, (point, part): ([f64; 3], f64)) -> bool {
     let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
     let gap = |face: u32| {
         projection::project(&corners_of(body, layout, face), point)
             .map_or(f64::NEG_INFINITY, |projection| projection.gap)
     };
-    faces.into_iter().any(|face| gap(face) > -CLEARLY * layout.faces.depth[face as usize])
+    faces.into_iter().any(|face| gap(face) > -part * layout.faces.depth[face as usize])
 }
 
 fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {

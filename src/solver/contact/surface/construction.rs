@@ -2,7 +2,7 @@
 
 use crate::comm::Communicator;
 use crate::mesh::Mesh;
-use crate::model::{ContactSearch, Model, Watched};
+use crate::model::{ContactOverlap, ContactSearch, Model, Watched};
 use crate::solver::Body;
 use crate::solver::contact::check::node_face;
 use crate::solver::contact::check::planes::PlaneNode;
@@ -83,13 +83,13 @@ impl Contact {
             skin,
             layout,
         };
-        contact.meet(|node| local[node as usize], nodes, comm);
+        contact.attach_to_nodes(|node| local[node as usize], nodes, comm);
         Some(contact)
     }
 
     /// Lets go of what only a surface from which elements go has to know; on one rank who computes what is no question either.
-    pub fn settle(&mut self, ranks: usize) {
-        self.skin.settle(&self.layout);
+    pub fn release_construction_data(&mut self, ranks: usize) {
+        self.skin.release_construction_data(&self.layout);
         self.held = Vec::new();
         if ranks == 1 {
             self.elements = Vec::new();
@@ -97,7 +97,7 @@ impl Contact {
     }
 
     /// Finds the points that are nodes here, and gets to know the other ranks.
-    pub(in crate::solver::contact) fn meet(
+    pub(in crate::solver::contact) fn attach_to_nodes(
         &mut self,
         local: impl Fn(u32) -> u32,
         nodes: &Nodes,
@@ -177,7 +177,9 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
     let mean = mean_size(layout);
     // A reach of one step at least: the search must hold for the step it is made for.
     let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
-    Reach { steps: control.reach.max(1.0), least, depth: node_face::KEEP }
+    // Overlaps that stay are known while points are behind their faces, as deep as half an element.
+    let stay = matches!(control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_));
+    Reach { steps: control.reach.max(1.0), least, depth: if stay { 1.0 } else { node_face::KEEP } }
 }
 
 /// How far the iterations go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
