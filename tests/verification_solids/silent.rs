@@ -76,6 +76,15 @@ fn v40_a_shear_wave_leaves() {
     leaves("V-40 S", 'Y', shear_speed());
 }
 
+/// Waves in a material that MASS SCALING has made four times as heavy run at c/2, and meet 2 ρ c.
+#[test]
+fn v40_a_wave_in_heavier_elements_leaves() {
+    let speed = 0.5 * steel::wave_speed();
+    let run = pulse('X', speed, "MASS SCALING, 1, FACTOR, 4., 10.\nSILENT BC, 200");
+    let [there, back] = there_and_back(&run, 'X', speed);
+    between("V-40, mass scaling", "reflected, as a fraction", back / there, 0.0, 0.02);
+}
+
 /// The same pulse comes back whole from a free end: the test can see a reflection.
 #[test]
 fn v40_a_free_end_sends_the_wave_back() {

@@ -2,7 +2,7 @@
 //!
 //! A plane wave that leaves a face along its normal n carries the traction t = -ρ c_L (v·n) n - ρ c_S (v - (v·n) n).
 //! This traction on the face, lumped at its corners, is a force F = -C v with a symmetric C per node, of the faces as
-//! they are in the mesh. Velocities live at mid-step; the v of a state is the mean of the two around it, and as the
+//! they are in the mesh; mass that MASS SCALING has added to an element counts in its ρ and c. Velocities live at mid-step; the v of a state is the mean of the two around it, and as the
 //! later one depends on F, three equations are solved per node:
 //!
 //! (1 + ½ Δt̄ C/m) v = v⁻ + ½ Δt̄ f/m.
@@ -12,6 +12,7 @@
 use super::pressure::area_vectors;
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn};
 use crate::model::{Function, Model};
+use crate::solver::body::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
@@ -110,12 +111,14 @@ fn dashpots(setting: &Setting) -> Vec<Dashpot> {
     sides.sort_unstable();
     sides.dedup();
     let elements: Vec<(usize, &[u32])> = mesh.elements().collect();
+    let heavier = mass_factors(body, elements.len());
     let mut sums = vec![[[0.0; 3]; 3]; local.len()];
     for (element, side) in sides {
         let (block, corners) = elements[element as usize];
         let material = &model.materials[body.block_material[block]];
         let moduli = material.law.moduli();
-        let impedance = |modulus: f64| (material.density * modulus).sqrt();
+        let factor = heavier.get(element as usize).copied().unwrap_or(1.0);
+        let impedance = |modulus: f64| (factor * material.density * modulus).sqrt();
         let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
         let Some(nodes) = mesh.blocks[block].shape.face(corners, side) else { continue };
         let areas = area_vectors(nodes.map(|node| body.positions[node as usize]), model.analysis);
@@ -131,6 +134,18 @@ fn dashpots(setting: &Setting) -> Vec<Dashpot> {
         .collect();
     found.sort_unstable_by_key(|dashpot| dashpot.node);
     found
+}
+
+/// For each element in the order of the mesh, its mass over that of its material; none where nothing was added.
+fn mass_factors(body: &Body, elements: usize) -> Vec<f64> {
+    let added = &body.added_mass;
+    let mut factors = vec![1.0; if added.elements() > 0 { elements } else { 0 }];
+    for (canonical, (&place, mass)) in body.element_order.iter().zip(body.element_mass.iter()).enumerate() {
+        if let Some(factor) = factors.get_mut(place as usize) {
+            *factor = 1.0 + added.of_element(canonical) / mass;
+        }
+    }
+    factors
 }
 
 /// Adds a (ρ c_L n nᵀ + ρ c_S (1 - n nᵀ)) for an area vector a n.

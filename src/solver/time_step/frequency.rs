@@ -12,9 +12,10 @@
 //! for less than a factorisation. It is kept small enough for a run to be estimated a million times, every estimate begins with
 //! numbers of its own, and the step never falls below the elements' own bound, which is proved.
 //!
-//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one: squeezing
-//! and shocks are answered at once.
+//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one, and by that of
+//! their heights ([`Heights`]): squeezing and shocks are answered at once.
 
+use super::heights::Heights;
 use crate::comm::{Communicator, ExactSum};
 use crate::lanes::{CHUNK, Force, Row};
 use crate::restart::Archive;
@@ -40,6 +41,9 @@ const WORTH: f64 = 1.03;
 /// Ratio of elements' steps below which the estimate is made again.
 const CHANGED: f64 = 0.9;
 
+/// For each block, whether it takes part.
+pub type Blocks<'a> = &'a [bool];
+
 /// The stable step of the mesh, and when it was found.
 pub struct GlobalStep {
     /// Which blocks take part; of the others the elements' own steps hold.
@@ -54,6 +58,8 @@ pub struct GlobalStep {
     stale: bool,
     /// The elements' own steps then, in each block by group.
     then: Vec<[Vec<Row>; 2]>,
+    /// How their heights have changed since.
+    heights: Heights,
     /// Estimates so far.
     pub estimates: u64,
 }
@@ -65,6 +71,8 @@ pub struct Votes {
     pub rest: f64,
     /// Least ratio of own steps now and when the estimate was made.
     pub ratio: f64,
+    /// The same of heights, infinite at steps that do not look.
+    pub height: f64,
     /// Least step in which elements change their shape by no more than they may, whatever the mesh's frequencies are.
     pub motion: f64,
 }
@@ -84,6 +92,7 @@ impl GlobalStep {
                 .iter()
                 .map(|block| [&block.border, &block.interior].map(|g| none(g.mass.len())))
                 .collect(),
+            heights: Heights::none(domain),
             estimates: 0,
         }
     }
@@ -94,8 +103,9 @@ impl GlobalStep {
     }
 
     /// What this rank's elements say.
-    pub fn votes(&self, domain: &Domain, found: &PassOutcome) -> Votes {
-        let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0, motion: found.motion_step };
+    pub fn votes(&self, step: u64, domain: &Domain, found: &PassOutcome) -> Votes {
+        let height = self.heights.vote(step - self.at, domain, &self.takes_part);
+        let mut votes = Votes { rest: f64::INFINITY, ratio: 1.0, height, motion: found.motion_step };
         let blocks = domain.blocks.iter().zip(&self.takes_part).zip(&self.then);
         for ((block, takes_part), then) in blocks.filter(|((block, _), _)| !block.rigid) {
             for (group, then) in block.groups().into_iter().zip(then) {
@@ -113,9 +123,10 @@ impl GlobalStep {
     }
 
     /// Whether an estimate is due, by what all ranks have agreed on.
-    pub fn is_due(&self, step: u64, votes: Votes) -> bool {
+    pub fn is_due(&mut self, step: u64, votes: Votes) -> bool {
         let since = step - self.at;
-        let wanted = self.stale || since >= self.interval || votes.ratio < CHANGED;
+        self.heights.learn(votes.height);
+        let wanted = self.stale || since >= self.interval || votes.ratio.min(self.heights.ratio()) < CHANGED;
         self.estimates == 0 || (wanted && since >= SHORTEST_INTERVAL.min(self.interval))
     }
 
@@ -124,7 +135,8 @@ impl GlobalStep {
         if self.stale {
             return own;
         }
-        own.max((self.found * votes.ratio).min(votes.rest)).min(votes.motion)
+        let ratio = votes.ratio.min(self.heights.ratio());
+        own.max((self.found * ratio).min(votes.rest)).min(votes.motion)
     }
 
     /// Finds the stable step anew. All ranks call it, when the elements have had their pass.
@@ -140,6 +152,7 @@ impl GlobalStep {
         self.found = operator.stable_step(step, comm);
         (self.at, self.stale) = (step, false);
         self.estimates += 1;
+        self.heights.begin(domain, &self.takes_part);
         let gains = self.found > WORTH * own;
         self.interval = if gains { INTERVAL } else { (2 * self.interval).clamp(INTERVAL, LONGEST_INTERVAL) };
         for (block, then) in domain.blocks.iter().zip(&mut self.then) {
@@ -152,7 +165,8 @@ impl GlobalStep {
 
     /// Visits what the next steps need.
     pub(in crate::solver) fn visit_state(&mut self, archive: &mut dyn Archive, domain: &Domain) {
-        let GlobalStep { takes_part: _, found, at, interval, stale, then, estimates } = self;
+        let GlobalStep { takes_part: _, found, at, interval, stale, then, heights, estimates } = self;
+        heights.visit_state(archive, domain);
         archive.number("GLOBALSTEP", found);
         archive.count("GLOBALAT", at);
         archive.count("GLOBALEVERY", interval);

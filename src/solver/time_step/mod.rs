@@ -2,6 +2,7 @@
 //! makes steps longer than each element alone would have them.
 
 mod frequency;
+mod heights;
 mod mass_scaling;
 mod slivers;
 
@@ -51,19 +52,27 @@ impl Solver {
     /// The step that all ranks take, the wish that all ranks follow, and whether any element has failed.
     pub(super) fn agree(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         let failed = self.local.failed.map_or(f64::INFINITY, |place| self.canonical(place));
-        let mut votes = [self.local.stable_step, failed, -f64::from(request as u8), f64::INFINITY, 1.0, f64::INFINITY];
+        let mut votes = [
+            self.local.stable_step,
+            failed,
+            -f64::from(request as u8),
+            f64::INFINITY,
+            1.0,
+            f64::INFINITY,
+            f64::INFINITY,
+        ];
         self.clock.start();
-        let of_mesh = self.global_step.as_ref().map(|global| global.votes(&self.domain, &self.local));
+        let of_mesh = self.global_step.as_ref().map(|global| global.votes(self.step, &self.domain, &self.local));
         let cast = match of_mesh {
-            Some(Votes { rest, ratio, motion }) => {
-                (votes[3], votes[4], votes[5]) = (rest, ratio, motion);
-                6
+            Some(Votes { rest, ratio, height, motion }) => {
+                (votes[3], votes[4], votes[5], votes[6]) = (rest, ratio, height, motion);
+                7
             }
             None => 3,
         };
         comm.all_min(&mut votes[..cast]);
         self.clock.stop(Section::Communication);
-        let [stable_step, failed, wish, rest, ratio, motion] = votes;
+        let [stable_step, failed, wish, rest, ratio, height, motion] = votes;
         (self.stable_step, self.own_step) = (stable_step, stable_step);
         if failed.is_finite() {
             let place = self.locate(failed, comm);
@@ -71,7 +80,7 @@ impl Solver {
             let inverted = place.volume.is_finite() && place.centre.iter().all(|x| x.is_finite());
             return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
         }
-        self.estimate(Votes { rest, ratio, motion }, comm);
+        self.estimate(Votes { rest, ratio, height, motion }, comm);
         let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
         self.stable_step *= self.domain.ties.as_ref().map_or(1.0, |ties| ties.step_part);
         self.stable_step = self.stable_step.min(bodies).min(self.control.longest / self.control.scale);
