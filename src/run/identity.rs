@@ -9,8 +9,8 @@ use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, Pr
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
-/// contact has made.
-const FORMAT: &str = "2";
+/// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated.
+const FORMAT: &str = "3";
 
 /// Differences told one by one.
 const TOLD: usize = 5;

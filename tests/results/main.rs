@@ -5,6 +5,7 @@ mod other_programs;
 mod pieces;
 mod restart;
 mod restart_files;
+mod restart_of_eroded;
 
 #[path = "../program/mod.rs"]
 mod program;

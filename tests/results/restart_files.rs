@@ -42,7 +42,7 @@ fn bits(results: &Results, state: usize) -> Vec<u64> {
 
 /// Asserts that a continued run's file holds the last states of the whole run's file, and several of them.
 #[track_caller]
-fn assert_tail(whole: &Path, continued: &Path) {
+pub fn assert_tail(whole: &Path, continued: &Path) {
     let [whole, continued] = [whole, continued].map(|path| Results::open(path).expect("results"));
     let (all, some) = (whole.times().len(), continued.times().len());
     assert!((3..all).contains(&some), "{some} of {all} states");

@@ -121,9 +121,9 @@ impl Contact {
             .iter_mut()
             .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
         self.carried = Some(renumbered(history, &old, new));
-        self.meet(|node| erosion.local()[node as usize], nodes, comm);
+        self.attach_to_nodes(|node| erosion.local()[node as usize], nodes, comm);
         // What is laid bare may be thinner than it was.
-        self.thin(nodes, comm);
+        self.update_depths(nodes, comm);
         for (contact_node, work) in old_contact_nodes.list.iter().zip(&old_contact_nodes.works) {
             match self.contact_nodes.of(self.layout.point(old.nodes[contact_node.point as usize])) {
                 Some(now) => self.contact_nodes.works[now] = *work,
@@ -143,14 +143,15 @@ impl Contact {
         step: &StepTimes,
         comm: &mut dyn Communicator,
     ) {
-        self.learn_of(rigid, nodes, comm);
+        self.update_rigid_bodies(rigid, nodes, comm);
         self.bring_motion(nodes, step, comm);
         comm.enter(Traffic::ContactPasses);
         let outcome = self.enforce(step, comm);
-        self.problem.teach(&mut self.seen, (step.time, self.age));
+        // The age counts this step already.
+        self.problem.record(&mut self.seen, (step.time, self.age.saturating_sub(1)));
         self.seen.iterate(&outcome);
         if self.age.is_multiple_of(arcs::EVERY) {
-            self.problem.teach_arcs(&mut self.arcs, (self.age / arcs::EVERY) as u32);
+            self.problem.record_arcs(&mut self.arcs, (self.age / arcs::EVERY) as u32);
         }
         self.book_resultants(step);
         self.count(outcome);
@@ -160,7 +161,7 @@ impl Contact {
     }
 
     /// Takes over how rigid bodies answer to forces in the step, and which points are theirs where that is not known yet.
-    fn learn_of(&mut self, rigid: Option<&RigidBodies>, nodes: &Nodes, comm: &dyn Communicator) {
+    fn update_rigid_bodies(&mut self, rigid: Option<&RigidBodies>, nodes: &Nodes, comm: &dyn Communicator) {
         let Some(rigid) = rigid else { return };
         let ContactNodes { motion, list, .. } = &mut self.contact_nodes;
         let of = |body: &RigidBody| BodyMobility { centre: body.centre, compliance: body.compliance, free: body.free };
@@ -306,7 +307,7 @@ impl Contact {
         problem.book(resultants, (planes, block_ids), step, mine);
     }
 
-    fn count(&mut self, Outcome { iterations, residual, deepest, depth, travel, .. }: Outcome) {
+    fn count(&mut self, Outcome { iterations, ran_out, residual, deepest, depth, travel, .. }: Outcome) {
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
         if depth > 0.0 {
@@ -314,7 +315,7 @@ impl Contact {
         }
         self.tally.steps += u64::from(iterations > 0);
         self.tally.iterations += u64::from(iterations);
-        self.tally.capped += u64::from(residual > self.limits.tolerance && self.limits.tolerance.is_finite());
+        self.tally.capped += u64::from(iterations > 0 && ran_out && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(residual);
     }
 

@@ -63,7 +63,7 @@ pub fn two_kinds(totals: &Totals) -> [f64; 2] {
 /// An energy is larger than what was put in allows, or the balance is off: the run must stop.
 pub fn check(totals: &Totals, initial: f64, supplied: f64, floor: f64) -> Result<(), Stop> {
     let [kinetic, internal] = two_kinds(totals);
-    if kinetic.is_nan() {
+    if kinetic.is_nan() || internal.is_nan() {
         return Err(Stop::MotionNotFinite);
     }
     if kinetic.abs().max(internal.abs()) > FACTOR * (supplied + totals.contact_gain) + floor {
@@ -77,7 +77,11 @@ pub fn check(totals: &Totals, initial: f64, supplied: f64, floor: f64) -> Result
 }
 
 impl Solver {
-    /// The stable step must not collapse.
+    /// The stable step must not collapse, and rigid bodies must be where they are told to be.
+    ///
+    /// # Errors
+    ///
+    /// What has gone wrong, with its place: the run must stop.
     pub(in crate::solver) fn check_step(&mut self, comm: &mut dyn Communicator) -> Result<(), Stop> {
         let first = *self.first_stable_step.get_or_insert(self.stable_step);
         let ratio = self.stable_step / first;

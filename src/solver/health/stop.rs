@@ -11,8 +11,8 @@ pub enum Stop {
     /// Numbers of an element are no longer finite.
     #[error("the motion of element {} of block {} is no longer a number, at ({:.6e}, {:.6e}, {:.6e})", .0.element, .0.block, .0.centre[0], .0.centre[1], .0.centre[2])]
     NotFinite(ElementPlace),
-    /// The kinetic energy is no longer a number, though those of all elements are.
-    #[error("the kinetic energy is no longer a number: a rigid body or a node without elements moves so")]
+    /// An energy is no longer a number, though the motions of all elements are.
+    #[error("an energy is no longer a number, though elements are sound")]
     MotionNotFinite,
     /// A rigid body does not do all that the deck tells it.
     #[error("the rigid body of block {block} cannot do all that it is told: node {node} is {strayed:.4e} from where {command} wants it", strayed = .strayed.abs())]
@@ -133,8 +133,8 @@ impl Stop {
                 "a light body that is hit hard, or driven by moments, turns ever faster: see its forces, or hold it with NO ROTATION"
             }
             Stop::MotionNotFinite => {
-                "motions of one RIGID BODY that contradict each other are the usual cause, or loads of absurd size: see what the \
-                 deck holds and drives of each, and the last plot state"
+                "prescribed motions or loads of absurd size are the usual cause, or motions of one RIGID BODY that contradict each other: \
+                 see what the deck holds and drives, and the last plot state"
             }
             Stop::Inverted(_) => {
                 "look at the last plot state around it; try a finer or better shaped mesh there, more hourglass \

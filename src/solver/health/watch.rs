@@ -53,6 +53,8 @@ pub struct Watch {
     facts: Facts,
     /// Largest energy supplied so far.
     pub supplied: f64,
+    /// The same when everything was looked at last.
+    supplied_before: f64,
     /// What is worth a warning, in the order in which it was seen.
     findings: Vec<Finding>,
     /// How many of these have been handed out.
@@ -71,7 +73,12 @@ pub struct Exam<'a> {
     pub totals: Totals,
     /// Largest energy supplied so far, not below the one that is worth words.
     pub supplied: f64,
+    /// Whether it has grown so much since the last look that what it will be compared with is yet to come.
+    pub begins: bool,
 }
+
+/// Supplied energy that has grown by this factor from look to look is that of a beginning: of loads that rise, of fits that are pressed.
+const BEGINS: f64 = 2.0;
 
 impl Watch {
     /// What there is to know of a run before its first step.
@@ -89,7 +96,7 @@ impl Watch {
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
             tied_held: tied_held(mesh, body),
         };
-        Watch { facts, supplied: initial_energy, ..Watch::default() }
+        Watch { facts, supplied: initial_energy, supplied_before: initial_energy, ..Watch::default() }
     }
 
     /// What has been found so far.
@@ -110,7 +117,8 @@ impl Watch {
 
     /// Looks for the symptoms that are due.
     fn look(&mut self, solver: &Solver, totals: Totals, due: When, comm: &mut dyn Communicator) {
-        let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base() };
+        let begins = self.base() > BEGINS * self.supplied_before && !solver.is_at_end();
+        let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base(), begins };
         for symptom in SYMPTOMS.iter().filter(|symptom| symptom.when.is_due(due, solver.step)) {
             for evidence in (symptom.measure)(&exam, comm) {
                 let mut found = Finding::new(symptom, solver, evidence);
@@ -123,12 +131,16 @@ impl Watch {
                 self.causes.extend(is_cause.then_some(found));
             }
         }
+        if due == When::Lines {
+            self.supplied_before = self.base();
+        }
     }
 
     /// Visits the state between two steps.
     pub fn visit_state(&mut self, archive: &mut dyn Archive) {
-        let Watch { facts: _, supplied, findings, told, causes } = self;
+        let Watch { facts: _, supplied, supplied_before, findings, told, causes } = self;
         archive.number("SUPPLIED", supplied);
+        archive.number("SUPPLIEDBEFORE", supplied_before);
         // Empty lists leave no trace in a file; this says that there was somebody who looked.
         let mut count = findings.len() as u64;
         archive.count("FINDINGS", &mut count);
@@ -227,7 +239,7 @@ impl Solver {
         let facts = &self.watch.facts;
         let share = totals.contact_gain / self.watch.base();
         if share > facts.contact_limit {
-            let exam = Exam { solver: self, facts, totals: *totals, supplied: self.watch.base() };
+            let exam = Exam { solver: self, facts, totals: *totals, supplied: self.watch.base(), begins: false };
             let mut evidence = Evidence { share, amount: totals.contact_gain, ..Evidence::default() };
             symptoms::contact::gain::place(&exam, &mut evidence, comm);
             return Err(Stop::Contact { evidence: Box::new(evidence), limit: facts.contact_limit });
@@ -247,14 +259,15 @@ fn farthest_moved(mesh: &Mesh, body: &Body) -> Option<Spot> {
     if body.overlap.nodes == 0 {
         return None;
     }
-    let way = |node: usize| {
+    let displacement = |node: usize| {
         if body.tied.follows(node as u32) {
             return 0.0;
         }
-        let way = subtract(body.positions[node], mesh.coordinates[node]);
-        dot(way, way)
+        let displacement = subtract(body.positions[node], mesh.coordinates[node]);
+        dot(displacement, displacement)
     };
-    let farthest = (0..mesh.coordinates.len()).fold(0, |best, node| if way(node) > way(best) { node } else { best });
+    let farthest = (0..mesh.coordinates.len())
+        .fold(0, |best, node| if displacement(node) > displacement(best) { node } else { best });
     Some(Spot { node: Some(mesh.node_ids[farthest]), element: None, at: mesh.coordinates[farthest] })
 }
 

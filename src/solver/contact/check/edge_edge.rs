@@ -329,17 +329,17 @@ impl EdgeCheck<'_> {
     }
 
     /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
-    /// stays. Where the mesh or a way from beside has brought them nearer, they stay as near.
+    /// stays. Where the mesh or a path from beside has brought them nearer, they stay as near.
     fn comes_near(&self, pair: [u32; 2], end: &Crossing, distance: f64) -> Option<EdgeContact> {
-        let way = between(self.start(pair[0]), self.start(pair[1]));
-        let (length, along) = (dot(way, way).sqrt(), dot(way, end.normal));
+        let separation = between(self.start(pair[0]), self.start(pair[1]));
+        let (length, along) = (dot(separation, separation).sqrt(), dot(separation, end.normal));
         if along.abs() <= SAME_SIDE * length {
             return None;
         }
         let (sense, before) = (along.signum(), length - distance);
         // Into its own body no edge of a solid is pushed.
         let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
-            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(way, self.outwards(edge)) > 0.0
+            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(separation, self.outwards(edge)) > 0.0
         });
         (outwards && sense * end.gap < distance).then_some(EdgeContact {
             pair,

@@ -8,8 +8,8 @@ pub const WIDTH: usize = 5;
 /// What a contact carries from step to step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Carried {
-    /// Overlap that motion has made, a length of at least 0. Only so much may be taken out by a force: what jumped in
-    /// otherwise, as when a normal turns, nobody has paid for.
+    /// Overlap that motion has made, a length of at least 0. Only so much may be taken out by a force: to lift out
+    /// what jumped in otherwise, as when a normal turns, would make energy.
     pub penetration: f64,
     /// Normal force of the last step.
     pub normal_force: f64,

@@ -10,6 +10,9 @@ use crate::solver::contact::geometry::motion::NodeMotion;
 /// in while loads are small can be lifted only at the price of the loads that come.
 const SETTLED: f64 = 0.002;
 
+/// Iterations whose last one still moves this part of that motion have run out, whatever they leave: contacts creep.
+const UNSETTLED: f64 = 0.1;
+
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
@@ -27,6 +30,8 @@ pub struct Limits {
 pub struct Outcome {
     /// Iterations made.
     pub iterations: u32,
+    /// Whether they ran out: the last of them left more than the tolerance, or moved a contact by a good part of the step's motion.
+    pub ran_out: bool,
     /// How much the last iteration still moved, as a part of the face's size: about the largest overlap left.
     pub residual: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
@@ -94,8 +99,10 @@ impl Enforcer {
                 *spared = Spared { iterations: spared.iterations + 1, moved: spared.moved + residual };
             }
             ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= by_looser(factor));
-            outcome = Outcome { residual, iterations: outcome.iterations + 1, deepest, depth, travel, looser };
-            if by_looser(1.0) || outcome.iterations == limits.iterations {
+            let (iterations, ran_out) =
+                (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
+            outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser };
+            if by_looser(1.0) || iterations == limits.iterations {
                 return Some(outcome);
             }
         }

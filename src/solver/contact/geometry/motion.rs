@@ -91,13 +91,13 @@ pub struct NodeMotion {
     instructions: InstructionSet,
 }
 
-/// The smaller of two numbers; what is none has no say where it comes first.
+/// The smaller of two numbers. NaN as the first is ignored.
 #[inline(always)]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The larger of two numbers; what is none has no say where it comes first.
+/// The larger of two numbers. NaN as the first is ignored.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }

@@ -2,6 +2,9 @@
 
 use super::motion::{Four, four, larger, smaller, three};
 
+/// Twice √3, rounded up: two points that go as far along each axis as a path at most come nearer by this many such paths at most.
+pub const TWICE_ROOT_THREE: f64 = 3.4642;
+
 /// Between which paths along each axis all paths are, no path among them: lengths. Without branches, which nobody could foretell.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PathRange {

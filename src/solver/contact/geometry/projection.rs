@@ -55,12 +55,12 @@ impl Projection {
 
     /// The same of a point beyond the border, seen from the nearest point of it. Itself for a point on the border.
     pub fn seen_from_border(self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> Projection {
-        let way = subtract(point, foot(corners, &self.weights));
-        let length = dot(way, way).sqrt();
+        let offset = subtract(point, foot(corners, &self.weights));
+        let length = dot(offset, offset).sqrt();
         if length <= 0.0 {
             return self;
         }
-        Projection { gap: length, normal: scaled(way, 1.0 / length), outside: 0.0, rounded: true, ..self }
+        Projection { gap: length, normal: scaled(offset, 1.0 / length), outside: 0.0, rounded: true, ..self }
     }
 
     /// Corners, by their places in the face, of the edge beyond which the point lies, or which is nearest to its foot.

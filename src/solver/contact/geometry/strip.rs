@@ -18,20 +18,20 @@ pub fn of(corners: &[[f64; 3]; 4]) -> Option<Ends> {
     is_strip.then_some([*a, *b])
 }
 
-fn way([a, b]: &Ends) -> [f64; 2] {
+fn vector_along([a, b]: &Ends) -> [f64; 2] {
     [b[0] - a[0], b[1] - a[1]]
 }
 
 /// Normal with the area of a strip as wide as it is long.
 pub fn area_normal(ends: Ends) -> [f64; 3] {
-    let [x, y] = way(&ends);
+    let [x, y] = vector_along(&ends);
     let length = (x * x + y * y).sqrt();
     [y * length, -x * length, 0.0]
 }
 
 /// Where a point stands against a strip. `None` without a length, or where something is not finite.
 pub fn project(ends: Ends, point: [f64; 3]) -> Option<Projection> {
-    let [x, y] = way(&ends);
+    let [x, y] = vector_along(&ends);
     let square = x * x + y * y;
     if square.is_nan() || square <= 0.0 {
         return None;
@@ -57,7 +57,7 @@ pub fn project(ends: Ends, point: [f64; 3]) -> Option<Projection> {
 /// Shares of the ends in the point of the strip that is met along a direction; `None` where the direction hardly leaves it,
 /// or far beyond its ends.
 pub fn shares_along(ends: Ends, point: [f64; 3], direction: [f64; 3]) -> Option<[f64; 4]> {
-    let [x, y] = way(&ends);
+    let [x, y] = vector_along(&ends);
     let across = y * direction[0] - x * direction[1];
     let r = [point[0] - ends[0][0], point[1] - ends[0][1]];
     let along = (r[1] * direction[0] - r[0] * direction[1]) / across;

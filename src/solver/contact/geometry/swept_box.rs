@@ -15,7 +15,7 @@ pub struct SweptBox([f32; 8]);
 #[derive(Debug, Clone, Copy)]
 pub struct Exchanged([f32; 8]);
 
-/// The smaller of two numbers, without a say for those that are none: half the instructions of `f32::min`.
+/// The smaller of two numbers. NaN as the second is ignored: half the instructions of `f32::min`.
 #[inline(always)]
 fn smaller(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }

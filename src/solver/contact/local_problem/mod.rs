@@ -197,7 +197,7 @@ impl LocalProblem {
     }
 
     /// Gives faces of the layout, as far as they are here, their thinnings; see [`Faces::set_thinning`].
-    pub fn thin(&mut self, changed: impl Iterator<Item = (u32, u8)>) {
+    pub fn update_depths(&mut self, changed: impl Iterator<Item = (u32, u8)>) {
         let faces = Arc::make_mut(&mut self.faces);
         let mut grown = false;
         for (face, thinning) in changed {
@@ -213,7 +213,7 @@ impl LocalProblem {
     }
 
     /// Gives the edges, all of the layout, the shapes that they have now.
-    pub fn fold(&mut self, edges: &[Edge]) {
+    pub fn update_edge_shapes(&mut self, edges: &[Edge]) {
         let LocalProblem { locator, edges: own, .. } = self;
         locator.wake_pairs(|edge| own[edge as usize].shape != edges[edge as usize].shape);
         self.edges.iter_mut().zip(edges).for_each(|(own, now)| own.shape = now.shape);

@@ -15,8 +15,8 @@ use crate::solver::contact::observations::seen::Seen;
 use crate::vector::dot;
 
 impl LocalProblem {
-    /// Lets `seen` learn what the contacts of this step did; `when` is its time, and the number of steps before it.
-    pub fn teach(&self, seen: &mut Seen, when: (f64, u64)) {
+    /// Records in `seen` what the contacts of this step did; `when` is its time, and the number of steps before it.
+    pub fn record(&self, seen: &mut Seen, when: (f64, u64)) {
         for (c, state) in self.enforcer.touched(&self.constraints) {
             seen.slid |= state.slid;
             if c.carried.normal_force > 0.0 {
@@ -29,8 +29,8 @@ impl LocalProblem {
         }
     }
 
-    /// Lets `arcs` see which nodes are pushed in this step, the `look`-th at which it looks.
-    pub fn teach_arcs(&self, arcs: &mut Arcs, look: u32) {
+    /// Records in `arcs` which nodes are pushed in this step, the `look`-th at which it looks.
+    pub fn record_arcs(&self, arcs: &mut Arcs, look: u32) {
         let LocalProblem { faces, numbering, motion, .. } = self;
         for (c, _) in self.enforcer.pushing(&self.constraints).filter(|(c, _)| !matches!(c.origin, Origin::Edges(..))) {
             let point = c.members[0];
@@ -120,8 +120,9 @@ impl LocalProblem {
             let Details { gap, status, face, plane_force } = &mut self.results.own(c.members[0] as usize).details;
             *gap = gap.min(c.gap);
             match c.origin {
-                Origin::Face(..) => {
-                    let touched = self.history.get(c.members[0] as usize).map_or(NONE, |contacts| contacts[0].face);
+                Origin::Face(_, place) if *status != Status::OnFace => {
+                    let contacts = self.history.get(c.members[0] as usize);
+                    let touched = contacts.and_then(|contacts| contacts.get(place as usize)).map_or(NONE, |of| of.face);
                     if touched != NONE {
                         (*status, *face) = (Status::OnFace, self.faces.number[touched as usize]);
                     }
@@ -130,7 +131,7 @@ impl LocalProblem {
                     let Carried { normal_force, tangential_force, .. } = c.carried;
                     (0..3).for_each(|i| plane_force[i] += normal_force * c.normal[i] + tangential_force[i])
                 }
-                Origin::Edges(..) => (),
+                Origin::Face(..) | Origin::Edges(..) => (),
             }
         }
         self.loaded.sort_unstable();

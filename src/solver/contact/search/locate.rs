@@ -6,7 +6,7 @@ use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::geometry::paths::Paths;
+use crate::solver::contact::geometry::paths::{Paths, TWICE_ROOT_THREE};
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::local_problem::Numbering;
@@ -49,7 +49,8 @@ pub struct Reach {
     /// Smallest reach, a length.
     pub least: f64,
     /// How far a face looks beyond its corners in a step, as a part of half its element: a little, for points that have
-    /// just left it; all of it, to find points that are behind it at the start. Searches look as far as all of it.
+    /// just left it; all of it, to find points that are behind it at the start and where they stay there. Searches look as far as
+    /// all of it.
     pub depth: f64,
 }
 
@@ -79,7 +80,7 @@ pub struct Locator {
     moving: Vec<u32>,
     /// Whether no step has been made yet, and whether what sleeps has been taken over from the search before.
     fresh: bool,
-    heir: bool,
+    continues: bool,
     capture_boxes: CaptureBoxes,
 }
 
@@ -102,9 +103,6 @@ const LOOK: f64 = 8.0;
 
 /// Part of the distance between two things that either may go before they are looked at again: half, less what rounding takes.
 const SAFE: f64 = 0.499;
-
-/// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many along a normal.
-const ALONG_A_NORMAL: f64 = 3.4642;
 
 /// What a reach is multiplied by, to be more than what single precision takes away.
 const ROUNDED_UP: f64 = 1.0 + 1e-6;
@@ -184,7 +182,7 @@ impl Locator {
     /// same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from here on. The numbers
     /// are those of `new` and of `old` local problems, in the same order.
     pub fn take_over(&mut self, before: &Locator, [new, old]: [&Numbering; 2]) {
-        self.heir = true;
+        self.continues = true;
         let travelled = before.travelled;
         if !travelled.is_finite() {
             return;
@@ -245,9 +243,9 @@ impl Locator {
         self.capture_boxes.next_step(faces.len());
         // What counts in the longest path is chosen after the first step's nodes have been looked at.
         let first = std::mem::replace(&mut self.fresh, false);
-        let heir = std::mem::replace(&mut self.heir, false);
+        let continues = std::mem::replace(&mut self.continues, false);
         let ahead = || motion.paths_ahead(self.moving.iter().copied());
-        self.paths = match (first, heir) {
+        self.paths = match (first, continues) {
             (false, _) => motion.paths(),
             (true, false) => ahead(),
             // Those that counted before have also gone on since the last step.
@@ -404,7 +402,7 @@ impl Locator {
             if !held && away <= sleep {
                 let front = self.depth * faces.depth[face as usize] + faces.reach[face as usize] + reach;
                 let apart = separation([point, face], motion, faces, [front, deepest]);
-                away = away.max(apart / ALONG_A_NORMAL);
+                away = away.max(apart / TWICE_ROOT_THREE);
             }
             if away > sleep && past.iter().all(|past| past.face != face) {
                 rest = rest.min(away);

@@ -32,14 +32,14 @@ impl Contact {
         if self.layout.interfaces.is_empty() || !self.age.is_multiple_of(EVERY) {
             return false;
         }
-        let folded = !self.layout.edges.is_empty() && self.fold(nodes, comm);
-        self.thin(nodes, comm);
+        let folded = !self.layout.edges.is_empty() && self.update_edge_shapes(nodes, comm);
+        self.update_depths(nodes, comm);
         folded
     }
 
     /// Gives the faces of all elements the depths that they have now. Searches look as far as the depths of the start, so that
     /// candidates stay what they are. All ranks call it.
-    pub(in crate::solver::contact) fn thin(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
+    pub(in crate::solver::contact) fn update_depths(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) {
         let faces = &self.layout.faces;
         let mut changed = Vec::new();
         for (face, sides) in &self.thicknesses {
@@ -57,7 +57,7 @@ impl Contact {
         // A local problem that has been given up, its history on the way, gets its faces from the next search.
         let told = self.carried.is_none();
         if told && self.remote.is_some() {
-            self.problem.thin(changed.clone());
+            self.problem.update_depths(changed.clone());
         } else if told {
             self.problem.release_faces();
         }
@@ -80,7 +80,7 @@ impl Contact {
     }
 
     /// Gives edges the shapes that they have now. Whether any has changed.
-    fn fold(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
+    fn update_edge_shapes(&mut self, nodes: &Nodes, comm: &mut dyn Communicator) -> bool {
         let mut changed = self.changes(nodes, comm);
         self.with_others(&mut changed, comm);
         if changed.is_empty() {
@@ -90,7 +90,7 @@ impl Contact {
             self.layout.edges[(change / SHAPES) as usize].shape = Shape::from_code(change % SHAPES);
         }
         if self.remote.is_none() && self.carried.is_none() {
-            self.problem.fold(&self.layout.edges);
+            self.problem.update_edge_shapes(&self.layout.edges);
             return true;
         }
         let mut history = self.carried.take().unwrap_or_else(|| self.problem.history());

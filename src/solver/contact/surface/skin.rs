@@ -85,7 +85,7 @@ impl Skin {
     }
 
     /// Keeps what a surface is asked that does not change any more, and lets go of the rest.
-    pub fn settle(&mut self, layout: &Layout) {
+    pub fn release_construction_data(&mut self, layout: &Layout) {
         self.of_points = self.positions(&layout.nodes);
         self.positions = Coordinates::default();
         (self.element_nodes, self.element_block) = Default::default();

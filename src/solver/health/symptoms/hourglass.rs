@@ -55,9 +55,11 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let mass: f64 = blocks.iter().map(|block| block.mass).sum();
     let evidence = |(block, sums): (&super::super::watch::BlockFacts, &[ExactSum])| {
         let [internal, hourglass] = [sums[0].value(), sums[1].value()];
-        let counts = hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
         // A gas that has expanded has lost internal energy; what it has done counts.
         let share = hourglass / internal.abs();
+        // The first waves of loads that rise are all edges; what they leave is small against what follows.
+        let matters = !exam.begins || share > SYMPTOM.cause;
+        let counts = matters && hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
         counts.then_some(Evidence { share, amount: hourglass, of: internal, block: block.id, ..Evidence::default() })
     };
     blocks.iter().zip(sums.chunks_exact(2)).filter_map(evidence).collect()

@@ -17,9 +17,9 @@ pub const SYMPTOM: Symptom = Symptom {
     label: |_| "energy balance does not close".into(),
     words: |evidence| {
         let Evidence { share, amount, .. } = *evidence;
-        let way = if amount < 0.0 { "lost" } else { "gained" };
+        let change = if amount < 0.0 { "lost" } else { "gained" };
         format!(
-            "the energy balance is off by {:.4e}, {} of the largest account: so much was {way} in the integration of time",
+            "the energy balance is off by {:.4e}, {} of the largest account: so much was {change} in the integration of time",
             amount.abs(),
             percent(share)
         )

@@ -1,11 +1,9 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
 use super::{DetectedContact, HOLD, NodeFaceCheck};
+use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::vector::{dot, scaled, subtract};
-
-/// Twice √3, rounded up: two points nearing each other by some way along each axis do so by this many in all.
-const ALONG_A_WAY: f64 = 3.4642;
 
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
@@ -83,11 +81,11 @@ impl NodeFaceCheck<'_> {
             scaled(normal, 1.0 / dot(normal, normal).sqrt())
         });
         let apart = |a: [f64; 3], b: [f64; 3]| {
-            let way = subtract(a, b);
-            dot(way, way).sqrt()
+            let separation = subtract(a, b);
+            dot(separation, separation).sqrt()
         };
         let beside = self.faces.distance(point, face) * (apart(before, after) + apart(after, end.normal));
-        let within = 2.0 * (beside + ALONG_A_WAY * self.longest_path) + HOLD * self.faces.size[face as usize];
+        let within = 2.0 * (beside + TWICE_ROOT_THREE * self.longest_path) + HOLD * self.faces.size[face as usize];
         // What is no number rules nothing out.
         end.outside.partial_cmp(&within) != Some(std::cmp::Ordering::Greater)
     }

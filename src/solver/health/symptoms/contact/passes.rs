@@ -20,7 +20,7 @@ pub const SYMPTOM: Symptom = Symptom {
         let enough = tally.filter(|tally| tally.steps >= ENOUGH);
         let evidence = enough.map(|tally| Evidence {
             share: tally.capped as f64 / tally.steps as f64,
-            amount: tally.left,
+            amount: tally.left.max(tally.deepest),
             count: tally.capped,
             of: tally.steps as f64,
             ..Evidence::default()
@@ -32,8 +32,8 @@ pub const SYMPTOM: Symptom = Symptom {
     words: |evidence| {
         let Evidence { share, amount, count, of, .. } = *evidence;
         format!(
-            "the passes of contact have run out in {count} of {of} steps with contact, {}; they have left overlaps of up to \
-             {amount:.1e} of a face; now most overlaps at {}",
+            "the passes of contact have run out in {count} of {of} steps with contact, {}; overlaps are up to \
+             {amount:.1e} of a face; now the deepest is at {}",
             percent(share),
             evidence.places()
         )
