@@ -1,6 +1,6 @@
 //! MG US-UP and MG POWER SERIES: solids around their Hugoniot, p = p_H(η)(1 − ½Γη) + Γ E with η = 1 − v.
 //!
-//! Γ stands for Γ₀ ρ₀/ρ · ρ/ρ₀: the product of Grüneisen parameter and density is constant.
+//! Γ is the Grüneisen parameter at ρ₀; the product of parameter and density is taken to be constant.
 
 use super::super::property::STRESS;
 use super::super::{Entry, Origin, Property, Range};

@@ -89,7 +89,7 @@ parameters! {
         ],
     }
     with(given) {
-        /// Mass density ρ, which heat is stored in.
+        /// Mass density ρ₀ at the start, which heat is stored in.
         pub density: f64 = given.density,
     }
 }
@@ -133,6 +133,7 @@ impl JohnsonCook {
             elastic: self.moduli().into(),
             homologous: reciprocal(self.melt_temperature - self.reference_temperature),
             heating: self.heat_fraction * reciprocal(self.density * self.specific_heat),
+            compliance: reciprocal(self.moduli().lambda + self.moduli().two_mu / 3.0),
             damaged: self.damage[0] != 0.0 || self.damage[1] != 0.0,
         })
     }
@@ -144,8 +145,10 @@ struct JohnsonCookKernel<'a> {
     elastic: Hooke,
     /// 1/(T_m − T_r), or 0 for no softening.
     homologous: f64,
-    /// χ/(ρ c_p), or 0 for no heating.
+    /// χ/(ρ₀ c_p), or 0 for no heating.
     heating: f64,
+    /// One over the bulk modulus, area/force.
+    compliance: f64,
     /// Whether damage is computed at all.
     damaged: bool,
 }
@@ -225,7 +228,11 @@ impl Kernel for JohnsonCookKernel<'_> {
         // (iv) heat and damage
         let von_mises = (V::splat(1.5) * deviator.contract(deviator)).sqrt() * back.factor;
         (eqps + back.increment).store(&mut state[0], part);
-        (heat + V::splat(self.heating) * von_mises * back.increment).store(&mut state[1], part);
+        if self.heating > 0.0 {
+            // Plastic work is of the present volume, ρ₀ of that at the start. As plastic flow keeps the volume, σ_m = K ln V/V₀.
+            let volume = exp(mean * V::splat(self.compliance));
+            (heat + V::splat(self.heating) * volume * von_mises * back.increment).store(&mut state[1], part);
+        }
         if self.damaged && V::any_less(zero, back.increment) {
             let inverse = self.inverse_fracture_strain(mean, von_mises, back.increment * rate, hot);
             (damage + back.increment * inverse).store(&mut state[2], part);
@@ -322,6 +329,22 @@ mod tests {
         close("temperature rise", point.state("TEMP") - 298.0, t - 298.0, 5e-4);
         close("stress", point.von_mises(), strength(e, t), 5e-4);
         assert!(point.state("TEMP") > 330.0);
+    }
+
+    /// Compressed to exp(−0.2) of its volume without motion across, a unit of mass gets the plastic work on it, not that on a unit of
+    /// the present volume, which is a fifth more at the end.
+    #[test]
+    fn heat_is_stored_by_mass() {
+        let mut point = copper(&[&HEAT]);
+        let (mut rise, mut before) = (0.0, 0.0);
+        for step in 1..=2000 {
+            point.strain_in(1, [-1e-4, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            let volume = libm::exp(-1e-4 * f64::from(step));
+            rise += 0.9 * point.von_mises() * (point.eqps() - before) * volume / (DENSITY * 383.0);
+            before = point.eqps();
+        }
+        close("temperature rise", point.state("TEMP") - 298.0, rise, 1e-9);
+        assert!(rise > 5.0, "{rise}");
     }
 
     /// Uniaxial tension has σ_m/σ̄ = ⅓: damage is ε̄ᵖ over a constant strain at fracture, and from 1 on nothing holds.
