@@ -131,7 +131,7 @@ pub trait Formulation: Sized {
 
     /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner; behind
     /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length². Called
-    /// once for every element of the block on every rank, so that bounds over the block can be found here.
+    /// at least once for every element of the block on every rank, so that bounds over the block can be found here.
     fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64;
 
     /// Fills in the rows of an element at rest, and says what its law may see of it. `own` is zero.

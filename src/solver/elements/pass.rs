@@ -187,6 +187,11 @@ impl<'a> Pass<'a> {
     }
 }
 
+/// [`chunks`] with eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions, and the pass
+/// takes several times as long (docs/performance.md, "The whole step").
+///
+/// # Safety
+/// The processor must have the instructions of the attribute.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
@@ -198,6 +203,10 @@ unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
     chunks::<V, N, S>(group, nodes, sink, kernel)
 }
 
+/// The same with four at once.
+///
+/// # Safety
+/// The processor must have AVX2.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 unsafe fn chunks_avx2<V: Lanes, const N: usize, S: StepKernel<N>>(
@@ -305,7 +314,7 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             prefetch(share(next, 2 * part, shares));
             let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
             prefetch(share(next, 2 * part + 1, shares));
-            bring(&outcome, S::BALANCED, &mut corner_forces, part);
+            scatter_forces(&outcome, S::BALANCED, &mut corner_forces, part);
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
             let (here, mut step) = (V::splat(row as f64), outcome.stable_step);
             if let Some(rows) = &mut steps {
@@ -352,7 +361,12 @@ fn share<R>(rows: &[R], place: usize, shares: usize) -> &[R] {
 /// Brings the forces of a part to where they are taken from; in single precision made to add up to nothing again in each element, which they
 /// have been rounded away from: momentum is kept.
 #[inline(always)]
-fn bring<V: Lanes, const N: usize>(outcome: &Outcome<V, N>, balanced: bool, to: &mut CornerForces, part: usize) {
+fn scatter_forces<V: Lanes, const N: usize>(
+    outcome: &Outcome<V, N>,
+    balanced: bool,
+    to: &mut CornerForces,
+    part: usize,
+) {
     let Outcome { force, rate, .. } = outcome;
     for piece in 0..V::PIECES {
         let own = V::PIECES * part + piece;

@@ -7,7 +7,8 @@
 //!
 //! This is what central differences with rigid distances give (SHAKE; Moser and Veselov, "Discrete versions of some classical integrable
 //! systems", Commun. Math. Phys. 139, 1991; in quaternions Hairer and Vilmart, "Preprocessed discrete Moser–Veselov algorithm", 2006). Without moments it
-//! keeps L and the energy ½ L·I⁻¹L to round-off, for any sequence of steps.
+//! keeps L and the energy ½ L·I⁻¹L to round-off, for any sequence of steps. In a steady spin ω the angle of such a rotation is
+//! arcsin ωΔt, too large by (ωΔt)²/6. So a step that turns far is made of several, each of which keeps both.
 
 use super::shape::Matrix;
 use crate::vector::{add, cross, dot, scaled, subtract};
@@ -79,9 +80,31 @@ pub fn moved([w, x, y, z]: Quaternion, r: [f64; 3]) -> [f64; 3] {
 /// Iterations of Newton's method at most; it settles in four.
 const MOST: usize = 20;
 
-/// The rotation over a step Δt of a body with inertia I and angular momentum L, given `impulse` = Δt L. A step by which it would turn too
-/// far, about a right angle, has none; then it is the nearest that was found.
+/// Angle of one of the rotations that a step is made of, at most; a step has no more than so many.
+const FINEST: f64 = 0.0125;
+const MOST_PARTS: f64 = 64.0;
+
+/// The rotation over a step Δt of a body with inertia I and angular momentum L, given `impulse` = Δt L.
 pub fn rotation(inertia: &Matrix, impulse: [f64; 3]) -> Quaternion {
+    let angle = solved(inertia, impulse);
+    let parts = (dot(angle, angle).sqrt() / FINEST).ceil().clamp(1.0, MOST_PARTS);
+    // Also what is no number: it stays none.
+    if parts.partial_cmp(&1.0) != Some(std::cmp::Ordering::Greater) {
+        return rotation_of_chords(inertia, impulse);
+    }
+    let impulse = scaled(impulse, 1.0 / parts);
+    let (mut whole, mut now) = (STRAIGHT, *inertia);
+    for _ in 0..parts as u32 {
+        let part = rotation_of_chords(&now, impulse);
+        whole = then(whole, part);
+        now = turned(&matrix(part), &now);
+    }
+    whole
+}
+
+/// The rotation by which points that go straight have the angular momentum of `impulse`. Where there is none, from about a right angle
+/// on, it is the nearest that was found.
+fn rotation_of_chords(inertia: &Matrix, impulse: [f64; 3]) -> Quaternion {
     let mut q = scaled(solved(inertia, impulse), 0.5);
     let mut real = 1.0;
     for _ in 0..MOST {
@@ -128,7 +151,7 @@ mod tests {
         for step in 0..20_000 {
             let dt = if step % 3 == 0 { 0.04 } else { 0.025 };
             let r = matrix(turn);
-            let q = rotation(&turned(&r, &inertia), scaled(momentum, dt));
+            let q = rotation_of_chords(&turned(&r, &inertia), scaled(momentum, dt));
             let momentum_of_chords = scaled(
                 add(scaled(times(&turned(&r, &inertia), [q[1], q[2], q[3]]), q[0]), {
                     let q = [q[1], q[2], q[3]];
@@ -153,10 +176,14 @@ mod tests {
 
     #[test]
     fn a_steady_spin_is_that_of_straight_paths() {
-        let q = rotation(&[[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 5.0]], [0.0, 0.0, 0.5]);
+        let inertia = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 5.0]];
+        let q = rotation_of_chords(&inertia, [0.0, 0.0, 0.5]);
         // I sin θ = Δt L.
         let angle = 2.0 * q[3].asin();
         assert!((angle.sin() - 0.1).abs() < 1e-15, "{angle}");
+        // In eight parts it is too large by a sixth of the square of an eightieth.
+        let whole = 2.0 * rotation(&inertia, [0.0, 0.0, 0.5])[3].asin();
+        assert!((whole / 0.1 - 1.0 - 0.0125 * 0.0125 / 6.0).abs() < 1e-8, "{whole}");
         let r = [1.0, 2.0, 3.0];
         let by_matrix = subtract(times(&matrix(q), r), r);
         (0..3).for_each(|i| assert!((moved(q, r)[i] - by_matrix[i]).abs() < 1e-15));

@@ -6,8 +6,8 @@ use crate::material::{Kernel, Moduli, Response, Step};
 /// State variables of a law at most.
 const MOST: usize = 32;
 
-/// Calls of the law per step. The first takes Poisson's contraction, the others are secant steps; what is left across is
-/// corrected in the next step.
+/// Calls of the law per step. The first takes Poisson's contraction, the second corrects it by what radial return leaves, the others
+/// are secant steps; what is left across is corrected in the next step.
 const CALLS: usize = 4;
 
 /// What the law answers to a step along the bar.
@@ -36,6 +36,7 @@ pub fn update<V: Lanes, K: Kernel>(
     part: usize,
 ) -> Answer<V> {
     let (zero, two) = (V::splat(0.0), V::splat(2.0));
+    const { assert!(K::STATE.len() <= MOST, "a law with more state variables than are put back between calls") }
     let mut saved = [zero; MOST];
     for (saved, row) in saved.iter_mut().zip(law_state.iter()) {
         *saved = V::load(row, part);
@@ -71,11 +72,15 @@ pub fn update<V: Lanes, K: Kernel>(
         let returned = bulk + (elastic - bulk) * response.returned;
         let [last_lateral, last_across] = before;
         before = [lateral, across];
-        let way = lateral - last_lateral;
+        let last_step = lateral - last_lateral;
         // Where nothing has moved there is no secant.
-        let moved = V::select_less(way * way, V::splat(V::TINY), V::splat(1.0), way);
+        let moved = V::select_less(last_step * last_step, V::splat(V::TINY), V::splat(1.0), last_step);
         let secant = ((across - last_across) / moved).max(bulk * V::splat(0.9)).min(elastic);
-        let slope = if call == 0 { returned } else { V::select_less(way * way, V::splat(V::TINY), elastic, secant) };
+        let slope = if call == 0 {
+            returned
+        } else {
+            V::select_less(last_step * last_step, V::splat(V::TINY), elastic, secant)
+        };
         lateral = lateral - across / slope;
     }
     let nothing = (old[0], zero, Response::returned(V::splat(1.0)));

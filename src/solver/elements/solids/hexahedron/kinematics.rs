@@ -169,7 +169,7 @@ fn increment<V: Lanes>(
     let half_turn = array![i in 3 => (w[i] - correction[i]) * half];
     let strain = at_half_turn(&d, &half_turn);
     if second_order {
-        seldom();
+        cold_path();
         let further = of_second_order(stretch, &inverse, [&d, &strain], [&w, &correction]);
         let half_turn = array![i in 3 => half_turn[i] + further.half_turn[i]];
         return Increment { strain, half_turn, growth: further.growth };
@@ -181,7 +181,7 @@ fn increment<V: Lanes>(
 /// their pass over elements has six thousandths more instructions.
 #[cold]
 #[inline]
-fn seldom() {}
+fn cold_path() {}
 
 /// What a spin of second order makes of one of first order.
 struct Further<V> {

@@ -5,7 +5,7 @@ use super::{point_rows, rows};
 use crate::lanes::{Lanes, array};
 use crate::material::{Kernel, Moduli};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
-use crate::solver::elements::structural::uniaxial;
+use crate::solver::elements::structural::{BAR_STEP, uniaxial};
 
 /// What holds for all beams of a block in a step.
 #[derive(Debug, Clone, Copy)]
@@ -221,7 +221,7 @@ impl<K: Kernel> BeamStep<K> {
         let stretching = two * V::splat(young * area) / (length * node);
         let shear = sy.max(sz) * (two / (length * node) + length / (two * inertia));
         let turning = two * V::splat((young * iy.max(iz)).max(mu * torsion)) / (length * inertia);
-        two / stretching.max(shear).max(turning).sqrt()
+        two / stretching.max(shear).max(turning).sqrt() * V::splat(BAR_STEP)
     }
 }
 

@@ -137,8 +137,9 @@ fn given_by(command: &model::Section, block: &Block) -> Result<([f64; 4], [f64; 
 fn section(form: &str, [a, b, c, d]: [f64; 4]) -> Result<Section, Unfit> {
     let unfit = |reason: String| Err(Unfit { reason: format!("BEAM SECTION: {reason}"), help: String::new() });
     let needed = dimensions(form);
-    if [a, b, c, d][..needed].iter().any(|dimension| dimension.is_nan()) {
-        return unfit(format!("{form} has {needed} dimensions"));
+    let given = [a, b, c, d][..needed].iter().filter(|dimension| !dimension.is_nan()).count();
+    if given < needed {
+        return unfit(format!("{form} needs {needed} dimensions, and {given} are given"));
     }
     match form {
         "RECTANGLE" => Ok(Section::rectangle(a, b)),

@@ -200,7 +200,7 @@ pub(super) fn unfit_law(block: &Block, model: &Model) -> Option<Unfit> {
     let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law)?;
     law.accept(SeesVolume).then(|| Unfit {
         reason: format!("{} cannot be held in plane stress", law.entry().name),
-        help: "shells are made of ELASTIC, ELASTIC PLASTIC, PIECEWISE PLASTIC, EP POWER HARD, VISCOPLASTIC or JOHNSON COOK"
+        help: "shells and bars need a law that goes by strain increments alone, such as ELASTIC, ELASTIC PLASTIC or JOHNSON COOK"
             .into(),
     })
 }

@@ -37,6 +37,7 @@ pub fn update<V: Lanes, K: Kernel>(
     part: usize,
 ) -> Answer<V> {
     let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    const { assert!(K::STATE.len() <= MOST, "a law with more state variables than are put back between calls") }
     let mut saved = [zero; MOST];
     for (saved, row) in saved.iter_mut().zip(state.iter()) {
         *saved = V::load(row, part);
@@ -75,9 +76,9 @@ pub fn update<V: Lanes, K: Kernel>(
             break;
         }
         let returned = bulk + (elastic - bulk) * response.returned;
-        let way = normal - last_normal;
-        let still = way * way;
-        let moved = V::select_less(still, V::splat(V::TINY), one, way);
+        let last_step = normal - last_normal;
+        let still = last_step * last_step;
+        let moved = V::select_less(still, V::splat(V::TINY), one, last_step);
         let secant = ((left - last_left) / moved).max(bulk * V::splat(0.9)).min(elastic);
         let secant = V::select_less(still, V::splat(V::TINY), elastic, secant);
         let slope = if call == 0 { returned } else { secant };

@@ -4,7 +4,7 @@
 //! the strain across, A = A₀ exp(2ε_t), and the force at the ends is N = σA along the present line. Work is that of the end
 //! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
-use super::uniaxial;
+use super::{BAR_STEP, uniaxial};
 use crate::lanes::{Lanes, Matrix3, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
 use crate::mesh::{Block, Shape};
@@ -134,10 +134,10 @@ impl Formulation for Truss {
 
     fn last_half_step(&self, group: &Group, i: usize, nodes: &Nodes, time_step: f64) -> f64 {
         let [a, b]: [[f64; 3]; 2] = group.velocities(i, nodes);
-        let way = scaled(subtract(b, a), time_step);
-        let before = subtract(chord(group, i, nodes), way);
+        let displacement = scaled(subtract(b, a), time_step);
+        let before = subtract(chord(group, i, nodes), displacement);
         let force = group.value(i, rows::STRESS) * area(group, i);
-        let work = normalized(before).map_or(0.0, |e| 0.5 * force * dot(e, way));
+        let work = normalized(before).map_or(0.0, |e| 0.5 * force * dot(e, displacement));
         if work.is_finite() { work } else { 0.0 }
     }
 }
@@ -199,10 +199,10 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         let half = V::splat(0.5);
         // (i) strain increment at mid-step
         let x: [V; 3] = array![i in 3 => positions[i][1] - positions[i][0]];
-        let way: [V; 3] = array![i in 3 => (velocities[i][1] - velocities[i][0]) * V::splat(self.times[1])];
-        let middle: [V; 3] = array![i in 3 => x[i] - way[i] * half];
-        let before: [V; 3] = array![i in 3 => x[i] - way[i]];
-        let along = product(&way, &middle) / product(&middle, &middle);
+        let displacement: [V; 3] = array![i in 3 => (velocities[i][1] - velocities[i][0]) * V::splat(self.times[1])];
+        let middle: [V; 3] = array![i in 3 => x[i] - displacement[i] * half];
+        let before: [V; 3] = array![i in 3 => x[i] - displacement[i]];
+        let along = product(&displacement, &middle) / product(&middle, &middle);
         let length = product(&x, &x).sqrt();
         // (ii) stress along, with none across
         let [lateral, area, start] = array![i in 3 => V::load(&state[rows::LATERAL + i], part)];
@@ -224,11 +224,11 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         let (now, then) = (force / length, old_force / product(&before, &before).sqrt());
         let end: [V; 3] = array![i in 3 => x[i] * now];
         let pair: [V; 3] = array![i in 3 => end[i] + before[i] * then];
-        let energy = V::load(&state[rows::INTERNAL_ENERGY], part) + product(&pair, &way) * half;
+        let energy = V::load(&state[rows::INTERNAL_ENERGY], part) + product(&pair, &displacement) * half;
         energy.store(&mut state[rows::INTERNAL_ENERGY], part);
         // (iv) √(M/k), k the larger of the stiffness along, E A/L, and across, N/L
         let stiffest = self.modulus(&answer.response, answer.along);
-        let stable_step = (given.moving * length / (stiffest * section)).sqrt();
+        let stable_step = (given.moving * length / (stiffest * section)).sqrt() * V::splat(BAR_STEP);
         let zero = V::splat(0.0);
         // A truss that has no length any more has failed.
         let stable_step = V::select_less(zero, length, stable_step, zero);

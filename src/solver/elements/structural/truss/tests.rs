@@ -5,6 +5,7 @@ use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, ElasticPlastic, Law};
 use crate::model::{BulkViscosity, StepModuli};
 use crate::solver::domain::state_names;
+use crate::solver::elements::structural::BAR_STEP;
 use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
 
 const YOUNG: f64 = 200e9;
@@ -107,7 +108,7 @@ fn the_area_follows_the_strain_across() {
     assert!(rig.state(rows::ACROSS).abs() < 1e-9 * YOUNG);
     let force = AREA * libm::exp(-0.6 * strain) * YOUNG * strain;
     close("force", -rig.forces[1].0[2], force, 1e-6 * force);
-    // Loaded and let go along one way, nothing is kept.
+    // Loaded and let go along one stretch, nothing is kept.
     for step in (0..10).rev() {
         rig.step_to([[0.0; 3], [0.0, 0.0, 2.0 + 2e-3 * f64::from(step)]]);
     }
@@ -121,8 +122,8 @@ fn flows_at_the_yield_stress() {
     let law = ElasticPlastic { young: YOUNG, poisson: 0.3, yield_stress: 400e6, hardening: 0.0, beta: 1.0 };
     let mut rig = Rig::new([[0.0; 3], [1.0, 0.0, 0.0]], Law::ElasticPlastic(law));
     for step in 1..=100 {
-        let way = 0.01 * (f64::from(step) * 0.07).sin();
-        rig.step_to([[0.0; 3], [1.0 + way, 0.0, 0.0]]);
+        let stretch = 0.01 * (f64::from(step) * 0.07).sin();
+        rig.step_to([[0.0; 3], [1.0 + stretch, 0.0, 0.0]]);
         assert!(rig.state(rows::STRESS).abs() < 400e6 * 1.001, "{}", rig.state(rows::STRESS));
         assert!(rig.state(rows::ACROSS).abs() < 400e6 * 1e-3, "{}", rig.state(rows::ACROSS));
     }
@@ -135,7 +136,7 @@ fn flows_at_the_yield_stress() {
 fn the_stable_step_is_length_over_bar_speed() {
     let mut rig = Rig::new([[0.0; 3], [0.5, 0.0, 0.0]], STEEL);
     let found = rig.step_to([[0.0; 3], [0.5, 0.0, 0.0]]);
-    close("step", found.stable_step, 0.5 / (YOUNG / DENSITY).sqrt(), 1e-12);
+    close("step", found.stable_step, BAR_STEP * 0.5 / (YOUNG / DENSITY).sqrt(), 1e-12);
     assert_eq!(found.failed, None);
     let found = rig.step_to([[0.0; 3], [0.0; 3]]);
     assert_eq!(found.failed, Some(0));
