@@ -212,7 +212,13 @@ impl<'a> Reader<'a> {
     fn warn_about_swallowed_command(&mut self, entry: &Entry, line: Span, text: &str) {
         let source = Source::new("", text);
         let Some(record) = Lexer::new(&source).next_record() else { return };
-        if let Some((command, _)) = self.exact_command(&record.fields) {
+        if let Some((command, words)) = self.exact_command(&record.fields) {
+            // Words alone that go on after a command's are a sentence: TUBE IN TUBE.
+            let rest = record.fields.get(words..).unwrap_or_default();
+            let says_more = text.contains([',', '=']) || rest.iter().any(|field| !field.is_word());
+            if !rest.is_empty() && !says_more {
+                return;
+            }
             self.diagnostics.push(
                 Diagnostic::warning(format!("the line after {} is taken as its text", entry.name))
                     .at(line, format!("this looks like the command {}, but it is not read as one", command.name))

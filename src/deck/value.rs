@@ -84,7 +84,11 @@ fn id(what: &str, field: &Field) -> Result<i64, Wrong> {
 
 fn whole(field: &Field) -> Result<i64, Wrong> {
     let Some(number) = field.number() else { return Err(Wrong::hint(number_hint(&field.text))) };
-    let reason = || if number.value.fract() == 0.0 { "below 1E18" } else { "a whole number" };
+    let reason = || match (number.value.fract() == 0.0, field.text.contains(['.', 'E', 'e', 'D', 'd'])) {
+        (true, true) => "written out in digits alone: with a point or an exponent it counts as whole up to 1E9",
+        (true, false) => "below 1E18",
+        (false, _) => "a whole number",
+    };
     number.integer.ok_or_else(|| Wrong::must(reason()))
 }
 

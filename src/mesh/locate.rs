@@ -62,14 +62,14 @@ fn beside(corners: &[[f64; 3]], centre: [f64; 3], point: [f64; 3]) -> f64 {
     let around = |i: usize| subtract(corners[i % corners.len()], centre);
     let count = corners.len();
     let normal = (0..count).fold([0.0; 3], |sum, i| add(sum, cross(around(i), around(i + 1))));
-    let way = subtract(point, centre);
+    let offset = subtract(point, centre);
     let beyond_edge = |i: usize| {
         let outwards = cross(subtract(around(i + 1), around(i)), normal);
-        dot(subtract(way, around(i)), outwards) / dot(around(i), outwards)
+        dot(subtract(offset, around(i)), outwards) / dot(around(i), outwards)
     };
     let square = dot(normal, normal);
     // Twice the area, and the size is the root of the area.
-    let away = (dot(way, normal).abs() / square.sqrt()) / (0.5 * square.sqrt()).sqrt() - THICK;
+    let away = (dot(offset, normal).abs() / square.sqrt()) / (0.5 * square.sqrt()).sqrt() - THICK;
     let outside = (0..count).map(beyond_edge).fold(away, f64::max);
     if outside.is_nan() { f64::INFINITY } else { outside }
 }

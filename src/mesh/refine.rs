@@ -44,7 +44,9 @@ struct Child {
 /// # Errors
 /// [`Undivided`].
 pub fn refined(mesh: &Mesh) -> Result<Mesh, Undivided> {
-    let total = mesh.element_count().saturating_mul(8);
+    // Each axis of an element is divided once: eight children in space, four in a surface, two of a bar.
+    let children = |block: &Block| block.len().saturating_mul(1 << block.shape.dimension());
+    let total = mesh.blocks.iter().map(children).fold(0, usize::saturating_add);
     if total > MOST_ELEMENTS {
         return Err(Undivided::TooLarge(total));
     }

@@ -46,9 +46,24 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
+    for card in problem.deck.cards_of("CONTACT THICKNESS").filter(|card| card.complete) {
+        thickness_of_solids(card, mesh, &mut found);
+    }
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
+}
+
+/// Warns of a CONTACT THICKNESS for a block whose elements have none.
+fn thickness_of_solids(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let block = mesh.block_index(card.integer("block")).map(|place| &mesh.blocks[place]);
+    if block.is_some_and(|block| block.shape.is_solid()) {
+        found.push(
+            Diagnostic::warning("CONTACT THICKNESS: the block is of solids, so that nothing follows from this")
+                .at(card.record, "solids touch at their faces")
+                .help("it is for shells, trusses and beams"),
+        );
+    }
 }
 
 /// Whether deck and mesh have the same number of dimensions, and no body of revolution crosses its axis; reports it.

@@ -69,13 +69,13 @@ fn front(judgement: &Judgement, rows: &[Row]) -> Vec<Curve> {
         error.is_finite().then_some([measured.seconds.max(1e-3), 100.0 * error.max(LEAST)])
     };
     let line: Vec<[f64; 2]> = judgement.front.iter().filter_map(|&row| point(row)).collect();
-    let way = |knob: Knob| {
+    let front_of = |knob: Knob| {
         let own = (1..rows.len()).filter(|&row| rows[row].variant.knob == knob).filter_map(point);
         let mut points: Vec<[f64; 2]> = own.chain(point(0)).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         (points.len() > 1).then(|| curve(knob.name().into(), &points))
     };
-    [curve("front".into(), &line)].into_iter().chain(turned(rows).into_iter().filter_map(way)).collect()
+    [curve("front".into(), &line)].into_iter().chain(turned(rows).into_iter().filter_map(front_of)).collect()
 }
 
 fn meshes(judgement: &Judgement) -> Vec<Curve> {

@@ -181,3 +181,20 @@ fn a_spinning_plate() {
     );
     between("spinning", "worst energy balance", spun.worst_balance(), 0.0, 1e-4);
 }
+
+/// Of commands for the same nodes the later one holds, for what turns as well: a plate that is told to spin and then to rest, or to fly
+/// without spin, has no energy of rotation; one that is told to spin once more spins once.
+#[test]
+fn a_later_initial_velocity_holds_for_rotations() {
+    let (mesh, deck) = scene(&Plate { thickness: 0.1, ..FLAT }, 100.0);
+    let spin = "INITIAL VELOCITY ANGULAR, 1, 50., 0., 1.5, 0., 1., 0., 0.\n";
+    let at_start = |commands: &str| run(&format!("{deck}{commands}"), &mesh).whole().lines[0].totals.kinetic;
+    let (once, rest) = (at_start(spin), "INITIAL VELOCITY MATERIAL, 1, 0., 0., 0.\n");
+    assert!(once > 0.0);
+    assert_eq!(at_start(&format!("{spin}{rest}")), 0.0);
+    assert_eq!(at_start(&format!("{spin}{rest}{spin}")), once);
+    let fly = "INITIAL VELOCITY MATERIAL, 1, 3., 0., 0.\n";
+    assert_eq!(at_start(&format!("{spin}{fly}")), at_start(fly));
+    let outwards = "INITIAL VELOCITY RADIAL, 1, 3., 0., 1.5, 0.\n";
+    assert_eq!(at_start(&format!("{spin}{outwards}")), at_start(outwards));
+}

@@ -18,9 +18,7 @@ pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("CONTACT THICKNESS", |card, draft| {
         draft.model.contact.thicknesses.push((card.integer("block"), card.number("factor")));
     }),
-    ("CONTACT NODE SET", |card, draft| {
-        draft.model.contact.node_sets.push((card.integer("node_set"), card.number("radius")));
-    }),
+    ("CONTACT NODE SET", contact_node_set),
     ("CONTACT PASSES", contact_passes),
     ("CONTACT SEARCH", contact_search),
     ("CONTACT EDGES", contact_edges),
@@ -98,6 +96,17 @@ fn contact_exclusion(card: &Card, draft: &mut Draft) {
         );
     }
     beside_contact(card, draft);
+}
+
+fn contact_node_set(card: &Card, draft: &mut Draft) {
+    draft.model.contact.node_sets.push((card.integer("node_set"), card.number("radius")));
+    if draft.deck.cards_of("CONTACT MATERIAL").next().is_none() {
+        draft.report(
+            Diagnostic::warning("CONTACT NODE SET: there is no CONTACT MATERIAL, so that nothing follows from this")
+                .at(card.record, "nodes that meet no surface")
+                .help("CONTACT MATERIAL, 1, 2 lets blocks touch, and what these nodes are of"),
+        );
+    }
 }
 
 fn pair(materials: [i64; 2], card: &Card) -> ContactData {

@@ -178,7 +178,7 @@ impl Domain {
         domain.contact =
             Contact::new(mesh, model, (body, skin), (&domain.nodes, held), (&local, &domain.element_canonical), comm);
         if domain.erosion.is_none() {
-            domain.contact.iter_mut().for_each(|contact| contact.settle(comm.size()));
+            domain.contact.iter_mut().for_each(|contact| contact.release_construction_data(comm.size()));
         }
         domain.set_initial_velocities(mesh, model, &local);
         if let Some(ties) = &domain.ties {
@@ -214,7 +214,7 @@ impl Domain {
             let axis = direction.axis();
             for node in unknowns_of_set(mesh, set, of, &body.rotations, local) {
                 // What is said of a node of a rigid body is said of the body.
-                let place = local_of_rotation(&self.rotations, node, of);
+                let place = local[body.rotations.node(self.nodes.file[node as usize]) as usize];
                 if self.rigid.as_ref().is_some_and(|rigid| rigid.of_node(place).is_some()) {
                     continue;
                 }
@@ -256,12 +256,14 @@ impl Domain {
                 InitialVelocity::Material { block, velocity } => {
                     for node in nodes_of_block(mesh, block, local) {
                         self.set_velocity(node, velocity);
+                        self.set_spin(node, [0.0; 3]);
                         turned.remove(&node);
                     }
                 }
                 InitialVelocity::NodeSet { node_set, velocity } => {
                     for node in nodes_of_set(mesh, node_set, local) {
                         self.set_velocity(node, velocity);
+                        self.set_spin(node, [0.0; 3]);
                         turned.remove(&node);
                     }
                 }
@@ -273,6 +275,7 @@ impl Domain {
                         let distance = dot(arm, arm).sqrt();
                         let factor = if distance > 0.0 { speed / distance } else { 0.0 };
                         self.set_velocity(node, scaled(arm, factor));
+                        self.set_spin(node, [0.0; 3]);
                         turned.remove(&node);
                     }
                 }
@@ -286,8 +289,7 @@ impl Domain {
                         known.push((block, [spin, point]));
                         let arm = subtract(self.nodes.position(node), point);
                         self.set_velocity(node, add(self.nodes.velocity(node), cross(spin, arm)));
-                        if let Ok(place) = self.rotations.binary_search_by_key(&node, |(node, _)| *node) {
-                            let rotation = self.rotations[place].1;
+                        if let Some(rotation) = self.rotation_of(node) {
                             self.set_velocity(rotation, add(self.nodes.velocity(rotation), spin));
                         }
                     }
@@ -302,6 +304,19 @@ impl Domain {
 
     fn set_velocity(&mut self, node: u32, velocity: [f64; 3]) {
         self.nodes.rows[node as usize].0[4..7].copy_from_slice(&velocity);
+    }
+
+    /// Sets the rate at which a node turns, where it can.
+    fn set_spin(&mut self, node: u32, rate: [f64; 3]) {
+        if let Some(rotation) = self.rotation_of(node) {
+            self.set_velocity(rotation, rate);
+        }
+    }
+
+    /// The local number of a node's rotation, where it has one.
+    fn rotation_of(&self, node: u32) -> Option<u32> {
+        let place = self.rotations.binary_search_by_key(&node, |(node, _)| *node).ok()?;
+        Some(self.rotations[place].1)
     }
 }
 
@@ -345,12 +360,6 @@ pub(super) fn unknowns_of_set<'a>(
         Unknown::Rotation => rotations.of(node),
     };
     nodes.iter().filter_map(move |&node| number(node)).map(|n| local[n as usize]).filter(|&n| n != ABSENT)
-}
-
-/// The node itself, of its rotation or of its position.
-fn local_of_rotation(rotations: &[(u32, u32)], unknown: u32, of: Unknown) -> u32 {
-    let found = rotations.iter().find(|(_, rotation)| of == Unknown::Rotation && *rotation == unknown);
-    found.map_or(unknown, |(node, _)| *node)
 }
 
 /// Local nodes of a block, each once, ascending.

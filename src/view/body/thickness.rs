@@ -68,7 +68,7 @@ pub fn thicken(added: &mut Added, mut shells: Vec<Shell>) {
         let half = 0.5 * thickness / count * (1.0 / cosine.max(1e-9)).min(LONGEST_FIBRE);
         let node = shells[place / 4].1[place % 4];
         let middle = added.positions[node as usize];
-        let [bottom, top] = [-half, half].map(|way| added.point(add(middle, scaled(direction, way)), node));
+        let [bottom, top] = [-half, half].map(|height| added.point(add(middle, scaled(direction, height)), node));
         ends.insert(fibre, [bottom, top]);
     }
     for (i, (element, ..)) in shells.iter().enumerate() {
