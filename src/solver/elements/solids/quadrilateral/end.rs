@@ -41,13 +41,13 @@ pub(super) struct End<'a, V> {
 
 /// How fast an element can vibrate, and the step that this leaves.
 pub(super) struct Frequency<V> {
-    /// Of which the stable step is made: a bound of ω² over that of the modulus.
+    /// Bound of ω² with the elastic modulus, 1/time²; of the compatible form without the hoop.
     square: V,
-    /// What the hoop adds in the compatible form; it shortens the step alone.
+    /// What the hoop adds to it in the compatible form, 1/time²; it shortens the step alone.
     of_hoop: V,
-    /// Dilatational modulus by which the step goes.
+    /// Dilatational modulus by which the step goes, force/length².
     pub(super) modulus: V,
-    /// The stable step without viscosity.
+    /// The stable step without viscosity, a time.
     pub(super) bound: V,
 }
 
