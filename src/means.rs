@@ -1,8 +1,8 @@
 //! Which variables of a history are means over an interval, and where the first interval of a run that goes on begins.
 //!
-//! An acceleration is the change of velocity since the state before, a force of contact the change of impulse: only as such do they add
-//! up to what has changed. A run writes it as comments behind the deck into the records of its histories, and who integrates them reads it
-//! there.
+//! An acceleration is the change of velocity since the state before, a force of contact the change of impulse: only as such
+//! do they add up to what has changed. A run writes it as comments behind the deck into the records of its histories, and
+//! who integrates them reads it there.
 
 /// How a line begins that names variables by the first letters of their names.
 const NAMES: &str = "$ MEANS OVER INTERVALS: ";

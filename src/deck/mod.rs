@@ -1,8 +1,8 @@
 //! Text → cards: the command language, which knows no physics.
 //!
-//! Expressions in braces are evaluated first. A [`Grammar`] lists the commands of a language as data. [`Deck::read`] turns a [`Source`] into [`Card`]s with
-//! named, typed fields, and gathers every mistake in [`Diagnostics`]. The decks of `urto run` and the recipes of
-//! `urto mesh` are two languages for the same engine.
+//! Expressions in braces are evaluated first. A [`Grammar`] lists the commands of a language as data. [`Deck::read`] turns
+//! a [`Source`] into [`Card`]s with named, typed fields, and gathers every mistake in [`Diagnostics`]. The decks of `urto
+//! run` and the recipes of `urto mesh` are two languages for the same engine.
 
 mod aprepro;
 mod card;

@@ -126,8 +126,8 @@ impl Numbers for SingleRow {
     }
 }
 
-/// Asks the memory for the lines of values that will be needed later, into the second cache: many more may be on their way to that than to the
-/// first.
+/// Asks the memory for the lines of values that will be needed later, into the second cache: many more may be on their way
+/// to that than to the first.
 #[inline(always)]
 pub fn prefetch_later<A, B>(one: &A, other: &B) {
     #[cfg(target_arch = "x86_64")]

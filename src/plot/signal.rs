@@ -63,8 +63,8 @@ pub fn integral(times: &[f64], values: &[f64]) -> Vec<f64> {
     all
 }
 
-/// Integral over time from the first state of values that are means since the state before: their sum, each as many times as its interval
-/// is long. The first state has no interval.
+/// Integral over time from the first state of values that are means since the state before: their sum, each as many times
+/// as its interval is long. The first state has no interval.
 pub fn sum_of_means(times: &[f64], means: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut all = vec![0.0; times.len().min(1)];

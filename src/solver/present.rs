@@ -60,8 +60,8 @@ impl Solver {
         }
     }
 
-    /// What HISTORY watches of contact, in the order of the deck; see [`Contact::resultants`](super::contact::Contact::resultants). All
-    /// ranks call it.
+    /// What HISTORY watches of contact, in the order of the deck; see
+    /// [`Contact::resultants`](super::contact::Contact::resultants). All ranks call it.
     pub fn contact_resultants(&mut self, due: bool, comm: &mut dyn Communicator) -> Vec<[f64; 6]> {
         let time = self.time;
         self.domain.contact.as_mut().map(|contact| contact.resultants(time, due, comm)).unwrap_or_default()

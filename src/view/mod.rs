@@ -2,8 +2,8 @@
 //! numbered PNGs or one moving GIF.
 //!
 //! Data flows one way: a results file and [`ViewOptions`] become a `scene` (`subject`, `skin`, `section`, `field`); a
-//! `camera` and a `raster` (in `paint`) turn it into pixels; `arrows` are drawn on it; `annotate` writes around it what it shows. `film`
-//! and `row` show many states.
+//! `camera` and a `raster` (in `paint`) turn it into pixels; `arrows` are drawn on it; `annotate` writes around it what it
+//! shows. `film` and `row` show many states.
 
 mod body;
 mod error;

@@ -221,8 +221,9 @@ fn the_force_of_a_rigid_surface_is_what_its_nodes_feel() {
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["the deck has no contact between blocks"]);
 }
 
-/// Accelerations and forces of histories are means over intervals: they add up to the change of velocity and momentum to round-off, also
-/// where intervals are unequal and where a run ended between two states and another one went on from before its end.
+/// Accelerations and forces of histories are means over intervals: they add up to the change of velocity and momentum to
+/// round-off, also where intervals are unequal and where a run ended between two states and another one went on from before
+/// its end.
 #[test]
 fn means_are_summed_over_their_intervals() {
     let desk = Desk::new();
@@ -290,8 +291,8 @@ fn a_state_inside_an_interval_is_none_of_its_ends() {
     assert_eq!(summed(), [[0.0, 0.0], [1.0, 2.0], [1.5, 4.5], [2.0, 8.0], [4.0, 17.0]]);
 }
 
-/// Impulses of contact are the changes of momentum of rigid bodies and of blocks that are tied to others too, and works on what is rigid the
-/// change of its kinetic energy.
+/// Impulses of contact are the changes of momentum of rigid bodies and of blocks that are tied to others too, and works on
+/// what is rigid the change of its kinetic energy.
 #[test]
 fn contact_tells_what_it_does_to_rigid_and_tied_bodies() {
     let law = |block: i32, density: f64| {

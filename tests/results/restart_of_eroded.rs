@@ -3,8 +3,8 @@
 use super::restart_files::assert_tail;
 use crate::program::Desk;
 
-/// Bodies of odd shapes that are pushed into each other. A corner element goes with three faces and lays bare three: there are as many faces
-/// as before, of fewer nodes.
+/// Bodies of odd shapes that are pushed into each other. A corner element goes with three faces and lays bare three: there
+/// are as many faces as before, of fewer nodes.
 const MESH: &str = "TITLE\n ERODED\nCYLINDER, 1, 1., 2., 1, 2\nTRANSLATE, 1, 0., 0., 1.03\n\
      HEXAHEDRON, 2, 2, 2, 2\n-1.5, -1.5, 0.\n1.5, -1.5, 0.\n1.5, 1.5, 0.2\n-1.5, 1.5, 0.\n-1.2, -1.4, 1.\n1.3, -1.5, 1.\n1.5, 1.6, 1.\n\
      -1.5, 1.5, 1.\nEND\nBOX, 3, -1.5, -1.5, -1.01, 3., 3., 1., 1, 2, 1\nBOX, 4, -0.5, -0.5, 3.04, 1., 1., 0.6, 2, 2, 1\n\

@@ -1,4 +1,5 @@
-//! Random scenes of parts that are no bodies of elements alone, rigid blocks and blocks that are tied, and with settings that are not the default.
+//! Random scenes of parts that are no bodies of elements alone, rigid blocks and blocks that are tied, and with settings
+//! that are not the default.
 
 use super::scenes::{Scene, builder, scene};
 
@@ -18,7 +19,8 @@ pub fn rigid_scene(seed: u64) -> Scene {
     scene
 }
 
-/// The confined scene of a seed with the step of the mesh as a whole, in single precision, or both; and with either kind of hourglass control.
+/// The confined scene of a seed with the step of the mesh as a whole, in single precision, or both; and with either kind of
+/// hourglass control.
 pub fn settings_scene(seed: u64) -> Scene {
     let mut scene = scene(seed);
     let mut settings = match (seed / 8) % 3 {
@@ -33,8 +35,8 @@ pub fn settings_scene(seed: u64) -> Scene {
     scene
 }
 
-/// Two blocks that are tied where they lie upon each other, with meshes that do not match, and a third that hits them; the joint covers
-/// faces in part, and coarse faces follow finer ones as often as the other way round.
+/// Two blocks that are tied where they lie upon each other, with meshes that do not match, and a third that hits them; the
+/// joint covers faces in part, and coarse faces follow finer ones as often as the other way round.
 pub fn tied_scene(seed: u64) -> Scene {
     let mut b = builder(seed);
     let dice = &mut b.dice;

@@ -1,5 +1,6 @@
-//! Scenes in which contact once made energy, each for its own reason: light foam between stiff walls, plates held along the normal of
-//! their contact, faces that erosion has squashed, overlaps that the deck holds. Whatever the passes and the step, contact gives nothing.
+//! Scenes in which contact once made energy, each for its own reason: light foam between stiff walls, plates held along the
+//! normal of their contact, faces that erosion has squashed, overlaps that the deck holds. Whatever the passes and the
+//! step, contact gives nothing.
 
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, model, run};

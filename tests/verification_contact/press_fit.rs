@@ -113,8 +113,9 @@ fn energy(overlap: f64) -> f64 {
     0.5 * pressure() * overlap / OVERLAP * overlap * 0.5 * std::f64::consts::PI * INNER * 0.01
 }
 
-/// Contact knows overlaps as deep as half an element: ten and twenty times as large is a sixth and a third of that here, and the work goes with the
-/// square. So it does where nodes are inside the other body and not on its sides, and where the nodes of both stand opposite each other.
+/// Contact knows overlaps as deep as half an element: ten and twenty times as large is a sixth and a third of that here,
+/// and the work goes with the square. So it does where nodes are inside the other body and not on its sides, and where the
+/// nodes of both stand opposite each other.
 #[test]
 fn overlaps_as_deep_as_a_third_of_half_an_element_are_felt() {
     let cases = [([8, 8, 1], 10.0, 0.03), ([8, 8, 1], 20.0, 0.03), ([8, 8, 2], 1.0, 0.05), ([8, 8, 2], 10.0, 0.05)];
@@ -127,8 +128,8 @@ fn overlaps_as_deep_as_a_third_of_half_an_element_are_felt() {
     }
 }
 
-/// Equal blocks that overlap by an eighth of an element along a line, of which one flies on: contact lets it sink no deeper, so that in
-/// the end both have half of the momentum, but for the waves in them.
+/// Equal blocks that overlap by an eighth of an element along a line, of which one flies on: contact lets it sink no
+/// deeper, so that in the end both have half of the momentum, but for the waves in them.
 #[test]
 fn what_overlaps_and_is_kept_pushes() {
     let mesh = recipe(

@@ -276,8 +276,8 @@ fn a_driven_body() {
     between("body turned", "worst balance", turned.worst_balance(), 0.0, 1e-5);
 }
 
-/// Blocks of rigid bodies as histories see them: together they have the energy of the log, and a body its closed form, since what turns has
-/// the inertia of volumes.
+/// Blocks of rigid bodies as histories see them: together they have the energy of the log, and a body its closed form,
+/// since what turns has the inertia of volumes.
 #[test]
 fn energies_of_rigid_blocks() {
     let mesh = recipe(
@@ -387,8 +387,8 @@ fn a_rigid_sheet() {
     assert_same("restart", &whole, &case.part(2, Some(&case.part(3, None, 25).end), 35));
 }
 
-/// Nodes of a plane that contains the direction in which they are held: to first order a body could turn about the line in which the plane meets the
-/// others, as all single equations allow; in truth it cannot.
+/// Nodes of a plane that contains the direction in which they are held: to first order a body could turn about the line in
+/// which the plane meets the others, as all single equations allow; in truth it cannot.
 #[test]
 fn a_face_that_is_held_along_itself_does_not_turn() {
     let mesh = recipe(
@@ -507,6 +507,7 @@ fn at_rest_again() {
     close("driven", "largest kinetic energy [J]", most, 0.5 * 7850.0 * 7.1 * 7.1, 1.5e-3);
     let last = stopped.last();
     between("driven", "kinetic energy left", last.totals.kinetic, 0.0, 1e-20 * most);
-    // Some thousand sums have lost 1e-14 of the work, over the millionth of it that is the least measure of an error; it was 1 without.
+    // Some thousand sums have lost 1e-14 of the work, over the millionth of it that is the least measure of an error; it
+    // was 1 without.
     between("driven", "worst energy balance", stopped.worst_balance(), 0.0, 1e-7);
 }

@@ -21,8 +21,8 @@ fn stack(first: usize, second: usize) -> Mesh {
     ))
 }
 
-/// Nodes are led along a linear field, but those that follow go by themselves: they follow it, stress is the same everywhere, and no node inside
-/// feels a force, at the joint as little as elsewhere.
+/// Nodes are led along a linear field, but those that follow go by themselves: they follow it, stress is the same
+/// everywhere, and no node inside feels a force, at the joint as little as elsewhere.
 #[test]
 fn patch_test_across_meshes_that_do_not_match() {
     let any = [[0.2, -0.3, 0.1], [0.4, 0.1, -0.2], [-0.1, 0.3, -0.5]];

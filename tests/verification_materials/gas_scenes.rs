@@ -1,5 +1,6 @@
-//! Random small scenes of gases, products of explosives and metals: on skewed and jittered meshes, with jumps of density and
-//! energy, and elements that DEATH takes. All energy is accounted for, and the bits are those of one rank on two and three, and after a restart.
+//! Random small scenes of gases, products of explosives and metals: on skewed and jittered meshes, with jumps of density
+//! and energy, and elements that DEATH takes. All energy is accounted for, and the bits are those of one rank on two and
+//! three, and after a restart.
 //!
 //! `URTO_SCENES=0..500 cargo test --test verification_materials gas_scenes:: -- --nocapture` runs others.
 

@@ -98,9 +98,10 @@ fn v20_bars_rebound_from_a_rigid_line() {
     }
 }
 
-/// What a bar of V-20 loses: 2 % since the nodes that strike are stopped dead, whatever the element, and what bulk viscosity takes, whose
-/// length is that of the step. Elements of 20 by 10 mm take steps a third longer in the plane than in space, and lose a third more; in
-/// bars 7 mm thick the plane's step is that of hexahedra 10 mm thick, and so is the loss.
+/// What a bar of V-20 loses: 2 % since the nodes that strike are stopped dead, whatever the element, and what bulk
+/// viscosity takes, whose length is that of the step. Elements of 20 by 10 mm take steps a third longer in the plane than
+/// in space, and lose a third more; in bars 7 mm thick the plane's step is that of hexahedra 10 mm thick, and so is the
+/// loss.
 #[test]
 fn v20_what_a_bar_loses() {
     let loss = |shape: &str, thickness: f64, viscosity: &str| {

@@ -203,8 +203,8 @@ fn implosion_of_a_sphere_in_the_compatible_form() {
         let case = format!("sphere, compatible, {through}");
         let gas = run(&deck, &mesh).whole();
         println!("{case} steps: {}", gas.last().step);
-        // After 34 steps of 100 rays what slows modes and holds corners has given back 9e-9 more than it took so far, which counts as an
-        // error; the accounts close to round-off.
+        // After 34 steps of 100 rays what slows modes and holds corners has given back 9e-9 more than it took so far, which
+        // counts as an error; the accounts close to round-off.
         between(&case, "worst energy balance", gas.worst_balance(), 0.0, 1e-8);
         let (off, density) = of_rings(gas.end().element("DENSITY"), around);
         between(&case, "largest departure from round", off, 0.0, round);
@@ -269,11 +269,11 @@ fn a_liner_collapses_round_in_the_compatible_form() {
     between("liner, Galerkin", "departure from round", galerkin, 0.0, 0.05);
 }
 
-/// The cylinder test: a copper tube filled with TNT. When its wall has moved by 6 and 19 mm it flies at about 1.18 and 1.40 mm/µs: values
-/// of handbooks as remembered, to which the equation of state was fitted. What needs no memory: were all the energy that the gas gives off
-/// while it grows to its present volume, E₀ − e(V) along the isentrope of detonation, in the motion across the axis, with a velocity of the gas in
-/// proportion to the radius (Gurney 1943), the wall would fly at √(2 (E₀ − e)/(ρ (M/C + ½))). Plastic work and motion along the axis
-/// leave a little less.
+/// The cylinder test: a copper tube filled with TNT. When its wall has moved by 6 and 19 mm it flies at about 1.18 and 1.40
+/// mm/µs: values of handbooks as remembered, to which the equation of state was fitted. What needs no memory: were all the
+/// energy that the gas gives off while it grows to its present volume, E₀ − e(V) along the isentrope of detonation, in the
+/// motion across the axis, with a velocity of the gas in proportion to the radius (Gurney 1943), the wall would fly at √(2
+/// (E₀ − e)/(ρ (M/C + ½))). Plastic work and motion along the axis leave a little less.
 #[test]
 fn cylinder_test() {
     let text = |path: &str| {

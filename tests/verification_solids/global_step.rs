@@ -116,9 +116,10 @@ fn a_column_takes_the_step_of_a_chain() {
     between("column", "the mesh's step over h/c", global * speed, 0.94, 1.0);
 }
 
-/// A soft column that flies onto a wall at one to thirteen times its speed of sound is pressed to a hundredth of its volume. How far
-/// elements close in a step is no matter of frequencies: the mesh's step must not pass by the bound of that. Without bulk viscosity, which bounds
-/// it as well, elements were inverted in the first step; with it the balance was off by up to 9e-3.
+/// A soft column that flies onto a wall at one to thirteen times its speed of sound is pressed to a hundredth of its
+/// volume. How far elements close in a step is no matter of frequencies: the mesh's step must not pass by the bound of
+/// that. Without bulk viscosity, which bounds it as well, elements were inverted in the first step; with it the balance was
+/// off by up to 9e-3.
 #[test]
 fn elements_that_close_fast_bound_the_step_of_the_mesh() {
     let mesh = brick([8, 1, 1], [0.08, 0.01, 0.01]);
@@ -145,9 +146,9 @@ fn elements_that_close_fast_bound_the_step_of_the_mesh() {
     }
 }
 
-/// Cubes with free sides that are pressed by a third to a half within one interval between estimates or two: an element at nearly constant
-/// volume has its own bound when the mesh has lost a fifth of its step. Before heights were followed, the balance was off by 1.3 (and the run
-/// stopped), 0.38 and 0.042.
+/// Cubes with free sides that are pressed by a third to a half within one interval between estimates or two: an element at
+/// nearly constant volume has its own bound when the mesh has lost a fifth of its step. Before heights were followed, the
+/// balance was off by 1.3 (and the run stopped), 0.38 and 0.042.
 #[test]
 fn cubes_that_are_pressed_flat_stay_stable() {
     let elastic = "ELASTIC, 1200.\nYOUNGS MODULUS = 3.E9\nPOISSONS RATIO = 0.35\nEND\n";

@@ -1,7 +1,7 @@
 //! Shells at their limits, free in space: what they may never do is gain energy or momentum.
 //!
-//! A plate of 3 x 3 shells whose corners get velocities of a few thousandths of the wave speed in directions without order, so that every mode that a
-//! shell has takes part: membrane, bending, transverse shear, drilling and hourglass fields.
+//! A plate of 3 x 3 shells whose corners get velocities of a few thousandths of the wave speed in directions without order,
+//! so that every mode that a shell has takes part: membrane, bending, transverse shear, drilling and hourglass fields.
 
 use crate::support::between;
 use crate::support::meshes::recipe;
@@ -79,8 +79,9 @@ fn thrown(mut mesh: Mesh, mut deck: String) -> Run {
     run(&deck, &mesh).whole()
 }
 
-/// No energy and no momentum comes from nowhere. Where shells turn by a tenth of a turn and more while all modes swing, the energy is kept to
-/// second order in the step, a hundredth at the largest step; see [`half_the_step`]. Momentum is kept to round-off.
+/// No energy and no momentum comes from nowhere. Where shells turn by a tenth of a turn and more while all modes swing, the
+/// energy is kept to second order in the step, a hundredth at the largest step; see [`half_the_step`]. Momentum is kept to
+/// round-off.
 fn holds(name: &str, run: &Run) {
     let [first, last] = [&run.lines[0].totals, &run.last().totals];
     let energy =
@@ -182,8 +183,8 @@ fn a_spinning_plate() {
     between("spinning", "worst energy balance", spun.worst_balance(), 0.0, 1e-4);
 }
 
-/// Of commands for the same nodes the later one holds, for what turns as well: a plate that is told to spin and then to rest, or to fly
-/// without spin, has no energy of rotation; one that is told to spin once more spins once.
+/// Of commands for the same nodes the later one holds, for what turns as well: a plate that is told to spin and then to
+/// rest, or to fly without spin, has no energy of rotation; one that is told to spin once more spins once.
 #[test]
 fn a_later_initial_velocity_holds_for_rotations() {
     let (mesh, deck) = scene(&Plate { thickness: 0.1, ..FLAT }, 100.0);

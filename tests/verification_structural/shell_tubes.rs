@@ -54,8 +54,8 @@ fn ramp(end: f64) -> String {
     points + &format!("{end:?}, 1.\n")
 }
 
-/// S5: a tube under 1 MPa from inside. With closed ends it carries 100 MPa around and 50 MPa along and grows by 42.5 µm; held along and
-/// loaded at once it breathes to 91.0 µm in half of 118.75 µs.
+/// S5: a tube under 1 MPa from inside. With closed ends it carries 100 MPa around and 50 MPa along and grows by 42.5 µm;
+/// held along and loaded at once it breathes to 91.0 µm in half of 118.75 µs.
 #[test]
 fn s5_tube_under_pressure() {
     let mesh = tube();
@@ -147,8 +147,8 @@ fn driven(mesh: &Mesh) -> Run {
     run(&deck, mesh)
 }
 
-/// V-18: a cylindrical panel of aluminium that an explosive drives in (Balmer and Witmer 1964): its crown is 1.25 in lower in the middle
-/// a millisecond later, as other programs have it too. It still swings a little then.
+/// V-18: a cylindrical panel of aluminium that an explosive drives in (Balmer and Witmer 1964): its crown is 1.25 in lower
+/// in the middle a millisecond later, as other programs have it too. It still swings a little then.
 #[test]
 fn v18_panel_driven_in() {
     let mesh = panel(32, 20);

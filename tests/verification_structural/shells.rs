@@ -139,8 +139,8 @@ fn s1_strips_are_bent() {
     close("S1", "integral of the given rate", bent.end().nodal("ROTY")[rate], -1.5, 2e-3);
 }
 
-/// S1, triangles: the middle of the deck's plate comes down by what all terms of Navier's series swing together, at half a period of the
-/// first.
+/// S1, triangles: the middle of the deck's plate comes down by what all terms of Navier's series swing together, at half a
+/// period of the first.
 #[test]
 fn s1_plate_of_triangles_swings() {
     let mesh = recipe(&text("meshes/plate_triangles.mesh"));

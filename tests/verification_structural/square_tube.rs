@@ -1,7 +1,7 @@
 //! A square tube of sheet metal that folds (V-33): force, folds, and nothing through anything.
 //!
-//! `cargo test --test verification_structural square_tube:: -- --nocapture` prints the numbers of docs/verification.md; the whole deck is part
-//! of `make verify`.
+//! `cargo test --test verification_structural square_tube:: -- --nocapture` prints the numbers of docs/verification.md; the
+//! whole deck is part of `make verify`.
 
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, run_on};

@@ -1,8 +1,8 @@
 //! Histories: what happens to what the analyst watches, as global variables of an EXODUS file.
 //!
-//! Points of the material, nodes, node sets, blocks, and the forces of contact. Each rank contributes what it computes; sums go through
-//! [`ExactSum`], so that the file has the same bits on any number of ranks. Accelerations are the change of velocity since
-//! the state before.
+//! Points of the material, nodes, node sets, blocks, and the forces of contact. Each rank contributes what it computes;
+//! sums go through [`ExactSum`], so that the file has the same bits on any number of ranks. Accelerations are the change of
+//! velocity since the state before.
 
 mod blocks;
 mod points;

@@ -145,7 +145,8 @@ pub trait Formulation: Sized {
         false
     }
 
-    /// Gives forces as [`Formulation::run`] does, but those that a probe asks for, and changes nothing. With the law comes the density at the start.
+    /// Gives forces as [`Formulation::run`] does, but those that a probe asks for, and changes nothing. With the law comes
+    /// the density at the start.
     fn probe(&self, _probe: Probe, _pass: Pass, _law: (&Law, f64), _settings: &PassSettings) {}
 
     /// Fills in the rows of what stands in for an element that is gone, unstressed and at rest between the first corners of a

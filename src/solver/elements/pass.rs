@@ -187,8 +187,8 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// [`chunks`] with eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions, and the pass
-/// takes several times as long (docs/performance.md, "The whole step").
+/// [`chunks`] with eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions,
+/// and the pass takes several times as long (docs/performance.md, "The whole step").
 ///
 /// # Safety
 /// The processor must have the instructions of the attribute.
@@ -299,8 +299,8 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
         let (state, ahead) = rows[row * stride..].split_at_mut(stride);
-        // A share before and one after the kernel of each part: all of it at once would fill the queue of what the first cache waits for,
-        // and hold up the loads of this row.
+        // A share before and one after the kernel of each part: all of it at once would fill the queue of what the first
+        // cache waits for, and hold up the loads of this row.
         let next = ahead.get(..stride).unwrap_or_default();
         let shares = 2 * V::Row::LANES / V::COUNT;
         for part in 0..V::Row::LANES / V::COUNT {
@@ -358,8 +358,8 @@ fn share<R>(rows: &[R], place: usize, shares: usize) -> &[R] {
     rows.get(rows.len() * place / shares..rows.len() * (place + 1) / shares).unwrap_or_default()
 }
 
-/// Brings the forces of a part to where they are taken from; in single precision made to add up to nothing again in each element, which they
-/// have been rounded away from: momentum is kept.
+/// Brings the forces of a part to where they are taken from; in single precision made to add up to nothing again in each
+/// element, which they have been rounded away from: momentum is kept.
 #[inline(always)]
 fn scatter_forces<V: Lanes, const N: usize>(
     outcome: &Outcome<V, N>,

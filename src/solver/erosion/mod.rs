@@ -246,9 +246,9 @@ impl Erosion {
         failed
     }
 
-    /// The variable of a rule as a function of the element, where it is known. The time step is the stable one
-    /// of the element at the last state, as the log prints it, without the bound of how far it may close in a step; before the first step it
-    /// is not known.
+    /// The variable of a rule as a function of the element, where it is known. The time step is the stable one of the
+    /// element at the last state, as the log prints it, without the bound of how far it may close in a step; before the
+    /// first step it is not known.
     fn watched<'a>(
         &self,
         rule: &'a Death,

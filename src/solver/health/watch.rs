@@ -77,7 +77,8 @@ pub struct Exam<'a> {
     pub begins: bool,
 }
 
-/// Supplied energy that has grown by this factor from look to look is that of a beginning: of loads that rise, of fits that are pressed.
+/// Supplied energy that has grown by this factor from look to look is that of a beginning: of loads that rise, of fits that
+/// are pressed.
 const BEGINS: f64 = 2.0;
 
 impl Watch {

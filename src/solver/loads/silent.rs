@@ -1,9 +1,9 @@
 //! Boundaries that waves leave through: dashpots on the faces of side sets (Lysmer and Kuhlemeyer 1969).
 //!
-//! A plane wave that leaves a face along its normal n carries the traction t = -ρ c_L (v·n) n - ρ c_S (v - (v·n) n).
-//! This traction on the face, lumped at its corners, is a force F = -C v with a symmetric C per node, of the faces as
-//! they are in the mesh; mass that MASS SCALING has added to an element counts in its ρ and c. Velocities live at mid-step; the v of a state is the mean of the two around it, and as the
-//! later one depends on F, three equations are solved per node:
+//! A plane wave that leaves a face along its normal n carries the traction t = -ρ c_L (v·n) n - ρ c_S (v - (v·n) n). This
+//! traction on the face, lumped at its corners, is a force F = -C v with a symmetric C per node, of the faces as they are
+//! in the mesh; mass that MASS SCALING has added to an element counts in its ρ and c. Velocities live at mid-step; the v of
+//! a state is the mean of the two around it, and as the later one depends on F, three equations are solved per node:
 //!
 //! (1 + ½ Δt̄ C/m) v = v⁻ + ½ Δt̄ f/m.
 //!

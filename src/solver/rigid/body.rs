@@ -59,8 +59,8 @@ pub struct RigidBody {
     pub compliance: Compliance,
     /// The same if nothing held it.
     pub free: Compliance,
-    /// Holds that are independent of each other at the start. Others are checked, but not enforced: what would only become independent as the
-    /// body moves, would set in with a blow.
+    /// Holds that are independent of each other at the start. Others are checked, but not enforced: what would only become
+    /// independent as the body moves, would set in with a blow.
     enforced: Vec<usize>,
     /// Those of them that are so now, and how they resist each other.
     chosen: Vec<usize>,

@@ -1,7 +1,7 @@
 //! What holds or drives a rigid body: nodes of node sets, each along one axis.
 //!
-//! Nodes that go alike along an axis say something of all six unknowns of their body: where one of them is along the axis, and, unless they lie on a
-//! line aslant, that the body turns about no other axis.
+//! Nodes that go alike along an axis say something of all six unknowns of their body: where one of them is along the axis,
+//! and, unless they lie on a line aslant, that the body turns about no other axis.
 
 use super::body::{Compliance, Six, applied, product};
 use super::turn::Quaternion;
@@ -192,8 +192,8 @@ pub fn holds(mesh: &Mesh, model: &Model, (nodes, centre): (&[u32], [f64; 3]), po
     holds
 }
 
-/// The commands that hold or drive nodes of a body, with the nodes, ascending. A node is held once in each direction, the first command
-/// counts.
+/// The commands that hold or drive nodes of a body, with the nodes, ascending. A node is held once in each direction, the
+/// first command counts.
 fn held_alike(mesh: &Mesh, model: &Model, nodes: &[u32]) -> Vec<Alike> {
     let still = model.no_displacements.iter().map(|c| (c.node_set, c.of, c.direction, None));
     let moving = model.prescribed_motions.iter().map(|m| {
@@ -223,10 +223,11 @@ fn held_alike(mesh: &Mesh, model: &Model, nodes: &[u32]) -> Vec<Alike> {
     all
 }
 
-/// Whether nodes that go alike along an axis, of which these span the others, let their body turn about that axis only. Their differences d keep their components along
-/// the axis a: u = Rᵀa with u·d = a·d for all of them. Two differences in different directions leave a itself and its mirror image in their plane; one
-/// leaves a circle, which is a point where d is along a. Equations for the single nodes would say less: those of differences in a plane with a are
-/// of second order, and hold only once the body has turned.
+/// Whether nodes that go alike along an axis, of which these span the others, let their body turn about that axis only.
+/// Their differences d keep their components along the axis a: u = Rᵀa with u·d = a·d for all of them. Two differences in
+/// different directions leave a itself and its mirror image in their plane; one leaves a circle, which is a point where d
+/// is along a. Equations for the single nodes would say less: those of differences in a plane with a are of second order,
+/// and hold only once the body has turned.
 fn are_level(spanning: &[u32], axis: usize, positions: &[[f64; 3]]) -> bool {
     match *spanning {
         [] | [_] => false,

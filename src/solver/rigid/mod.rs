@@ -1,9 +1,10 @@
 //! Rigid bodies: blocks that move as one, with six unknowns and no work of elements.
 //!
 //! Nodes follow their body. Between elements and contact they are nodes like any others: before forces are asked for, their
-//! rows hold the velocities of the body at the present state, and afterwards the forces that give them those after the kick, so that
-//! energies, momenta, accelerations and contact need no second account. Works are booked with these velocities, and so the balance of a
-//! body is closed exactly; elements that share nodes with it see the straight paths of the step, as they do of all nodes.
+//! rows hold the velocities of the body at the present state, and afterwards the forces that give them those after the
+//! kick, so that energies, momenta, accelerations and contact need no second account. Works are booked with these
+//! velocities, and so the balance of a body is closed exactly; elements that share nodes with it see the straight paths of
+//! the step, as they do of all nodes.
 //!
 //! Nodes on which no force can act, inside a body, are brought up to date only where somebody looks.
 
@@ -116,8 +117,8 @@ impl RigidBodies {
         self.of_node.get(node as usize).copied().filter(|body| *body != ABSENT)
     }
 
-    /// Takes momentum and angular momentum from the initial velocities of the nodes, which then move as their bodies do. All ranks call
-    /// it.
+    /// Takes momentum and angular momentum from the initial velocities of the nodes, which then move as their bodies do.
+    /// All ranks call it.
     pub fn set_off(&mut self, nodes: &mut Nodes, comm: &mut dyn Communicator) {
         let mut sums = self.sums();
         for follower in self.near.iter().chain(&self.deep).filter(|f| nodes.owned[f.node as usize]) {

@@ -1,14 +1,15 @@
 //! How a free body turns in a step.
 //!
-//! The angular momentum L about the centre, in space, is what a step changes: L ← L + Δt̄ M. The rotation δR over the step Δt is the one
-//! by which the momentum of all its points, each going straight from where it is to where it will be, is L:
+//! The angular momentum L about the centre, in space, is what a step changes: L ← L + Δt̄ M. The rotation δR over the step
+//! Δt is the one by which the momentum of all its points, each going straight from where it is to where it will be, is L:
 //!
 //! Σ m r × (δR r − r)/Δt = L,   with the unit quaternion (q₀, q) of δR:   2 q₀ I q + 2 q × I q = Δt L.
 //!
-//! This is what central differences with rigid distances give (SHAKE; Moser and Veselov, "Discrete versions of some classical integrable
-//! systems", Commun. Math. Phys. 139, 1991; in quaternions Hairer and Vilmart, "Preprocessed discrete Moser–Veselov algorithm", 2006). Without moments it
-//! keeps L and the energy ½ L·I⁻¹L to round-off, for any sequence of steps. In a steady spin ω the angle of such a rotation is
-//! arcsin ωΔt, too large by (ωΔt)²/6. So a step that turns far is made of several, each of which keeps both.
+//! This is what central differences with rigid distances give (SHAKE; Moser and Veselov, "Discrete versions of some
+//! classical integrable systems", Commun. Math. Phys. 139, 1991; in quaternions Hairer and Vilmart, "Preprocessed discrete
+//! Moser–Veselov algorithm", 2006). Without moments it keeps L and the energy ½ L·I⁻¹L to round-off, for any sequence of
+//! steps. In a steady spin ω the angle of such a rotation is arcsin ωΔt, too large by (ωΔt)²/6. So a step that turns far is
+//! made of several, each of which keeps both.
 
 use super::shape::Matrix;
 use crate::vector::{add, cross, dot, scaled, subtract};

@@ -1,11 +1,12 @@
 //! TIED CONTACT: surfaces that do not match and are joined as if they did.
 //!
-//! The nodes of one surface follow those of the other by fixed weights (`mortar`). They are no unknowns any more: their forces go to the nodes
-//! that they follow, by the same weights, and so does their mass, at the start. Their places begin where the weights put them, so that
-//! x_s = Σ W x_I holds at every state: momentum and angular momentum are kept, and rigid motion strains nothing.
+//! The nodes of one surface follow those of the other by fixed weights (`mortar`). They are no unknowns any more: their
+//! forces go to the nodes that they follow, by the same weights, and so does their mass, at the start. Their places begin
+//! where the weights put them, so that x_s = Σ W x_I holds at every state: momentum and angular momentum are kept, and
+//! rigid motion strains nothing.
 //!
-//! What a follower exerts and what its leaders do is known to all ranks, in the bits in which one of them computed it; each then finds the
-//! sums that it needs in the order of the followers.
+//! What a follower exerts and what its leaders do is known to all ranks, in the bits in which one of them computed it; each
+//! then finds the sums that it needs in the order of the followers.
 
 mod mortar;
 
@@ -91,9 +92,10 @@ impl Tied {
         self.excess = self.largest_ratio(&before, masses) - 1.0;
     }
 
-    /// The largest λ with (m + Tᵀ m_f T) x = λ M x over the leaders, by power iteration: m their own masses, m_f those of followers, T the
-    /// weights, M the masses that are computed with, `after`. The step of elements is safe for the masses on the left; M equals them for
-    /// equal velocities, and is not below them for any where no weight is negative (Gershgorin).
+    /// The largest λ with (m + Tᵀ m_f T) x = λ M x over the leaders, by power iteration: m their own masses, m_f those of
+    /// followers, T the weights, M the masses that are computed with, `after`. The step of elements is safe for the masses
+    /// on the left; M equals them for equal velocities, and is not below them for any where no weight is negative
+    /// (Gershgorin).
     fn largest_ratio(&self, before: &[f64], after: &[f64]) -> f64 {
         let negative = self.followers.iter().flat_map(|one| &one.leaders).any(|(_, weight)| *weight < 0.0);
         let mut leaders: Vec<u32> =
@@ -313,8 +315,8 @@ impl Ties {
         }
     }
 
-    /// Moves forces of contact on: local nodes that this rank answers for, and the force on each. Forces of followers before are taken back. All
-    /// ranks call it.
+    /// Moves forces of contact on: local nodes that this rank answers for, and the force on each. Forces of followers
+    /// before are taken back. All ranks call it.
     pub fn push(&self, nodes: &mut Nodes, contact: impl Iterator<Item = (u32, [f64; 3])>, comm: &mut dyn Communicator) {
         let mut of_node = BTreeMap::new();
         contact.for_each(|(node, force)| _ = of_node.insert(node, force));

@@ -1,13 +1,15 @@
 //! How the nodes of one surface follow the faces of another that does not match: weights that hold the gap in the mean.
 //!
-//! A node that follows the point of a face where it happens to lie passes no patch test: the forces of a uniform pressure, handed on by such weights,
-//! are not those that the pressure gives the other side. Weights that do both, follow every linear field and hand on every uniform stress, come from asking that
-//! the gap vanishes in the mean over the surface, ∫ µ_s (x_s-side − x_m-side) dA = 0, with functions µ that are dual to the shape functions N of the following side
-//! (Wohlmuth, "A mortar finite element method using dual spaces for the Lagrange multiplier", SIAM J. Numer. Anal. 38, 2000): ∫ µ_s N_t dA = δ_st D_s.
-//! Then D_s x_s = Σ_I ∫ µ_s N_I dA x_I, node by node, without a system to solve.
+//! A node that follows the point of a face where it happens to lie passes no patch test: the forces of a uniform pressure,
+//! handed on by such weights, are not those that the pressure gives the other side. Weights that do both, follow every
+//! linear field and hand on every uniform stress, come from asking that the gap vanishes in the mean over the surface, ∫
+//! µ_s (x_s-side − x_m-side) dA = 0, with functions µ that are dual to the shape functions N of the following side
+//! (Wohlmuth, "A mortar finite element method using dual spaces for the Lagrange multiplier", SIAM J. Numer. Anal. 38,
+//! 2000): ∫ µ_s N_t dA = δ_st D_s. Then D_s x_s = Σ_I ∫ µ_s N_I dA x_I, node by node, without a system to solve.
 //!
-//! Integrals run over the pieces that pairs of faces have in common. Whatever the rule of integration, linear fields are met exactly, because µ is made with the same
-//! points; uniform stress is handed on as exactly as the rule integrates N_I, which is to round-off for parallelograms.
+//! Integrals run over the pieces that pairs of faces have in common. Whatever the rule of integration, linear fields are
+//! met exactly, because µ is made with the same points; uniform stress is handed on as exactly as the rule integrates N_I,
+//! which is to round-off for parallelograms.
 
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::vector::{add, cross, dot, normalized, scaled, subtract};
@@ -25,7 +27,8 @@ pub struct Follower {
 /// A face by its corners.
 pub type Face = [u32; 4];
 
-/// Symmetric rule with seven points in a triangle, exact for polynomials of degree five (Radon 1948): barycentric coordinates and weights.
+/// Symmetric rule with seven points in a triangle, exact for polynomials of degree five (Radon 1948): barycentric
+/// coordinates and weights.
 const TRIANGLE: [([f64; 3], f64); 7] = {
     const A: f64 = 0.470_142_064_105_115_1;
     const B: f64 = 0.101_286_507_323_456_34;

@@ -8,12 +8,12 @@
 //! 1.648 √n exp(−√ε (2k − 1))            (Kuczyński and Woźniakowski 1992, for n unknowns, whatever the spectrum)
 //! ```
 //!
-//! so that k follows from the chance that is granted, and 2/ω ≥ Δt = 2 √((1 − ε)/θ) but for that chance. It is no proof: none is to be had
-//! for less than a factorisation. It is kept small enough for a run to be estimated a million times, every estimate begins with
-//! numbers of its own, and the step never falls below the elements' own bound, which is proved.
+//! so that k follows from the chance that is granted, and 2/ω ≥ Δt = 2 √((1 − ε)/θ) but for that chance. It is no proof:
+//! none is to be had for less than a factorisation. It is kept small enough for a run to be estimated a million times,
+//! every estimate begins with numbers of its own, and the step never falls below the elements' own bound, which is proved.
 //!
-//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one, and by that of
-//! their heights ([`Heights`]): squeezing and shocks are answered at once.
+//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one,
+//! and by that of their heights ([`Heights`]): squeezing and shocks are answered at once.
 
 use super::heights::Heights;
 use crate::comm::{Communicator, ExactSum};

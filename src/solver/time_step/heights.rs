@@ -1,9 +1,9 @@
 //! How much the flattest directions of hexahedra have shrunk since the step of the mesh was estimated.
 //!
-//! The highest frequency of a mesh goes with one over the smallest height of its elements, while an element's own bound goes with the
-//! sum of 1/h² over its three heights: pressed at constant volume it hardly feels the first fifth that the mesh feels wholly. So heights
-//! h = V/A are followed themselves, A the area of the middle surface across, and what they have lost since the last look is taken to
-//! be lost once more before the next.
+//! The highest frequency of a mesh goes with one over the smallest height of its elements, while an element's own bound
+//! goes with the sum of 1/h² over its three heights: pressed at constant volume it hardly feels the first fifth that the
+//! mesh feels wholly. So heights h = V/A are followed themselves, A the area of the middle surface across, and what they
+//! have lost since the last look is taken to be lost once more before the next.
 
 use super::frequency::Blocks;
 use crate::restart::Archive;

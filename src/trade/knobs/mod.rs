@@ -106,8 +106,8 @@ impl Variant {
         Variant { name: name.into(), knob, words, change: (without.to_vec(), lines), refine: 1, work }
     }
 
-    /// Whether it is more exact than the deck as it is, as far as its knob goes, or at least no less: what it changes is an error of the
-    /// deck.
+    /// Whether it is more exact than the deck as it is, as far as its knob goes, or at least no less: what it changes is an
+    /// error of the deck.
     pub fn is_finer(&self) -> bool {
         match self.knob {
             Knob::Contact => ["tight-contact", "all-edges"].contains(&self.name.as_str()),

@@ -78,8 +78,8 @@ fn most(parts: &[([f64; 3], f64)], compliance: &Compliance) -> f64 {
     row(0).max(row(1)).max(row(2))
 }
 
-/// Completes what is known of a constraint with the points of bodies: adds to what a unit force does to it along its normal, and to what
-/// single points do at most; finds what each of them shares.
+/// Completes what is known of a constraint with the points of bodies: adds to what a unit force does to it along its
+/// normal, and to what single points do at most; finds what each of them shares.
 pub fn weigh(
     c: &Constraint,
     motion: &NodeMotion,

@@ -19,8 +19,8 @@ pub type Four = [f64; 4];
 /// Bit of a place that is none among the nodes of this rank.
 const APART: u32 = 1 << 31;
 
-/// Points ahead whose lines are asked of the memory: their nodes are scattered among all, which no hardware foresees. With 8 and 64 a large
-/// can cost 87 and 70 ns a contact node and step.
+/// Points ahead whose lines are asked of the memory: their nodes are scattered among all, which no hardware foresees. With
+/// 8 and 64 a large can cost 87 and 70 ns a contact node and step.
 const SOON: usize = 64;
 
 /// Where a point is and how fast it goes, in one line of the cache: faces ask for both, of four corners at a time.

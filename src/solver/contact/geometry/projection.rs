@@ -68,7 +68,8 @@ impl Projection {
         [self.triangle, (self.triangle + 1) % 4]
     }
 
-    /// Whether the point, at this height above the face, is beyond the end of a surface, about in its plane: neither side is in the way.
+    /// Whether the point, at this height above the face, is beyond the end of a surface, about in its plane: neither side
+    /// is in the way.
     pub fn is_beside(&self, height: f64, borders: u8) -> bool {
         self.outside > AROUND * height.abs() && borders >> self.triangle & 1 == 1
     }

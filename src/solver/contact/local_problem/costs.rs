@@ -13,9 +13,9 @@ const HELD: u32 = 10;
 const PAIR: u32 = 1;
 
 impl LocalProblem {
-    /// Points that were busy in the last step, by numbers of the layout, and what each cost: slave nodes that are awake and ends of
-    /// edges that are due, and, for nothing, what they may meet, so that constraints act on points of one rank. A point may be named more
-    /// than once.
+    /// Points that were busy in the last step, by numbers of the layout, and what each cost: slave nodes that are awake and
+    /// ends of edges that are due, and, for nothing, what they may meet, so that constraints act on points of one rank. A
+    /// point may be named more than once.
     pub(super) fn costs(&self) -> Vec<(u32, u32)> {
         let LocalProblem { locator, numbering, edges, faces, .. } = self;
         let number = |point: u32| numbering.points[point as usize];

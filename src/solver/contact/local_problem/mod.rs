@@ -82,7 +82,8 @@ pub struct LocalProblem {
     pair_places: Vec<u32>,
     strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
-    /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many ranks; else empty.
+    /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many
+    /// ranks; else empty.
     pub answers: Vec<bool>,
 }
 
@@ -237,7 +238,8 @@ impl LocalProblem {
         }
     }
 
-    /// The same with boxes and corners as whole vectors. `unsafe` for a tenth of the instructions of contact on a brick wall, with those of the sweeps.
+    /// The same with boxes and corners as whole vectors. `unsafe` for a tenth of the instructions of contact on a brick
+    /// wall, with those of the sweeps.
     ///
     /// # Safety
     ///

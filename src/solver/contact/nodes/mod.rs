@@ -102,8 +102,9 @@ impl ContactNodes {
         }
     }
 
-    /// Hears by how much each rigid body has turned in the last step, radians. Velocities of its nodes are those of an instant then, at
-    /// the end of an arc: from the arc's chord each differs by half the angle, and by as much again where the axis turns.
+    /// Hears by how much each rigid body has turned in the last step, radians. Velocities of its nodes are those of an
+    /// instant then, at the end of an arc: from the arc's chord each differs by half the angle, and by as much again where
+    /// the axis turns.
     pub fn turn(&mut self, angles: impl Iterator<Item = f64>) {
         self.turned = self.arms.iter().zip(angles).map(|(arm, angle)| arm * angle * angle).fold(0.0, f64::max);
     }

@@ -34,7 +34,8 @@ pub struct Tally {
     pub steps: u64,
     /// Iterations in all of them.
     pub iterations: u64,
-    /// Steps in which the iterations ran out, see [`Outcome::ran_out`](crate::solver::contact::enforcement::iterations::Outcome::ran_out).
+    /// Steps in which the iterations ran out, see
+    /// [`Outcome::ran_out`](crate::solver::contact::enforcement::iterations::Outcome::ran_out).
     pub capped: u64,
     /// Largest overlap that was left, as a part of the face's size.
     pub left: f64,

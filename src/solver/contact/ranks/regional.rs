@@ -34,7 +34,8 @@ impl Regional {
         let owner_rank = |point: u32| {
             f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
         };
-        // One kind after the other, each let go of as soon as it is on its way: a search takes the most memory of all that a step does.
+        // One kind after the other, each let go of as soon as it is on its way: a search takes the most memory of all that
+        // a step does.
         let (points, _) = sorted::<0>(sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, comm));
         let here = edges.iter().copied();
         let standing_out = neighbourhood::standing_out(here.clone(), layout, contact_nodes);
@@ -66,8 +67,8 @@ fn occupied_by_all(own: &[Box3], comm: &mut dyn Communicator) -> Vec<Occupancy> 
     gather_for_all(own, comm).chunks_exact(length).map(|bytes| Occupancy::from_bytes(bytes, CELLS)).collect()
 }
 
-/// Sends each box, with the owner ranks of its corners or ends, to all ranks that occupy space near it; what has come instead. All ranks
-/// call it.
+/// Sends each box, with the owner ranks of its corners or ends, to all ranks that occupy space near it; what has come
+/// instead. All ranks call it.
 fn sent_near<const OWNERS: usize>(
     boxes: impl Iterator<Item = (u32, Box3)>,
     owners: impl Fn(u32) -> [f64; OWNERS],

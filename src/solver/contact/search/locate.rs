@@ -178,9 +178,9 @@ impl Locator {
         }
     }
 
-    /// Takes over from the search before how long things may wait that it has found as well: slave nodes whose candidates are the
-    /// same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from here on. The numbers
-    /// are those of `new` and of `old` local problems, in the same order.
+    /// Takes over from the search before how long things may wait that it has found as well: slave nodes whose candidates
+    /// are the same, and pairs of edges. Both are nodes that have counted in what has been travelled, which is counted from
+    /// here on. The numbers are those of `new` and of `old` local problems, in the same order.
     pub fn take_over(&mut self, before: &Locator, [new, old]: [&Numbering; 2]) {
         self.continues = true;
         let travelled = before.travelled;

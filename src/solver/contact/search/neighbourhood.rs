@@ -246,7 +246,8 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
     pairs
 }
 
-/// Whether an edge that stands out may cross another: of two that stand out the one with the lower number asks, and none crosses itself.
+/// Whether an edge that stands out may cross another: of two that stand out the one with the lower number asks, and none
+/// crosses itself.
 fn may_cross(first: u32, other: u32, layout: &Layout) -> bool {
     let (one, another) = (&layout.edges[first as usize], &layout.edges[other as usize]);
     layout.meets(first, other)

@@ -38,9 +38,9 @@ fn plane_node_sets(mesh: &Mesh, model: &Model) -> Vec<Vec<u32>> {
 }
 
 impl Contact {
-    /// Contact as the model asks for it, with what `skin` has found; `None` when that is nothing. `held[i]` says which constraint holds which
-    /// direction of local node i; `local` gives the local node of a node of the mesh, `elements` the canonical numbers
-    /// of the elements here, ascending.
+    /// Contact as the model asks for it, with what `skin` has found; `None` when that is nothing. `held[i]` says which
+    /// constraint holds which direction of local node i; `local` gives the local node of a node of the mesh, `elements` the
+    /// canonical numbers of the elements here, ascending.
     pub fn new(
         mesh: &Mesh,
         model: &Model,

@@ -22,8 +22,8 @@ const FARTHEST: f64 = 2.0;
 /// A ray shortened by less than this is not shortened: round-off of its sums.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
-/// Part of what a lift has cost in one step that the next one expects it to cost at least. Forces that are granted less of it cost less:
-/// what is granted grows by so much a step until it meets what can be paid.
+/// Part of what a lift has cost in one step that the next one expects it to cost at least. Forces that are granted less of
+/// it cost less: what is granted grows by so much a step until it meets what can be paid.
 const REMEMBERED: f64 = 0.7;
 
 /// What earlier losses allow contact to give back, and the sums of its work. The same on every rank.

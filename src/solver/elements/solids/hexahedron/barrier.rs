@@ -1,7 +1,7 @@
 //! A barrier against elements of no volume, in laws whose stress follows the strain alone.
 //!
-//! Such a law gives the finite energy of about K V₀ to an element that is pressed to nothing. So a potential of the volume V alone, without
-//! bound, joins the mean stress where little of the initial volume V₀ is left:
+//! Such a law gives the finite energy of about K V₀ to an element that is pressed to nothing. So a potential of the volume
+//! V alone, without bound, joins the mean stress where little of the initial volume V₀ is left:
 //!
 //! ```text
 //! φ = k (λ + 2μ) V₀ f(u),  u = V/(s V₀) < 1,  f = 1/3u − 1 + u − u²/3
@@ -22,8 +22,8 @@ const STRENGTH: f64 = 0.25;
 /// Elements with less than this part of their volume at either end of the step are looked at.
 const NEAR: f64 = 2.0 * START;
 
-/// They may lose this part of their volume in a step, and grow by what undoes it: 1/(1 − 0.4) − 1. Work by the trapezoidal rule of so long a
-/// step is 13 % above that of the potential, as much of one that opens as of one that closes.
+/// They may lose this part of their volume in a step, and grow by what undoes it: 1/(1 − 0.4) − 1. Work by the trapezoidal
+/// rule of so long a step is 13 % above that of the potential, as much of one that opens as of one that closes.
 const LARGEST_CLOSING: f64 = 0.4;
 const LARGEST_OPENING: f64 = 1.0 / (1.0 - LARGEST_CLOSING) - 1.0;
 
@@ -42,21 +42,22 @@ pub struct Barrier<V> {
     pub motion_step: V,
 }
 
-/// Whether any element was or is pressed together so much, given 192 times its volume in the middle and at the end of the step, and at the start
-/// of all.
+/// Whether any element was or is pressed together so much, given 192 times its volume in the middle and at the end of the
+/// step, and at the start of all.
 #[inline(always)]
 pub fn any_near<V: Lanes>(volumes192: [V; 2], initial192: V) -> bool {
     V::any_less(least(volumes192), V::splat(NEAR) * initial192)
 }
 
-/// Whether any element closes so fast that its next step is to be bounded, given the part of its volume by which it grows in a step of its own.
+/// Whether any element closes so fast that its next step is to be bounded, given the part of its volume by which it grows
+/// in a step of its own.
 #[inline(always)]
 pub fn any_fast<V: Lanes>(growth: V) -> bool {
     V::any_less(growth, V::splat(-FAST))
 }
 
-/// The volume at the end of a step, or about that at its start where this is less: no more than that where volume grows ever faster, as that of
-/// a body that is set free does.
+/// The volume at the end of a step, or about that at its start where this is less: no more than that where volume grows
+/// ever faster, as that of a body that is set free does.
 #[inline(always)]
 fn least<V: Lanes>([middle, end]: [V; 2]) -> V {
     end.min(middle + middle - end)
@@ -83,7 +84,8 @@ pub fn stress_and_modulus<V: Lanes>(volume192: V, initial192: V, dilatational: V
     [scale * first, scale * second * u]
 }
 
-/// The stiffness of the barrier: φ″ V, a modulus along B, and |φ′| times the largest eigenvalue that ∂B/∂x can have, in all directions.
+/// The stiffness of the barrier: φ″ V, a modulus along B, and |φ′| times the largest eigenvalue that ∂B/∂x can have, in all
+/// directions.
 #[inline(always)]
 pub fn stiffness<V: Lanes>(x: &[Modes<V>; 3], operator: &Gradient<V>, initial192: V, dilatational: V) -> [V; 2] {
     let [stress, modulus] = stress_and_modulus(operator.volume192, initial192, dilatational);
@@ -150,9 +152,9 @@ fn growth<V: Lanes>(v: &[Modes<V>; 3], operator: &Gradient<V>) -> V {
     ((dot(&v[0], &g[0]) + dot(&v[1], &g[1])) + dot(&v[2], &g[2])) * V::splat(1.0 / 192.0)
 }
 
-/// A bound of the largest eigenvalue of ∂B/∂x, √(4/3 Σ m²)/6: 192 V is 3 D(ξ, η, ζ) + D(ξ, ξη, ζξ) + D(η, ηζ, ξη) + D(ζ, ζξ, ηζ), D the
-/// determinant of three modes. Each mode m is in four of these at most, counted with their factors, and the squares of modes are eight times
-/// those of the corners.
+/// A bound of the largest eigenvalue of ∂B/∂x, √(4/3 Σ m²)/6: 192 V is 3 D(ξ, η, ζ) + D(ξ, ξη, ζξ) + D(η, ηζ, ξη) + D(ζ,
+/// ζξ, ηζ), D the determinant of three modes. Each mode m is in four of these at most, counted with their factors, and the
+/// squares of modes are eight times those of the corners.
 #[inline(always)]
 fn largest_curvature<V: Lanes>(x: &[Modes<V>; 3]) -> V {
     let square =
@@ -160,7 +162,8 @@ fn largest_curvature<V: Lanes>(x: &[Modes<V>; 3]) -> V {
     ((square(&x[0]) + square(&x[1]) + square(&x[2])) * V::splat(4.0 / 3.0)).sqrt() * V::splat(1.0 / 6.0)
 }
 
-/// The stable step Δt' of an element that has a further stiffness K: with its own, Δt, damped or not, (4/Δt²) Δt/Δt' + 8K/M ≤ 4/Δt'² is enough.
+/// The stable step Δt' of an element that has a further stiffness K: with its own, Δt, damped or not, (4/Δt²) Δt/Δt' + 8K/M
+/// ≤ 4/Δt'² is enough.
 #[inline(always)]
 pub fn shared_step<V: Lanes>(own: V, stiffness: V, mass: V) -> V {
     let one = V::splat(1.0);

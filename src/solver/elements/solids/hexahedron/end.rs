@@ -1,4 +1,5 @@
-//! What an element does at the end of a step beside its stress: resistance to hourglass modes, as a solid or as a fluid, and the barrier.
+//! What an element does at the end of a step beside its stress: resistance to hourglass modes, as a solid or as a fluid,
+//! and the barrier.
 
 use super::barrier::{self, Barrier, Solid};
 use super::exact::{self, Start};
@@ -42,8 +43,8 @@ impl<'a, V: Lanes> End<'a, V> {
         End { x, v, gradient, inverse, b_squared, stiffness_measure, light }
     }
 
-    /// Hourglass resistance in space, and the stable step with it; given hourglass rates in space, and the shear modulus, the factor of the
-    /// law's return and the stable step without resistance.
+    /// Hourglass resistance in space, and the stable step with it; given hourglass rates in space, and the shear modulus,
+    /// the factor of the law's return and the stable step without resistance.
     #[inline(always)]
     pub fn resist_as_solid<K: Kernel, H: hourglass::Control>(
         &self,
@@ -114,8 +115,8 @@ impl<'a, V: Lanes> End<'a, V> {
         (resistance, rates, held)
     }
 
-    /// What the barrier does, where any element is or was pressed together or closes fast: given 192 times the volumes in the middle of the
-    /// step and at the start of all, and the part of the volume by which it grows in a step of its own.
+    /// What the barrier does, where any element is or was pressed together or closes fast: given 192 times the volumes in
+    /// the middle of the step and at the start of all, and the part of the volume by which it grows in a step of its own.
     #[inline(always)]
     pub fn barrier<K: Kernel>(
         &self,

@@ -62,9 +62,10 @@ impl Settings {
 /// grow by 10⁻³.
 const ROUNDED_BOUND: f64 = 1.0 - 4e-6;
 
-/// Modes of velocities below this part of the speed of sound count as none in single precision: the squares of most of them, and third powers and
-/// lost digits of all, would be smaller than its normal numbers, and some processors take a hundred times as long for each of those. A strain that
-/// grows by as little in each of 10⁶ steps as long as a wave takes through an element comes to less than 10⁻⁹.
+/// Modes of velocities below this part of the speed of sound count as none in single precision: the squares of most of
+/// them, and third powers and lost digits of all, would be smaller than its normal numbers, and some processors take a
+/// hundred times as long for each of those. A strain that grows by as little in each of 10⁶ steps as long as a wave takes
+/// through an element comes to less than 10⁻⁹.
 const STILL: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// Modes of velocities, in single precision without those too slow to matter: bodies ahead of a wave are full of them.

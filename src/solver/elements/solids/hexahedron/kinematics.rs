@@ -177,8 +177,8 @@ fn increment<V: Lanes>(
     Increment { strain, half_turn, growth: stretch_increment(stretch, &strain, &correction) }
 }
 
-/// Tells the compiler that most runs do not come here: what they need stays in registers, and the choice costs them nothing. Without it
-/// their pass over elements has six thousandths more instructions.
+/// Tells the compiler that most runs do not come here: what they need stays in registers, and the choice costs them
+/// nothing. Without it their pass over elements has six thousandths more instructions.
 #[cold]
 #[inline]
 fn cold_path() {}
@@ -202,8 +202,8 @@ struct Further<V> {
 /// U ← U + 2 sym(P + skew(δ) U½)
 /// ```
 ///
-/// c and δ are seen from the frame turned half-way, w from that at the start: hence the product w × c. Given are `d` = 2h, `strain` = 2e,
-/// `w` = Δt w and `c` twice what it is above.
+/// c and δ are seen from the frame turned half-way, w from that at the start: hence the product w × c. Given are `d` = 2h,
+/// `strain` = 2e, `w` = Δt w and `c` twice what it is above.
 #[inline(always)]
 fn of_second_order<V: Lanes>(
     u: &Sym3<V>,

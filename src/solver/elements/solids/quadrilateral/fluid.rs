@@ -145,7 +145,8 @@ impl<V: Lanes> Held<V> {
 }
 
 /// Finds the forces Λ on the Jacobians of the corners and keeps them in `rows`, with the least Jacobian over the area after
-/// them. `b_squared` is B_iI B_iI, `taken` the energy that hourglass resistance and these forces have taken so far. `weights` are those of the compatible form, if it is that.
+/// them. `b_squared` is B_iI B_iI, `taken` the energy that hourglass resistance and these forces have taken so far.
+/// `weights` are those of the compatible form, if it is that.
 #[inline(always)]
 pub fn hold<V: Lanes>(
     [x, v]: [&[Corners<V>; 2]; 2],

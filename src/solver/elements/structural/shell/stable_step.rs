@@ -1,9 +1,10 @@
 //! The largest stable step of a shell, rigorous: a bound on the highest frequency of the element from its own matrix.
 //!
-//! With R the rates of all strains, hourglass fields and drills, each times the root of its stiffness, for unit velocities of the
-//! corners over the root of their masses, ω² is the largest eigenvalue of G = R Rᵀ, 18 × 18 of four corners. Squared twice, the largest row sum of
-//! G⁴ bounds its fourth power from above: 3 to 12 % too much in warped elements. It is found again when an element has changed by
-//! a fiftieth, so that it costs next to nothing; in between the step is shortened by as much as the element has changed.
+//! With R the rates of all strains, hourglass fields and drills, each times the root of its stiffness, for unit velocities
+//! of the corners over the root of their masses, ω² is the largest eigenvalue of G = R Rᵀ, 18 × 18 of four corners. Squared
+//! twice, the largest row sum of G⁴ bounds its fourth power from above: 3 to 12 % too much in warped elements. It is found
+//! again when an element has changed by a fiftieth, so that it costs next to nothing; in between the step is shortened by
+//! as much as the element has changed.
 
 use super::facet::{Corners, Facet, Kind, Stiffnesses};
 use crate::material::Moduli;

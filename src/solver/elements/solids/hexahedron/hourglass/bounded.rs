@@ -8,10 +8,11 @@
 //! c = min(1, τ₀/τ),  τ = Σ_α |γ_α|²/8        (4 of a parallelepiped)
 //! ```
 //!
-//! which bounds k|γ|². A resistance Q that is stored holds the energy Q²/2k. Where k falls Q would give back more than it has
-//! taken; it is scaled by √(k/k_old) then, so that this energy does not grow: the rest is lost in the account of hourglass resistance. The
-//! stiffness is taken to go with c B:B/V, as that of Flanagan and Belytschko does. That of assumed strain goes with c and the lengths; to count
-//! c alone for it, tried, is nearer to passive on random paths, but worse in scenes (docs/decisions.md).
+//! which bounds k|γ|². A resistance Q that is stored holds the energy Q²/2k. Where k falls Q would give back more than it
+//! has taken; it is scaled by √(k/k_old) then, so that this energy does not grow: the rest is lost in the account of
+//! hourglass resistance. The stiffness is taken to go with c B:B/V, as that of Flanagan and Belytschko does. That of
+//! assumed strain goes with c and the lengths; to count c alone for it, tried, is nearer to passive on random paths, but
+//! worse in scenes (docs/decisions.md).
 
 use super::super::barrier::shared_step;
 use super::super::geometry::{Gradient, HOURGLASS, Modes, earlier, gradient, square};

@@ -46,8 +46,8 @@ pub trait Control: Copy + Send + Sync {
     }
     /// Part of the viscosity by which a fluid's modes are resisted, at most 1.
     fn of_fluids(&self) -> f64;
-    /// What the step of elements with bounded resistance has to allow for beside their own: the stiffness of a mode whose base vector is as
-    /// long as that of a parallelepiped, over B:B/V: a modulus.
+    /// What the step of elements with bounded resistance has to allow for beside their own: the stiffness of a mode whose
+    /// base vector is as long as that of a parallelepiped, over B:B/V: a modulus.
     fn further_modulus<V: Lanes>(&self, mu: V) -> V;
     /// Largest stable time step with hourglass control, given the one without, `stiffness_measure`, mass and μ.
     fn stable_step<V: Lanes>(&self, without: V, stiffness_measure: V, mass: V, mu: V) -> V;

@@ -1,4 +1,5 @@
-//! Elements of which little is left, or which are bent out of all shape: the barrier of their volume, and bounded hourglass resistance.
+//! Elements of which little is left, or which are bent out of all shape: the barrier of their volume, and bounded hourglass
+//! resistance.
 
 use super::super::barrier::stress_and_modulus;
 use super::super::hourglass::bounded::squares;
@@ -76,10 +77,10 @@ fn barrier_pushes_along_the_gradient_of_the_volume() {
     }
 }
 
-/// 2/√λ_max of what an element is, over the step that it asks for, where it is pressed together and bent. Up to τ₀ hourglass stiffness is
-/// not asked for its part of the step, as in all elements: next to it the step is too long for an element that stands alone. Beyond τ₀ that of
-/// Flanagan and Belytschko is asked for; assumed strain stays as stiff as it is at τ₀, and the step as long: a bound of its own would cost
-/// half as many steps again (docs/decisions.md).
+/// 2/√λ_max of what an element is, over the step that it asks for, where it is pressed together and bent. Up to τ₀
+/// hourglass stiffness is not asked for its part of the step, as in all elements: next to it the step is too long for an
+/// element that stands alone. Beyond τ₀ that of Flanagan and Belytschko is asked for; assumed strain stays as stiff as it
+/// is at τ₀, and the step as long: a bound of its own would cost half as many steps again (docs/decisions.md).
 #[test]
 fn stable_step_of_squashed_elements() {
     let (mut worst, mut beyond, mut largest) = ([f64::INFINITY; 3], [f64::INFINITY; 3], 0.0f64);
@@ -155,9 +156,10 @@ fn ordinary_shapes_are_not_bounded() {
     }
 }
 
-/// As above, but bent before it is squashed and unbent before it is given its shape again: what is stored while the element is stiff is asked for
-/// where it is soft. Without the factor on stored resistance a fifth (Flanagan and Belytschko) and a quarter (assumed strain) of all that
-/// was stored came back in excess; what is left is of paths that pass so near to no volume that stiffness changes manyfold in a step.
+/// As above, but bent before it is squashed and unbent before it is given its shape again: what is stored while the element
+/// is stiff is asked for where it is soft. Without the factor on stored resistance a fifth (Flanagan and Belytschko) and a
+/// quarter (assumed strain) of all that was stored came back in excess; what is left is of paths that pass so near to no
+/// volume that stiffness changes manyfold in a step.
 #[test]
 fn what_bounded_resistance_stores_is_not_multiplied() {
     let mut random = Random(8);

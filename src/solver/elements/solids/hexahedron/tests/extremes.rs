@@ -60,9 +60,9 @@ fn impact_at_the_wave_speed_and_beyond() {
         let (compression, failed) = struck(speed, 1.2);
         assert!(!failed && compression > least, "{speed}: {compression}");
     }
-    // Without it the bound of closing elements does. Nodes of half of the mass stop where h ln h − h + 1 = (v/c)²/4: at h = 0.38 at c, at 0.15,
-    // where the barrier of the volume begins, at 1.5 c; and in it at 3 c, at h = 0.15 u where f(u) = 4 (9/4 − 0.565). Linear viscosity takes
-    // part of the energy, and steps are long.
+    // Without it the bound of closing elements does. Nodes of half of the mass stop where h ln h − h + 1 = (v/c)²/4: at h =
+    // 0.38 at c, at 0.15, where the barrier of the volume begins, at 1.5 c; and in it at 3 c, at h = 0.15 u where f(u) = 4
+    // (9/4 − 0.565). Linear viscosity takes part of the energy, and steps are long.
     for (speed, height) in [(1.0, 0.382), (1.5, 0.151), (3.0, 0.0065)] {
         let (compression, failed) = struck(speed, 0.0);
         assert!(!failed && (0.95 * height..1.5 * height).contains(&compression), "{speed}: {compression}");

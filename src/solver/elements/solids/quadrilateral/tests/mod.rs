@@ -356,8 +356,9 @@ fn the_stable_step_is_a_bound() {
     assert!(nearest < 1.2, "the bound is nowhere near: {nearest}");
 }
 
-/// The compatible form on shapes on and off the axis: no force along the axis in sum, whatever the stress and the hourglass mode are; masses
-/// whose sum is the element's; and next to nothing of both on the axis, in the ratio of its neighbour's radii.
+/// The compatible form on shapes on and off the axis: no force along the axis in sum, whatever the stress and the hourglass
+/// mode are; masses whose sum is the element's; and next to nothing of both on the axis, in the ratio of its neighbour's
+/// radii.
 #[test]
 fn the_compatible_form_keeps_momentum_along_the_axis() {
     let mut random = Random(10);
