@@ -105,7 +105,11 @@ fn scenes() -> [Scene; 7] {
             "hourglass energy of block 4",
             &["hourglass energy of block 4 is", "% of its internal", "in element"],
         ),
-        scene(one_pass(), "passes of contact run out", &["the passes of contact have run out in", "now the deepest is at node"]),
+        scene(
+            one_pass(),
+            "passes of contact run out",
+            &["the passes of contact have run out in", "now the deepest is at node"],
+        ),
         scene(
             overlapping(0.01),
             "nodes moved out of initial overlaps",
