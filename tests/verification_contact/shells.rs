@@ -333,7 +333,8 @@ fn a_bar_keeps_its_distance_in_a_hollow_and_ahead_of_a_ridge() {
         }
         between(case, "least distance over radius and half the thickness", least / (radius + 0.5 * T), 0.995, 1.001);
         let given = run.last().totals.contact / run.initial_energy;
-        between(case, "work of contact over the initial energy", given, -1.0, 1e-12);
+        // All of it, but for round-off.
+        between(case, "work of contact over the initial energy", given, -1.0 - 1e-9, 1e-12);
     }
 }
 
