@@ -112,15 +112,10 @@ impl Contact {
     pub fn erode(&mut self, dead: &[u32], erosion: &Erosion, nodes: &Nodes, comm: &mut dyn Communicator) {
         let history = self.carried.take().unwrap_or_else(|| self.problem.history());
         self.skin.delete(dead, &self.layout, |node| erosion.keeps(node));
-        self.arcs = Arcs::default();
-        let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        let old = self.lay_out_anew();
         surface::reshape::take_over(&mut self.layout, &old);
         let old_contact_nodes = std::mem::take(&mut self.contact_nodes);
-        let new = &self.layout;
-        self.plane_nodes
-            .iter_mut()
-            .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
-        self.carried = Some(renumbered(history, &old, new));
+        self.carried = Some(renumbered(history, &old, &self.layout));
         self.attach_to_nodes(|node| erosion.local()[node as usize], nodes, comm);
         // What is laid bare may be thinner than it was.
         self.update_depths(nodes, comm);
@@ -131,6 +126,17 @@ impl Contact {
                 None => (),
             }
         }
+    }
+
+    /// Lays out the surface that is left when elements have gone; what counts by its numbers is renumbered or forgotten. The layout of
+    /// before.
+    fn lay_out_anew(&mut self) -> Layout {
+        let old = std::mem::replace(&mut self.layout, self.skin.layout());
+        self.arcs = Arcs::default();
+        for plane_node in &mut self.plane_nodes {
+            plane_node.point = self.layout.point(old.nodes[plane_node.point as usize]);
+        }
+        old
     }
 
     /// Finds the contact forces of the step and adds them to the nodes; along directions that are held, the
@@ -315,7 +321,7 @@ impl Contact {
         }
         self.tally.steps += u64::from(iterations > 0);
         self.tally.iterations += u64::from(iterations);
-        self.tally.capped += u64::from(iterations > 0 && ran_out && self.limits.tolerance.is_finite());
+        self.tally.capped += u64::from(ran_out && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(residual);
     }
 

@@ -10,7 +10,6 @@ use super::enforcement::accounts::certificate::Bank;
 use super::enforcement::carried::{Carried, WIDTH};
 use super::geometry::edges::Shape;
 use super::local_problem::{History, PlaneHistory};
-use super::observations::arcs::Arcs;
 use super::surface::layout::Layout;
 use super::{Contact, Tally};
 use crate::restart::{Archive, compare_rows};
@@ -116,12 +115,7 @@ impl Contact {
         let free = std::mem::take(&mut self.skin.free);
         self.skin.delete(dead, &Layout::default(), |_| false);
         self.skin.free = free;
-        let old = std::mem::replace(&mut self.layout, self.skin.layout());
-        self.arcs = Arcs::default();
-        let new = &self.layout;
-        self.plane_nodes
-            .iter_mut()
-            .for_each(|plane_node| plane_node.point = new.point(old.nodes[plane_node.point as usize]));
+        self.lay_out_anew();
         self.attach_to_nodes(|node| erosion.local()[node as usize], nodes, archive.comm());
     }
 

@@ -41,9 +41,6 @@ const WORTH: f64 = 1.03;
 /// Ratio of elements' steps below which the estimate is made again.
 const CHANGED: f64 = 0.9;
 
-/// For each block, whether it takes part.
-pub type Blocks<'a> = &'a [bool];
-
 /// The stable step of the mesh, and when it was found.
 pub struct GlobalStep {
     /// Which blocks take part; of the others the elements' own steps hold.
@@ -174,25 +171,27 @@ impl GlobalStep {
         let mut gone = u64::from(*stale);
         archive.count("GLOBALSTALE", &mut gone);
         *stale = gone > 0;
-        let mut values = vec![0.0; domain.element_file.len()];
-        for (block, then) in domain.blocks.iter().zip(&*then) {
-            for (group, then) in block.groups().into_iter().zip(then) {
-                for (i, &place) in group.places.iter().enumerate() {
-                    values[place as usize] = then[i / CHUNK].0[i % CHUNK];
-                }
-            }
-        }
-        archive.element("GLOBALTHEN", &mut values);
-        if !archive.loading() {
-            return;
-        }
-        for (block, then) in domain.blocks.iter().zip(then) {
-            for (group, then) in block.groups().into_iter().zip(then) {
-                for (i, &place) in group.places.iter().enumerate() {
-                    then[i / CHUNK].0[i % CHUNK] = values[place as usize];
-                }
-            }
-        }
+        let groups = then.iter_mut().flatten().map(|rows| rows.iter_mut().flat_map(|row| &mut row.0));
+        visit_by_element("GLOBALTHEN", groups, domain, archive);
+    }
+}
+
+/// Visits a number of each element, given by group in the order of the blocks. What a group has beyond its elements fills its last
+/// chunk.
+pub(super) fn visit_by_element<'a>(
+    name: &str,
+    groups: impl Iterator<Item = impl Iterator<Item = &'a mut f64>>,
+    domain: &Domain,
+    archive: &mut dyn Archive,
+) {
+    let of_mesh = domain.blocks.iter().flat_map(|block| block.groups());
+    let mut numbers: Vec<(u32, &mut f64)> =
+        of_mesh.zip(groups).flat_map(|(group, own)| group.places.iter().copied().zip(own)).collect();
+    let mut values = vec![0.0; domain.element_file.len()];
+    numbers.iter().for_each(|(place, number)| values[*place as usize] = **number);
+    archive.element(name, &mut values);
+    if archive.loading() {
+        numbers.iter_mut().for_each(|(place, number)| **number = values[*place as usize]);
     }
 }
 

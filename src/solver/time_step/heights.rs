@@ -5,7 +5,7 @@
 //! mesh feels wholly. So heights h = V/A are followed themselves, A the area of the middle surface across, and what they
 //! have lost since the last look is taken to be lost once more before the next.
 
-use super::frequency::Blocks;
+use super::frequency::visit_by_element;
 use crate::restart::Archive;
 use crate::solver::domain::Domain;
 use crate::solver::elements::Group;
@@ -31,7 +31,7 @@ impl Heights {
     }
 
     /// Takes the heights of now for those of an estimate.
-    pub fn begin(&mut self, domain: &Domain, takes_part: Blocks) {
+    pub fn begin(&mut self, domain: &Domain, takes_part: &[bool]) {
         self.ratios = [1.0; 2];
         for ((block, then), _) in domain.blocks.iter().zip(&mut self.then).zip(takes_part).filter(|(_, part)| **part) {
             for (group, then) in block.groups().into_iter().zip(then) {
@@ -41,7 +41,7 @@ impl Heights {
     }
 
     /// The least ratio of heights now and then on this rank; infinite at steps that do not look.
-    pub fn vote(&self, since: u64, domain: &Domain, takes_part: Blocks) -> f64 {
+    pub fn vote(&self, since: u64, domain: &Domain, takes_part: &[bool]) -> f64 {
         let mut least = f64::INFINITY;
         if since == 0 || !since.is_multiple_of(LOOK) {
             return least;
@@ -74,17 +74,8 @@ impl Heights {
         let Heights { then, ratios: [now, before] } = self;
         archive.number("GLOBALSHRUNK1", now);
         archive.number("GLOBALSHRUNK2", before);
-        let mut values = vec![0.0; domain.element_file.len()];
-        let groups = || domain.blocks.iter().flat_map(|block| block.groups());
-        for (group, then) in groups().zip(then.iter().flatten()) {
-            group.places.iter().zip(then).for_each(|(&place, then)| values[place as usize] = *then);
-        }
-        archive.element("GLOBALHEIGHT", &mut values);
-        if archive.loading() {
-            for (group, then) in groups().zip(then.iter_mut().flatten()) {
-                group.places.iter().zip(then).for_each(|(&place, then)| *then = values[place as usize]);
-            }
-        }
+        let groups = then.iter_mut().flatten().map(|group| group.iter_mut());
+        visit_by_element("GLOBALHEIGHT", groups, domain, archive);
     }
 }
 
