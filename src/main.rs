@@ -3,6 +3,6 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    urto::memory::give_back();
+    urto::common::memory::give_back();
     urto::cli::main(std::env::args_os())
 }

@@ -1,7 +1,7 @@
 //! What is read is not written over: outputs are held against inputs before any file is opened for writing.
 
 use super::Failure;
-use crate::files::{Identity, identity};
+use crate::common::files::{Identity, identity};
 use std::path::{Path, PathBuf};
 
 /// Advice of verbs that write one file.

@@ -2,7 +2,7 @@
 
 use super::verbs::run::Prepared;
 use super::{Failure, options};
-use crate::plot::{self, Curve};
+use crate::postprocess::plot::{self, Curve};
 use crate::run::{Ended, Files, RunError};
 use crate::solver::{Finding, Request};
 use serde::Serialize;
@@ -165,7 +165,7 @@ fn summary(options: &options::Run, prepared: &Prepared, outcome: Result<&Ended, 
 }
 
 fn advised(ended: &Ended) -> Vec<Advised> {
-    let told = |(advice, share): &(crate::needs::Advice, Option<f64>)| Advised {
+    let told = |(advice, share): &(crate::studies::advice::Advice, Option<f64>)| Advised {
         kind: if advice.lacked { "lacked" } else { "spare" },
         words: advice.words.clone(),
         instead: advice.instead.clone(),

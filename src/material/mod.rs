@@ -13,7 +13,7 @@ mod point;
 mod property;
 pub mod response;
 
-pub use crate::vocabulary::{Description, Models, Origin, Property, Range, StateVariable};
+pub use crate::common::vocabulary::{Description, Models, Origin, Property, Range, StateVariable};
 pub use equation_of_state::{DetonationPoint, EQUATIONS_OF_STATE, EquationOfState, IdealGas, Jwl, PowerSeries, UsUp};
 pub use laws::{
     Elastic, ElasticPlastic, ElasticPlasticHydrodynamic, Hydrodynamic, JohnsonCook, Law, LowDensityFoam, MATERIALS,

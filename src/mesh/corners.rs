@@ -1,8 +1,8 @@
 //! Corners of hexahedra that have turned inside out.
 
 use super::check::hexahedron_volume;
+use crate::common::vector::{cross, dot, subtract};
 use crate::lanes::array;
-use crate::vector::{cross, dot, subtract};
 
 /// For each corner its neighbours along the three edges, in the order in which they turn to the right.
 pub const NEIGHBOURS: [[usize; 3]; 8] =

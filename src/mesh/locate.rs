@@ -1,7 +1,7 @@
 //! Which element a point lies in.
 
 use super::{Mesh, Shape, plane};
-use crate::vector::{add, cross, dot, subtract};
+use crate::common::vector::{add, cross, dot, subtract};
 
 /// An element that holds a point, or is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,9 +8,9 @@ use super::{
     skin,
 };
 use crate::{
+    common::vector::{cross, subtract},
     deck::{Diagnostic, Diagnostics, Span},
     mesh::{Dimension, Mesh, NodeSet, SideSet},
-    vector::{cross, subtract},
 };
 
 /// One command that adds to a set.

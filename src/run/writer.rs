@@ -6,18 +6,18 @@ use super::restart::RestartFiles;
 use super::table;
 use super::{Display, Ended, Files, Job, RunError, same_qa, together};
 use crate::comm::{Communicator, Counted};
-use crate::depiction::{Depiction, RigidPlane};
 use crate::exodus::{ResultsHeader, ResultsWriter};
 use crate::mesh::Block;
 use crate::model::StepColumns;
-use crate::needs::{self, Scene};
 use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, HistoryPlan, block_energy_names, global_names};
 use crate::partition::Share;
+use crate::postprocess::depiction::{Depiction, RigidPlane};
 use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::elements::{Element, Touch};
 use crate::solver::{Body, Request, Section, Solver};
+use crate::studies::advice::{self, Scene};
 use std::time::Instant;
 
 /// Plot file and print log of a run; the log is open on rank 0 only, but every rank takes part in collecting.
@@ -345,7 +345,7 @@ impl<'a> Writer<'a> {
             moved: self.moved,
         };
         let complete = matches!(outcome, Ok(Request::Continue));
-        let advice = if complete { needs::advice(&scene, comm) } else { Vec::new() };
+        let advice = if complete { advice::of_scene(&scene, comm) } else { Vec::new() };
         let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
         let wall = begun.elapsed().as_secs_f64();
         let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);

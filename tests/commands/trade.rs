@@ -110,7 +110,7 @@ fn knobs_of(deck: &str, mesh: &str, change: &[(&str, &str)]) -> Vec<(String, Str
     }
     let mesh = crate::support::meshes::recipe(&read(format!("meshes/{mesh}.mesh")));
     let model = crate::support::run::model(&deck, &mesh);
-    urto::trade::knobs::variants(&model, &mesh, &[2]).into_iter().map(|v| (v.name, v.words)).collect()
+    urto::studies::trade::knobs::variants(&model, &mesh, &[2]).into_iter().map(|v| (v.name, v.words)).collect()
 }
 
 #[test]

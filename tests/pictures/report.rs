@@ -52,7 +52,7 @@ fn a_page_has_everything_in_itself() {
     let results = desk.results("bar.e");
     let last = results.times().len() - 1;
     let most = results.element("VONMISES", last).expect("values").into_iter().fold(0.0, f64::max);
-    assert!(page.contains(&urto::numbers::number(most)), "{most}");
+    assert!(page.contains(&urto::common::numbers::number(most)), "{most}");
     // Pictures are PNGs, curves SVG.
     assert_eq!(page.matches("data:image/png;base64,iVBORw0KGgo").count(), 4);
     assert!(page.matches("<svg ").count() > 5);

@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use tiny_skia::Pixmap;
 use urto::exodus::{ResultsHeader, ResultsWriter, write_mesh};
 use urto::mesh::{Block, Mesh};
-use urto::view::{MapChoice, StateChoice, ViewError, ViewOptions, draw, draw_many, draw_row};
+use urto::postprocess::view::{MapChoice, StateChoice, ViewError, ViewOptions, draw, draw_many, draw_row};
 
 const WHITE: [u8; 3] = [255; 3];
 

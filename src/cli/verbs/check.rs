@@ -6,11 +6,11 @@ use crate::cli::{DONE, Failure, options};
 use crate::comm::Serial;
 use crate::mesh::{Dimension, plane};
 use crate::model::StepEstimate;
-use crate::needs;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::elements::Element;
 use crate::solver::{BlockTrial, Body, Request, Solver, state_names};
+use crate::studies::advice;
 use std::time::Instant;
 
 /// Steps that are timed to estimate the cost of a run.
@@ -138,7 +138,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
     }
     let foretold: String =
-        needs::foretold(mesh, model, &solver).iter().map(|line| format!("foretold: {line}\n")).collect();
+        advice::foretold(mesh, model, &solver).iter().map(|line| format!("foretold: {line}\n")).collect();
     let begun = Instant::now();
     for _ in 0..TRIAL_STEPS {
         solver.advance();

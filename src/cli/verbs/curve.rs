@@ -6,7 +6,7 @@ use crate::cli::terminal::say;
 use crate::cli::{DONE, Failure, options};
 use crate::material::response::{Motion, curve as response};
 use crate::output::print::scientific;
-use crate::plot::{self, Curve, PlotOptions, Texts};
+use crate::postprocess::plot::{self, Curve, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
 /// Draws the answers, and says where they end.

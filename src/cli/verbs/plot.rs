@@ -5,7 +5,7 @@ use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure};
 use crate::output::print::scientific;
-use crate::plot::{self, Class, Curve, Drawn, Log, PlotOptions, Range};
+use crate::postprocess::plot::{self, Class, Curve, Drawn, Log, PlotOptions, Range};
 use std::path::{Path, PathBuf};
 
 /// Draws, or writes numbers, and says what the curves reach.

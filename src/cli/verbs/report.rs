@@ -3,9 +3,9 @@
 use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure, options, verbs::view};
-use crate::plot::Class;
-use crate::report::{self, ReportError, ReportOptions};
-use crate::view::ViewOptions;
+use crate::postprocess::plot::Class;
+use crate::postprocess::report::{self, ReportError, ReportOptions};
+use crate::postprocess::view::ViewOptions;
 use std::path::PathBuf;
 
 /// Writes the page.

@@ -6,8 +6,8 @@ use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure, options};
 use crate::comm::RankFailure;
 use crate::model::ContactDecomposition;
-use crate::scale::{self, Case, Machine};
 use crate::solver::Body;
+use crate::studies::scale::{self, Case, Machine};
 
 /// Counts, prices and prints.
 ///

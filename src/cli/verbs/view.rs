@@ -4,7 +4,7 @@ use crate::cli::options::{self, MapName};
 use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::say;
 use crate::cli::{DONE, Failure};
-use crate::view::{self, Direction, MapChoice, StateChoice, ViewError, ViewOptions};
+use crate::postprocess::view::{self, Direction, MapChoice, StateChoice, ViewError, ViewOptions};
 use std::path::PathBuf;
 
 /// `urto view`

@@ -1,5 +1,6 @@
 //! The fields of a record held against the rules of its entry, and what to say when they do not agree.
 
+use crate::common::vocabulary::Range;
 use crate::deck::{
     card::{Item, Value},
     commands::grammar::{Absent, Choice, FieldRule, Kind, Standing},
@@ -9,7 +10,6 @@ use crate::deck::{
     text::spelling,
     value::{self, Wrong},
 };
-use crate::vocabulary::Range;
 
 /// Reads fields by rules and gathers what is wrong.
 pub struct FieldReader<'a> {

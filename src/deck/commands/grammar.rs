@@ -30,13 +30,13 @@
 
 use std::sync::Arc;
 
+use crate::common::vocabulary::{Origin, Range};
 use crate::deck::{
     card::Card,
     commands::fields::FieldReader,
     text::diagnostic::Diagnostics,
     text::source::{Source, Span},
 };
-use crate::vocabulary::{Origin, Range};
 
 /// All entries of a language, in the order of the files.
 #[derive(Debug, Clone, Default)]

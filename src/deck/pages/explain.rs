@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::common::vocabulary::{Description, Models};
 use crate::deck::{
     commands::grammar::{Entry, Form, Grammar, Kind, Standing, Status},
     language,
@@ -11,7 +12,6 @@ use crate::deck::{
     text::source::Source,
     text::spelling::{self, Spelled},
 };
-use crate::vocabulary::{Description, Models};
 
 /// Nothing is known by these words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

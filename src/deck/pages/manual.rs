@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
+use crate::common::vocabulary::Models;
 use crate::deck::{
     aprepro,
     commands::grammar::{Form, Grammar, Status},
     language,
     pages::page::{self, Body, Page},
 };
-use crate::vocabulary::Models;
 
 /// What stands before the commands: the rules of writing.
 const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"

@@ -1,11 +1,11 @@
 //! What there is to say about a command or a model with properties, ready to be printed as text or as a manual page.
 
+use crate::common::vocabulary::{Description, Models, Origin, Property};
 use crate::deck::{
     commands::fields::range_in_words,
     commands::grammar::{Absent, Entry, FieldRule, Form, Kind, Standing, Status},
     pages::glossary::{self, Term},
 };
-use crate::vocabulary::{Description, Models, Origin, Property};
 
 /// A page about one entry.
 pub(in crate::deck) struct Page {

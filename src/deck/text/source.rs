@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::origin::Origin;
+use crate::common::files;
 use crate::deck::definitions::Definitions;
-use crate::files;
 
 /// A file's name and text. Spans are byte offsets into the text. Where the text was made by evaluating expressions, it
 /// knows the files that it was made from, and [`Source::origin_of`] leads back to them.

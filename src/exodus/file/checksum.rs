@@ -44,7 +44,7 @@ pub fn seal(path: &Path) -> io::Result<()> {
 /// # Errors
 /// When the file cannot be read.
 pub fn check(path: &Path) -> io::Result<Seal> {
-    crate::files::regular(path)?;
+    crate::common::files::regular(path)?;
     let mut file = File::open(path)?;
     let Some(length) = file.metadata()?.len().checked_sub(MARK) else { return Ok(Seal::Missing) };
     file.seek(SeekFrom::Start(length))?;

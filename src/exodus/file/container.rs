@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 
-use crate::files;
+use crate::common::files;
 
 /// The kinds of file that a mesh may come in.
 #[derive(Debug, Clone, PartialEq)]

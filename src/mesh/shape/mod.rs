@@ -6,7 +6,7 @@ use super::Mesh;
 use super::check::Problem;
 use super::hexahedron::{self, HEX_SIDES};
 use super::plane;
-use crate::vector::{cross, dot, subtract};
+use crate::common::vector::{cross, dot, subtract};
 
 /// What the elements of a block look like. A solid with fewer corners is a hexahedron with repeated nodes, see
 /// [`hexahedron::Form`].

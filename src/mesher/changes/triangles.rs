@@ -75,9 +75,9 @@ fn odd(quads: &[[u32; 4]]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use crate::common::vector::{cross, dot, subtract};
     use crate::mesh::{Shape, check};
     use crate::mesher;
-    use crate::vector::{cross, dot, subtract};
 
     #[test]
     fn a_sheet_keeps_its_area_and_its_top() {

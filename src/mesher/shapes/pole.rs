@@ -5,8 +5,8 @@
 //! shapes, and at the pole sizes fall like exp(−2τ). Of a ball that is cut at the equator the plane must stay where it is:
 //! there φ is the height above it.
 
+use crate::common::vector::{add, dot, scaled};
 use crate::mesher::body::Body;
-use crate::vector::{add, dot, scaled};
 
 /// Steps of Runge and Kutta's method where there is no closed form; one is never longer than 1/50.
 const STEPS: usize = 256;
@@ -76,7 +76,7 @@ impl Pole {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::subtract;
+    use crate::common::vector::subtract;
 
     fn length(a: [f64; 3]) -> f64 {
         dot(a, a).sqrt()

@@ -1,8 +1,8 @@
 //! Velocities at time zero.
 
+use crate::common::vector::unit;
 use crate::deck::{Card, Diagnostic};
 use crate::model::problem::{Draft, Setter};
-use crate::vector::unit;
 
 /// INITIAL VELOCITY.
 #[derive(Debug, Clone, Copy, PartialEq)]

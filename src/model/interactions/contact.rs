@@ -5,9 +5,9 @@ use super::interfaces::{
     Friction, RigidSurface,
 };
 use super::tied::{self, Tie};
+use crate::common::vector::unit;
 use crate::deck::{Card, Diagnostic, spelling};
 use crate::model::problem::{Draft, Setter};
-use crate::vector::unit;
 
 pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("RIGID SURFACE", rigid_surface),

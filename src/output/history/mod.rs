@@ -14,9 +14,9 @@ pub use blocks::{block_energies, block_energy_names};
 
 use super::plane;
 use crate::comm::{Communicator, ExactSum};
-use crate::means::Means;
 use crate::mesh::{Dimension, Mesh};
 use crate::model::{Model, Watched};
+use crate::postprocess::means::Means;
 use crate::solver::{Remembered, Solver};
 use points::Points;
 use sets::NodeGroup;

@@ -1,10 +1,10 @@
 //! What the scene did not need, and what it lacked, at the end of the log and on the terminal.
 
 use super::heading;
-use crate::needs::{Advice, Promise};
-use crate::numbers::scientific;
+use crate::common::numbers::scientific;
 use crate::output::print::TimeTable;
 use crate::solver::Section;
+use crate::studies::advice::{Advice, Promise};
 use std::fmt::Write;
 
 /// Part of the time of a section below which nothing is said of it.

@@ -10,7 +10,7 @@ mod steps;
 mod summary;
 mod warnings;
 
-pub use crate::numbers::scientific;
+pub use crate::common::numbers::scientific;
 pub use advice::{output as advice_on_output, sentence, share};
 pub use modelled::{Feature, features};
 pub use restart::{continued, restart_written};
@@ -18,7 +18,7 @@ pub use steps::{StepLine, step_header, step_line};
 pub use summary::{Balance, Ending, TimeTable, closing};
 pub use warnings::{labels, warning, warning_on_terminal, with_warnings};
 
-use crate::numbers::number;
+use crate::common::numbers::number;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;

@@ -2,9 +2,9 @@
 
 use super::{heading, leader, number, scientific};
 use crate::comm::Spread;
-use crate::needs::Advice;
 use crate::solver::contact::Report;
 use crate::solver::{Finding, Totals};
+use crate::studies::advice::Advice;
 use std::fmt::Write;
 
 /// Where the time of a run went, and over how many ranks.

@@ -4,6 +4,7 @@
 //! node runs in this order on any number of ranks, which is what makes their results equal to the bit.
 
 use super::rotations::Rotations;
+use crate::common::vector::add;
 use crate::mesh::{Block, Connectivity, Coordinates, Mesh, Shape};
 use crate::model::Model;
 use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
@@ -12,7 +13,6 @@ use crate::solver::contact::{self, Overlap};
 use crate::solver::elements::{Element, Sample};
 use crate::solver::rigid::{self, BodyShape};
 use crate::solver::tied::Tied;
-use crate::vector::add;
 use std::sync::Arc;
 
 /// A mesh with masses and its canonical order. What the surface needs when it changes is shared, not copied, by ranks.

@@ -4,7 +4,7 @@ use crate::lanes::{Force, Row};
 use crate::mesh::Coordinates;
 use std::ops::Range;
 
-pub use crate::vector::{add, cross, dot, scaled, subtract};
+pub use crate::common::vector::{add, cross, dot, scaled, subtract};
 
 /// The nodes that a rank's elements use; behind them the rotations of those that can turn, each like a node of its own: see
 /// [`Rotations`](super::Rotations).

@@ -2,9 +2,9 @@
 
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
+use crate::common::memory::repeated;
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
-use crate::memory::repeated;
 use crate::model::Precision;
 use crate::solver::domain::state_names;
 use crate::solver::nodes::Nodes;

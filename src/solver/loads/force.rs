@@ -1,8 +1,8 @@
 //! PRESCRIBED FORCE and PRESCRIBED MOMENT: on the nodes of node sets.
 
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn, function_number};
+use crate::common::numbers::number;
 use crate::model::{Function, Model, PrescribedForce, Unknown};
-use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
 use crate::solver::domain::unknowns_of_set;
 use crate::solver::nodes::Nodes;

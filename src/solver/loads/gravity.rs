@@ -1,12 +1,12 @@
 //! GRAVITY: a body acceleration of the whole model.
 
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn, function_number};
+use crate::common::numbers::number;
+use crate::common::vector::{add, dot, scaled};
 use crate::model::{Function, Gravity, Model};
-use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
 use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
-use crate::vector::{add, dot, scaled};
 
 pub(super) static ENTRY: LoadEntry = LoadEntry {
     command: "GRAVITY",

@@ -1,13 +1,13 @@
 //! PRESSURE: on the deformed faces of side sets. Their forces are summed at the nodes together with those of the elements.
 
 use super::{Account, Key, Load, LoadEntry, Places, Turn, function_number};
+use crate::common::numbers::number;
+use crate::common::vector::{cross, dot, scaled};
 use crate::lanes::Force;
 use crate::model::{Analysis, Function, Model};
-use crate::numbers::number;
 use crate::solver::constraints::StepTimes;
 use crate::solver::elements::quadrilateral::sections::ON_AXIS;
 use crate::solver::nodes::Nodes;
-use crate::vector::{cross, dot, scaled};
 
 pub(super) static ENTRY: LoadEntry = LoadEntry {
     command: "PRESSURE",

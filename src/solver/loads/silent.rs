@@ -11,12 +11,12 @@
 
 use super::pressure::area_vectors;
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn};
+use crate::common::vector::{cross, dot, scaled};
 use crate::model::{Function, Model};
 use crate::solver::body::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
-use crate::vector::{cross, dot, scaled};
 
 pub(super) static ENTRY: LoadEntry = LoadEntry {
     command: "SILENT BC",

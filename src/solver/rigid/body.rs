@@ -3,9 +3,9 @@
 use super::hold::{Hold, independent};
 use super::shape::{BodyShape, Matrix};
 use super::turn::{self, Quaternion, STRAIGHT, matrix, moved, rotation, solved, times, turned};
+use crate::common::vector::{add, cross, dot, scaled};
 use crate::model::{Function, Unknown};
 use crate::solver::constraints::StepTimes;
-use crate::vector::{add, cross, dot, scaled};
 use std::f64::consts::PI;
 
 /// A force and its moment about the centre, or a velocity of the centre and an angular velocity.

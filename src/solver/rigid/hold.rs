@@ -5,10 +5,10 @@
 
 use super::body::{Compliance, Six, applied, product};
 use super::turn::Quaternion;
+use crate::common::vector::{cross, dot, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Function, Model, MotionKind, Unknown};
 use crate::solver::constraints::{Motion, StepTimes};
-use crate::vector::{cross, dot, scaled, subtract};
 
 /// A node that holds or drives its body along an axis, or about it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -23,10 +23,10 @@ use super::domain::ABSENT;
 use super::loads;
 use super::nodes::Nodes;
 use crate::comm::{Communicator, ExactSum};
+use crate::common::vector::{add, cross, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Function, Gravity, Model, Unknown};
 use crate::restart::Archive;
-use crate::vector::{add, cross, scaled, subtract};
 use std::ops::Range;
 
 /// All rigid bodies, and this rank's nodes of them.

@@ -4,13 +4,13 @@
 //! deformable elements at its nodes and POINT MASS are part of it. Its inertia is that of the volumes of its elements,
 //! integrated: masses at corners would turn as one element of a cube does, three times too slowly.
 
+use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::mesh::exterior::{SIDES, exterior};
 use crate::mesh::hexahedron::SIGNS;
 use crate::mesh::{Mesh, Shape};
 use crate::model::Model;
 use crate::solver::body::Body;
 use crate::solver::elements::{Sample, Touch};
-use crate::vector::{add, cross, dot, normalized, scaled, subtract};
 
 /// A 3 × 3 matrix by rows.
 pub type Matrix = [[f64; 3]; 3];

@@ -12,7 +12,7 @@
 //! made of several, each of which keeps both.
 
 use super::shape::Matrix;
-use crate::vector::{add, cross, dot, scaled, subtract};
+use crate::common::vector::{add, cross, dot, scaled, subtract};
 
 /// A unit quaternion, the real part first.
 pub type Quaternion = [f64; 4];

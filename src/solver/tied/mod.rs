@@ -16,9 +16,9 @@ use super::Body;
 use super::domain::ABSENT;
 use super::nodes::Nodes;
 use crate::comm::Communicator;
+use crate::common::vector::{add, dot, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Model, Tie, Unknown};
-use crate::vector::{add, dot, scaled, subtract};
 use std::collections::BTreeMap;
 
 /// The tied nodes of a body, and what was done to them.

@@ -11,8 +11,8 @@
 //! met exactly, because µ is made with the same points; uniform stress is handed on as exactly as the rule integrates N_I,
 //! which is to round-off for parallelograms.
 
+use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::projection::area_normal;
-use crate::vector::{add, cross, dot, normalized, scaled, subtract};
 use std::collections::BTreeMap;
 
 /// A node that follows others: its number, and theirs with their weights, which add up to 1.

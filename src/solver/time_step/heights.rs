@@ -6,11 +6,11 @@
 //! have lost since the last look is taken to be lost once more before the next.
 
 use super::frequency::visit_by_element;
+use crate::common::vector::{add, cross, dot, subtract};
 use crate::restart::Archive;
 use crate::solver::domain::Domain;
 use crate::solver::elements::Group;
 use crate::solver::nodes::Nodes;
-use crate::vector::{add, cross, dot, subtract};
 
 /// Steps from look to look: one costs about half as much as a step of these elements.
 const LOOK: u64 = 4;

@@ -4,6 +4,7 @@
 //! sink between the nodes. The check of the former is that of nodes and faces: by motion for a pair that comes anew, where it
 //! would be at the end of the step for one that has touched before.
 
+use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::crossing;
@@ -14,7 +15,6 @@ use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
-use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
 const CROSSING: f64 = 0.05;

@@ -2,6 +2,7 @@
 
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
@@ -21,7 +22,6 @@ use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use crate::solver::contact::surface::pairings::{Pairing, Pairings};
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::elements::Touch;
-use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;

@@ -1,10 +1,10 @@
 //! Fixed rigid planes: constraints on single points.
 
+use crate::common::vector::{dot, subtract};
 use crate::model::{Friction, RigidSurface};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::vector::{dot, subtract};
 
 /// A contact node that may meet a rigid plane.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! What a contact carries from step to step.
 
-use crate::vector::scaled;
+use crate::common::vector::scaled;
 
 /// Numbers of [`Carried`] in files and messages.
 pub const WIDTH: usize = 5;

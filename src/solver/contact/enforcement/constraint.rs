@@ -2,9 +2,9 @@
 
 use super::accounts::certificate::{Target, penetration_after};
 use super::carried::Carried;
+use crate::common::vector::{add, dot, scaled};
 use crate::model::Friction;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::vector::{add, dot, scaled};
 
 /// Points that one constraint can join: a point and four corners.
 pub const MEMBERS: usize = 5;

@@ -23,10 +23,10 @@ use super::iterations::{Limits, Outcome, Times};
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
 use super::sweep;
+use crate::common::vector::{add, dot, scaled};
 use crate::lanes::InstructionSet;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::vector::{add, dot, scaled};
 
 /// Part of the last step's force with which the iterations begin. Where they end early, force follows overlap with the lag
 /// of this filter: a point on a spring of any stiffness that iterations can make would gain energy from 1/2 on (the roots of

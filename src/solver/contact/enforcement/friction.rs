@@ -1,7 +1,7 @@
 //! Coulomb friction whose coefficient falls with the speed of sliding.
 
+use crate::common::vector::dot;
 use crate::model::Friction;
-use crate::vector::dot;
 
 impl Friction {
     /// One coefficient at all speeds.

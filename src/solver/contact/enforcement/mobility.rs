@@ -6,10 +6,10 @@
 
 use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
 use crate::comm::ExactSum;
+use crate::common::vector::{add, cross, subtract};
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::surface::layout::ABSENT;
 use crate::solver::rigid::{Compliance, Six, applied, product};
-use crate::vector::{add, cross, subtract};
 
 /// Sums over the points of a body: force, moment, load.
 const SUMS: usize = 7;

@@ -7,8 +7,8 @@ use super::accounts::certificate::tangential;
 use super::carried::Carried;
 use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
 use super::iterations::Times;
+use crate::common::vector::{add, dot, scaled, subtract};
 use crate::lanes::{InstructionSet, Vectors, array};
-use crate::vector::{add, dot, scaled, subtract};
 
 /// How an iteration goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]

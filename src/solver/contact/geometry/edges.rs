@@ -4,7 +4,7 @@
 
 use super::faces::Faces;
 use super::projection::{area_normal, centre};
-use crate::vector::{dot, subtract};
+use crate::common::vector::{dot, subtract};
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;

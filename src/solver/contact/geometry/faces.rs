@@ -3,8 +3,8 @@
 use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
+use crate::common::vector::{dot, subtract};
 use crate::mesh::Connectivity;
-use crate::vector::{dot, subtract};
 
 /// Most factors of √2 by which a depth becomes less: to 0.6 % of that at the start.
 pub const THINNEST: u8 = 15;

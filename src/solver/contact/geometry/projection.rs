@@ -7,7 +7,7 @@
 use super::crossing::{self, Path};
 use super::motion::Four;
 use super::strip;
-use crate::vector::{add, cross, dot, scaled, subtract};
+use crate::common::vector::{add, cross, dot, scaled, subtract};
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
 /// round-off decides which corner is inside; without the margin each may be beyond the other's border, and they pass

@@ -1,6 +1,7 @@
 //! What came of a step's constraints: told to the nodes, to histories that watch blocks, and to what the run has seen so far.
 
 use super::LocalProblem;
+use crate::common::vector::dot;
 use crate::model::RigidSurface;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::check::node_face::NONE;
@@ -12,7 +13,6 @@ use crate::solver::contact::nodes::result::{Details, Status};
 use crate::solver::contact::observations::arcs::{Arcs, OPPOSED};
 use crate::solver::contact::observations::meetings::Meetings;
 use crate::solver::contact::observations::seen::Seen;
-use crate::vector::dot;
 
 impl LocalProblem {
     /// Records in `seen` what the contacts of this step did; `when` is its time, and the number of steps before it.

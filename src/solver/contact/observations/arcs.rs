@@ -5,11 +5,11 @@
 //! last time are kept; two faces count as touched together where all their nodes have touched within the same stretch of time.
 
 use crate::comm::Communicator;
+use crate::common::vector::dot;
 use crate::solver::contact::Contact;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::projection::area_normal;
-use crate::vector::dot;
 
 /// Steps from look to look.
 pub const EVERY: u64 = 8;

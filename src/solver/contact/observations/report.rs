@@ -2,11 +2,11 @@
 //! machines.
 
 use crate::comm::Communicator;
+use crate::common::vector::add;
 use crate::solver::contact::Contact;
 use crate::solver::contact::Seen;
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::nodes::result::{Details, NodeResult, Status};
-use crate::vector::add;
 
 /// Contact in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use super::meetings::Meetings;
 use crate::comm::Communicator;
+use crate::common::vector::dot;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::enforcement::iterations::{LOOSER, Outcome};
-use crate::vector::dot;
 
 /// What a looser tolerance would have spared in all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

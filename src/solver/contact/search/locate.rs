@@ -2,6 +2,7 @@
 //! search has found.
 
 use super::neighbourhood::SearchResult;
+use crate::common::vector::{dot, subtract};
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
@@ -10,7 +11,6 @@ use crate::solver::contact::geometry::paths::{Paths, TWICE_ROOT_THREE};
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::local_problem::Numbering;
-use crate::vector::{dot, subtract};
 
 /// Nodes and faces that may touch.
 #[derive(Debug, Clone, PartialEq)]

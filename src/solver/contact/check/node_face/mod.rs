@@ -7,13 +7,13 @@
 
 mod newcomer;
 
+use crate::common::vector::{add, dot, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::surface::pairings::Pairing;
-use crate::vector::{add, dot, scaled, subtract};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;

@@ -12,8 +12,8 @@
 //! each other never enters, nor does friction. So the sum of W over all steps is never positive.
 
 use crate::comm::ExactSum;
+use crate::common::vector::{dot, scaled, subtract};
 use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState};
-use crate::vector::{dot, scaled, subtract};
 
 /// How far to go along the ray at most. Iterations that begin with less than the last forces end below what is needed, and
 /// everything that is pressed would creep into each other; the ray makes up for it on the whole.

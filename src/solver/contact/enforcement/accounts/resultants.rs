@@ -5,10 +5,10 @@
 //! of impulse over the interval since the last state, and its sum over all intervals is the change of momentum.
 
 use crate::comm::{Communicator, ExactSum};
+use crate::common::vector::{add, dot, scaled};
 use crate::restart::Archive;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::enforcement::constraint::Constraint;
-use crate::vector::{add, dot, scaled};
 
 /// Numbers of a resultant: force (three), works (two), energy dissipated by friction.
 pub const COUNT: usize = 6;

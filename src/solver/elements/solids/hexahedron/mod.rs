@@ -11,6 +11,7 @@ pub mod kinematics;
 pub mod single_precision;
 pub(super) mod vibration;
 
+use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
@@ -24,7 +25,6 @@ use crate::solver::elements::{
     StoredRow, Unfit,
 };
 use crate::solver::nodes::Nodes;
-use crate::vector::{add, cross, dot, normalized, scaled, subtract};
 use geometry::{corners, gradient, modes};
 use hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
 use kernel::{Physics, Settings};

@@ -11,6 +11,7 @@ mod kernel;
 mod section;
 
 use super::shell::unfit_law;
+use crate::common::vector::{dot, normalized, scaled, subtract};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
 use crate::mesh::{Block, Shape};
@@ -21,7 +22,6 @@ use crate::solver::elements::{
     Touch, Unfit,
 };
 use crate::solver::nodes::Nodes;
-use crate::vector::{dot, normalized, scaled, subtract};
 use kernel::{BeamStep, axes, young_and_shear};
 use section::{MOST_FIBRES, Section};
 

@@ -5,6 +5,7 @@
 //! forces over the step, ½ (Nⁿe₁ⁿ + Nⁿ⁺¹e₁ⁿ⁺¹)·Δx₂₁, which closes the balance to round-off while the step does not change.
 
 use super::{BAR_STEP, uniaxial};
+use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::lanes::{Lanes, Matrix3, Sym3, array, exp};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
 use crate::mesh::{Block, Shape};
@@ -15,7 +16,6 @@ use crate::solver::elements::{
     StepKernel, StoredRow, Touch, Unfit,
 };
 use crate::solver::nodes::Nodes;
-use crate::vector::{cross, dot, normalized, scaled, subtract};
 
 /// Rows of a truss's state; the law's own rows follow.
 mod rows {

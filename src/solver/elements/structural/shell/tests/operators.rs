@@ -1,11 +1,11 @@
 //! What must hold for the rates and forces of any element, however warped.
 
+use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::material::Moduli;
 use crate::solver::elements::shell::facet::{Corners, Facet, Kind, Rates, Resultants};
 use crate::solver::elements::shell::geometry::{Quadrilateral, RESISTANCES};
 use crate::solver::elements::shell::stable_step::{Body, Stiffness, stable_step, weighted};
 use crate::solver::elements::shell::triangle::Three;
-use crate::vector::{add, cross, dot, scaled, subtract};
 
 /// A generator of numbers from −1 to 1.
 pub struct Numbers(u64);

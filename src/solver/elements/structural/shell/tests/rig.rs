@@ -1,12 +1,12 @@
 //! One square shell of edge 1 whose nodes are moved by hand.
 
+use crate::common::vector::{add, cross, dot, scaled};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, Law};
 use crate::model::{BulkViscosity, StepModuli};
 use crate::solver::domain::state_names;
 use crate::solver::elements::shell::{QUADRILATERAL, Shell};
 use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
-use crate::vector::{add, cross, dot, scaled};
 use std::marker::PhantomData;
 
 pub const STEEL: Law = Law::Elastic(Elastic { young: 200e9, poisson: 0.3 });

@@ -1,0 +1,7 @@
+//! What several parts have in common and no crate has: paths, large arrays, numbers as text, vectors, words.
+
+pub mod files;
+pub mod memory;
+pub mod numbers;
+pub mod vector;
+pub mod vocabulary;

@@ -1,0 +1,211 @@
+//! The files of a run read as one: what restarts wrote one after the other, and the pieces of each.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::PlotError;
+use crate::exodus::Results;
+use crate::exodus::pieces::{any_pieces_of, pieces_of};
+use crate::postprocess::means::Means;
+
+/// Results of a run, all its parts and pieces.
+pub struct Run {
+    path: PathBuf,
+    parts: Vec<Part>,
+    times: Vec<f64>,
+}
+
+/// What one start of the program wrote: a file, or its pieces.
+struct Part {
+    pieces: Vec<Results>,
+    /// States that count: those before the next part begins, of those that all pieces have.
+    states: usize,
+    /// Which variables are means over intervals.
+    means: Means,
+}
+
+/// Where a variable's values are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Site {
+    /// Of the whole body.
+    Global,
+    /// At the node with this number.
+    Node(i64),
+    /// In the element with this number.
+    Element(i64),
+}
+
+impl Run {
+    /// Opens `x.e` and what continued runs left beside it, `x.e-s0002` and so on, each whole or in pieces. The name of one
+    /// later part stands for that part alone.
+    ///
+    /// # Errors
+    /// When a file cannot be read, pieces are missing, or there is no state.
+    pub fn open(path: &Path) -> Result<Run, PlotError> {
+        // The name of one piece stands for them all.
+        let piece = pieces_of(path).ok().filter(|(_, pieces)| pieces.iter().any(|piece| piece == path));
+        let whole = piece.map_or_else(|| path.to_owned(), |(whole, _)| whole);
+        let mut parts = vec![Part::open(&whole)?];
+        for number in 2..=9999 {
+            let mut name = OsString::from(&whole);
+            name.push(format!("-s{number:04}"));
+            let next = PathBuf::from(name);
+            if !next.exists() && !any_pieces_of(&next) {
+                break;
+            }
+            let part = Part::open(&next)?;
+            // What an earlier run of this name was continued into lies there still, and is no part of this one.
+            let stale = parts.first().and_then(Part::begun).zip(part.begun()).is_some_and(|(first, own)| own < first);
+            parts.extend((!stale).then_some(part));
+        }
+        // A run that goes on from before the end of the one before replaces what that one went on to.
+        for i in (1..parts.len()).rev() {
+            let Some(&begin) = parts[i].times().first() else { continue };
+            // A state that only the end of a run was a reason for lies inside an interval over which the next run has means.
+            let since = parts[i].means.since.unwrap_or(f64::INFINITY);
+            for part in &mut parts[..i] {
+                part.states = part.times().iter().take_while(|&&time| time < begin && time <= since).count();
+            }
+        }
+        let times: Vec<f64> = parts.iter().flat_map(|part| part.times().iter().copied()).collect();
+        if times.is_empty() {
+            return Err(PlotError::NoStates(path.to_owned()));
+        }
+        Ok(Run { path: path.to_owned(), parts, times })
+    }
+
+    /// The file, as it was named.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of files that are read as one.
+    pub fn files(&self) -> usize {
+        self.parts.iter().map(|part| part.pieces.len()).sum()
+    }
+
+    /// The times of the states.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The title.
+    pub fn title(&self) -> String {
+        self.first().map(|file| file.title().trim().to_owned()).unwrap_or_default()
+    }
+
+    /// Whether each value of a variable of the whole body is the mean since the state before.
+    pub fn is_mean(&self, name: &str) -> bool {
+        !self.parts.is_empty() && self.parts.iter().all(|part| part.means.is_mean(name))
+    }
+
+    /// Names of variables at a site.
+    pub fn names(&self, site: Site) -> &[String] {
+        match (self.first(), site) {
+            (None, _) => &[],
+            (Some(file), Site::Global) => file.global_names(),
+            (Some(file), Site::Node(_)) => file.nodal_names(),
+            (Some(file), Site::Element(_)) => file.element_names(),
+        }
+    }
+
+    /// A variable's values in all states; NaN in parts that do not have it.
+    ///
+    /// # Errors
+    /// When no part has such a node or element, or values cannot be read.
+    pub fn values(&self, name: &str, site: Site) -> Result<Vec<f64>, PlotError> {
+        let mut all = Vec::with_capacity(self.times.len());
+        for part in &self.parts {
+            let values = part.values(name, site)?;
+            if values.is_none() && part.states > 0 {
+                let (kind, id) = match site {
+                    Site::Global => ("global variable", 0),
+                    Site::Node(id) => ("node", id),
+                    Site::Element(id) => ("element", id),
+                };
+                return Err(PlotError::NoPlace { path: self.path.clone(), kind, id });
+            }
+            all.extend(values.into_iter().flatten().take(part.states));
+        }
+        Ok(all)
+    }
+
+    /// What there is to plot, in lines of text.
+    pub fn contents(&self) -> String {
+        let files = if self.files() == 1 { String::new() } else { format!(", {} files read as one", self.files()) };
+        let ends = [self.times.first(), self.times.last()].map(|time| time.copied().unwrap_or_default());
+        let mut text = format!(
+            "{}: {} states from time {:e} to {:e}{files}\n",
+            self.path.display(),
+            self.times.len(),
+            ends[0],
+            ends[1]
+        );
+        for (what, site) in [
+            ("of the whole body", Site::Global),
+            ("at nodes, with --node", Site::Node(0)),
+            ("in elements, with --element", Site::Element(0)),
+        ] {
+            let names = self.names(site);
+            if !names.is_empty() {
+                text += &format!("  {what}: {}\n", names.join(", "));
+            }
+        }
+        text
+    }
+
+    fn first(&self) -> Option<&Results> {
+        self.parts.first().and_then(|part| part.pieces.first())
+    }
+}
+
+impl Part {
+    fn open(path: &Path) -> Result<Part, PlotError> {
+        let whole = path.exists() || !any_pieces_of(path);
+        let files = if whole { vec![path.to_owned()] } else { pieces_of(path)?.1 };
+        let pieces = files.iter().map(|file| Results::open(file)).collect::<Result<Vec<_>, _>>()?;
+        let states = pieces.iter().map(|piece| piece.times().len()).min().unwrap_or(0);
+        let means = Means::read(&pieces.first().map(Results::info).unwrap_or_default());
+        Ok(Part { pieces, states, means })
+    }
+
+    /// When the program was started that wrote it, as year, month, day and time; `None` where its records do not tell.
+    fn begun(&self) -> Option<[String; 4]> {
+        let [_, _, date, time] = self.pieces.first()?.qa().pop()?;
+        let [month, day, year]: [&str; 3] = date.split('/').collect::<Vec<_>>().try_into().ok()?;
+        Some([year, month, day, &time].map(|text| text.trim().to_owned()))
+    }
+
+    /// The times of the states that count.
+    fn times(&self) -> &[f64] {
+        self.pieces.first().and_then(|piece| piece.times().get(..self.states)).unwrap_or_default()
+    }
+
+    /// A variable's values; `None` where no piece has the node or element.
+    fn values(&self, name: &str, site: Site) -> Result<Option<Vec<f64>>, PlotError> {
+        let has = |names: &[String]| names.iter().any(|known| known.eq_ignore_ascii_case(name));
+        for piece in &self.pieces {
+            let nothing = || Ok(Some(vec![f64::NAN; piece.times().len()]));
+            match site {
+                Site::Global if !has(piece.global_names()) => return nothing(),
+                Site::Global => return Ok(Some(piece.global_history(name)?)),
+                Site::Node(id) => {
+                    if let Some(place) = piece.node_ids()?.iter().position(|&other| other == id) {
+                        return if has(piece.nodal_names()) {
+                            Ok(Some(piece.nodal_history(name, place)?))
+                        } else {
+                            nothing()
+                        };
+                    }
+                }
+                Site::Element(id) => {
+                    if let Some(place) = piece.element_ids()?.iter().position(|&other| other == id) {
+                        let has = has(piece.element_names());
+                        return if has { Ok(Some(piece.element_history(name, place)?)) } else { nothing() };
+                    }
+                }
+            }
+        }
+        Ok(None)
+    }
+}
