@@ -42,6 +42,8 @@ mod avx512;
 mod functions;
 mod portable;
 mod single;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
 mod tensor;
 #[cfg(test)]
 mod tests;
@@ -288,6 +290,9 @@ pub trait Widths: Lanes {
 }
 
 impl Widths for f64 {
+    #[cfg(target_arch = "x86_64")]
+    type Portable = sse2::F64x2;
+    #[cfg(not(target_arch = "x86_64"))]
     type Portable = Pair<f64>;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = avx2::F64x4;
@@ -296,6 +301,9 @@ impl Widths for f64 {
 }
 
 impl Widths for f32 {
+    #[cfg(target_arch = "x86_64")]
+    type Portable = single::F32x4;
+    #[cfg(not(target_arch = "x86_64"))]
     type Portable = Pair<Pair<f32>>;
     #[cfg(target_arch = "x86_64")]
     type Avx2 = single::F32x8;

@@ -3,9 +3,9 @@
 use super::{BIAS, CHUNK, Corner, CornerForces, DoubleLanes, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Two lanes of either precision without a promise of vector instructions; compilers find those that every 64-bit processor has:
-/// registers of 128 bits, which are a pair in double precision and a pair of pairs in single. More would not run faster, and take long
-/// to compile.
+/// Two lanes of either precision without a promise of vector instructions, for processors of which nothing is known; compilers find
+/// registers of 128 bits there, which are a pair in double precision and a pair of pairs in single. More would not run faster, and
+/// take long to compile.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair<T>([T; 2]);
 

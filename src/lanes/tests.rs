@@ -7,6 +7,8 @@ use super::*;
 
 /// A precision: its single number, and how its tests pick numbers.
 trait Precision: Widths {
+    /// Its portable vectors on processors of which nothing is known.
+    type Elsewhere: Lanes<Row = Self::Row>;
     /// Numbers at which implementations like to differ.
     fn special() -> Vec<f64>;
     /// An ordinary number of any sign, from 64 random bits.
@@ -16,6 +18,7 @@ trait Precision: Widths {
 const ALWAYS_SPECIAL: [f64; 8] = [0.0, -0.0, 1.0, -1.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1.0 / 3.0];
 
 impl Precision for f64 {
+    type Elsewhere = Pair<f64>;
     fn special() -> Vec<f64> {
         [&ALWAYS_SPECIAL[..], &[f64::MIN_POSITIVE, 5e-324, -5e-324, f64::MAX, f64::MIN, f64::EPSILON]].concat()
     }
@@ -26,6 +29,7 @@ impl Precision for f64 {
 }
 
 impl Precision for f32 {
+    type Elsewhere = Pair<Pair<f32>>;
     fn special() -> Vec<f64> {
         let own = [f32::MIN_POSITIVE, 1e-45, -1e-45, f32::MAX, f32::MIN, f32::EPSILON].map(f64::from);
         [&ALWAYS_SPECIAL[..], &own].concat()
@@ -140,7 +144,11 @@ fn any<V: Lanes>([a, b]: &[V::Row; 2]) -> bool {
 macro_rules! of_all {
     ($function:ident of $precision:ident, $input:expr) => {{
         let input = $input;
-        let mut all = vec![$function::<$precision>(&input), $function::<<$precision as Widths>::Portable>(&input)];
+        let mut all = vec![
+            $function::<$precision>(&input),
+            $function::<$precision::Elsewhere>(&input),
+            $function::<$precision::Portable>(&input),
+        ];
         // SAFETY, wherever these are called: only after the features have been found.
         #[cfg(target_arch = "x86_64")]
         {

@@ -82,6 +82,16 @@ impl Moduli {
         Moduli { lambda: two_mu * poisson / (1.0 - 2.0 * poisson), two_mu }
     }
 
+    /// From the bulk modulus K and twice the shear modulus 2μ: λ = K − 2μ/3.
+    pub fn from_bulk(bulk: f64, two_mu: f64) -> Moduli {
+        Moduli { lambda: bulk - two_mu / 3.0, two_mu }
+    }
+
+    /// Bulk modulus K = λ + 2μ/3.
+    pub fn bulk(self) -> f64 {
+        self.lambda + self.two_mu / 3.0
+    }
+
     /// Dilatational modulus λ + 2μ.
     pub fn dilatational(self) -> f64 {
         self.lambda + self.two_mu

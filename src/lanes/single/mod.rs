@@ -7,11 +7,15 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod portable;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::F32x8;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::F32x16;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use sse2::F32x4;
 
 /// Bits of the part of a number that is not its exponent.
 const MANTISSA_BITS: u32 = 0x007f_ffff;

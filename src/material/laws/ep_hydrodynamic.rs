@@ -53,7 +53,7 @@ impl ElasticPlasticHydrodynamic {
     /// The bulk modulus of the equation of state, and the shear modulus of E and ν.
     pub(super) fn moduli(&self) -> Moduli {
         let two_mu = Moduli::from_young(self.young, self.poisson).two_mu;
-        Moduli { lambda: self.equation.initial().bulk - two_mu / 3.0, two_mu }
+        Moduli::from_bulk(self.equation.initial().bulk, two_mu)
     }
 
     pub(super) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

@@ -43,7 +43,7 @@ impl MooneyRivlin {
     /// Of small strains: μ = 2 (C₁₀ + C₀₁).
     pub(super) fn moduli(&self) -> Moduli {
         let two_mu = 4.0 * (self.c10 + self.c01);
-        Moduli { lambda: self.bulk - two_mu / 3.0, two_mu }
+        Moduli::from_bulk(self.bulk, two_mu)
     }
 
     pub(super) fn state(&self, _: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

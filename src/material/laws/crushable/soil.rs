@@ -112,7 +112,7 @@ pub(in crate::material) fn interpolate<V: Lanes>(points: &[(f64, f64)], x: V) ->
 
 impl Soil {
     pub(in crate::material) fn moduli(&self) -> Moduli {
-        Moduli { lambda: self.bulk - self.two_mu / 3.0, two_mu: self.two_mu }
+        Moduli::from_bulk(self.bulk, self.two_mu)
     }
 
     pub(in crate::material) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {

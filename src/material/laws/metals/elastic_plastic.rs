@@ -2,7 +2,9 @@
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::property::STRESS;
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
+use super::{
+    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, ROOT_TWO_THIRDS, Range, Response, StateVariable, Step,
+};
 use crate::lanes::{Lanes, Matrix3, Sym3};
 
 /// Yield stress, for every law with one.
@@ -98,9 +100,6 @@ impl ElasticPlastic {
         }
     }
 }
-
-/// √(2/3)
-const ROOT_TWO_THIRDS: f64 = 0.816_496_580_927_726;
 
 /// What both kernels share.
 #[derive(Debug, Clone, Copy)]

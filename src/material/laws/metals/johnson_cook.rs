@@ -133,7 +133,7 @@ impl JohnsonCook {
             elastic: self.moduli().into(),
             homologous: reciprocal(self.melt_temperature - self.reference_temperature),
             heating: self.heat_fraction * reciprocal(self.density * self.specific_heat),
-            compliance: reciprocal(self.moduli().lambda + self.moduli().two_mu / 3.0),
+            compliance: reciprocal(self.moduli().bulk()),
             damaged: self.damage[0] != 0.0 || self.damage[1] != 0.0,
         })
     }

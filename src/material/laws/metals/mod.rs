@@ -9,3 +9,6 @@ pub mod piecewise_plastic;
 pub mod plastic;
 pub mod power_hardening;
 pub mod viscoplastic;
+
+/// √(2/3): the radius of the yield surface in the space of deviators, over the yield stress of a bar in tension.
+const ROOT_TWO_THIRDS: f64 = 0.816_496_580_927_726;

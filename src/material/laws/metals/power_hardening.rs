@@ -8,7 +8,9 @@ use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::elastic_plastic::YIELD_STRESS;
 use super::plastic::{Flow, compose, largest_principal, radial_return, weakened_tension};
 use super::property::STRESS;
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Response, StateVariable, Step};
+use super::{
+    Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, ROOT_TWO_THIRDS, Range, Response, StateVariable, Step,
+};
 use crate::lanes::{Lanes, Matrix3, Sym3, power};
 
 /// Exponents for which hardening is steepest at its start.
@@ -73,9 +75,6 @@ pub(in crate::material) static ENTRY: Entry = Entry {
 
 /// Bound on σ₁ over ⅔(σ₁ − σ_m), which has none where there is tension without shear strength.
 const LARGEST_RATIO: f64 = 1e6;
-
-/// √(2/3)
-const ROOT_TWO_THIRDS: f64 = 0.816_496_580_927_726;
 
 impl PowerHardening {
     pub(in crate::material) fn moduli(&self) -> Moduli {

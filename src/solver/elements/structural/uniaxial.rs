@@ -43,7 +43,7 @@ pub fn update<V: Lanes, K: Kernel>(
     }
     // Derivative of the stress across by the strain across, both ways at once: 2λ + 2μ while elastic.
     let elastic = V::splat(2.0 * moduli.lambda + moduli.two_mu);
-    let bulk = V::splat(2.0 * (moduli.lambda + moduli.two_mu / 3.0));
+    let bulk = V::splat(2.0 * moduli.bulk());
     let mut lateral = along * V::splat(-moduli.poisson()) - old[1] / elastic;
     let (mut before, mut across) = ([zero; 2], zero);
     let mut answer = None;

@@ -44,7 +44,7 @@ pub fn update<V: Lanes, K: Kernel>(
     }
     // dσ_zz/dε_zz while elastic, and of a fluid of the same bulk modulus.
     let elastic = V::splat(moduli.dilatational());
-    let bulk = V::splat(moduli.lambda + moduli.two_mu / 3.0);
+    let bulk = V::splat(moduli.bulk());
     let contraction = V::splat(-moduli.lambda / moduli.dilatational());
     let mut normal = contraction * (strain.xx + strain.yy) - old.zz / elastic;
     let size = strain.xx * strain.xx + strain.yy * strain.yy + strain.xy * strain.xy;
