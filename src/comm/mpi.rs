@@ -5,7 +5,7 @@
 
 use super::pending::{Pending, SPINS};
 use super::reduce::{key, number};
-use super::wait::wait_until;
+use super::wait::{LONGEST_SLEEP, wait_until};
 use super::{Communicator, Peer};
 use mpi::Threading;
 use mpi::collective::SystemOperation;
@@ -99,7 +99,7 @@ impl World {
 /// Polls a request to its end.
 fn wait<'a, T: ?Sized, S: Scope<'a>>(request: Request<'a, T, S>) {
     let mut pending = Some(request);
-    wait_until(SPINS, || {
+    wait_until(SPINS, LONGEST_SLEEP, || {
         pending = pending.take().and_then(|request| request.test().err());
         pending.is_none()
     });

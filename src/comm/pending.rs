@@ -1,6 +1,6 @@
 //! MPI messages under way, which own their buffers. All of the program's raw MPI is here.
 
-use super::wait::wait_until;
+use super::wait::{LONGEST_SLEEP, wait_until};
 use mpi::ffi;
 use mpi::raw::AsRaw;
 use mpi::topology::SimpleCommunicator;
@@ -71,7 +71,7 @@ impl<T: Equivalence> Pending<T> {
 
     /// Waits for all messages. Afterwards [`Pending::take_received`] and [`Pending::take_sent`] give the buffers.
     pub(super) fn wait(&mut self) {
-        wait_until(SPINS, || self.is_complete());
+        wait_until(SPINS, LONGEST_SLEEP, || self.is_complete());
     }
 
     fn is_complete(&mut self) -> bool {

@@ -8,14 +8,19 @@
 //! [`RankLost`] and so is gone itself: however a run fails, no rank is left waiting.
 
 use super::reduce::{key, number};
-use super::wait::wait_until;
+use super::wait::{LONGEST_SLEEP, wait_until};
 use super::{Communicator, Peer};
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// Polls before a waiting rank yields its core, when every rank has a core of its own.
 const SPINS: u32 = 2000;
+
+/// Ranks to a core from which on those that wait sleep longer, in proportion: the polls of a thousand ranks, one a millisecond each,
+/// would leave two cores no time for anything else.
+const CROWD: usize = 4;
 
 /// The payload with which a rank unwinds when it waits for a rank that has ended.
 #[derive(Debug, Clone, Copy)]
@@ -45,6 +50,8 @@ pub fn threads(size: usize) -> Vec<Threads> {
 struct World {
     size: usize,
     spins: u32,
+    /// Longest sleep between the polls of a rank that waits.
+    longest_sleep: Duration,
     /// Mailbox of the message from rank `a` to rank `b` at `a * size + b`.
     mailboxes: Vec<Mailbox>,
     meetings: [Mutex<Meeting>; 2],
@@ -81,6 +88,7 @@ impl World {
         Self {
             size,
             spins: if size <= cores { SPINS } else { 0 },
+            longest_sleep: LONGEST_SLEEP * (size / (CROWD * cores)).max(1) as u32,
             mailboxes: (0..size * size).map(|_| Mailbox::default()).collect(),
             meetings: [meeting(), meeting()],
             met: AtomicU64::new(0),
@@ -92,7 +100,7 @@ impl World {
     /// Waits until `ready`; unwinds if `lost` names a rank that is gone and what was waited for has not come.
     fn wait(&self, ready: impl Fn() -> bool, lost: impl Fn() -> Option<usize>) {
         let mut gone = None;
-        wait_until(self.spins, || {
+        wait_until(self.spins, self.longest_sleep, || {
             gone = lost();
             gone.is_some() || ready()
         });

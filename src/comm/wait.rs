@@ -5,12 +5,15 @@ use std::time::{Duration, Instant};
 /// How long a rank keeps yielding before it begins to sleep between polls.
 const YIELDING: Duration = Duration::from_millis(1);
 
+/// Longest sleep between polls where ranks have cores of their own, or nearly so.
+pub(super) const LONGEST_SLEEP: Duration = Duration::from_millis(1);
+
 /// Polls `ready` until it holds: `spins` times in a tight loop, then yielding the core between polls, and after a
-/// millisecond sleeping an eighth of the time waited so far, at most 1 ms.
+/// millisecond sleeping an eighth of the time waited so far, at most `longest`.
 ///
 /// Yielding alone would let many idle ranks take their full share of the cores from the one that still works; the
 /// sleep costs at most an eighth of a wait that was long anyway.
-pub(super) fn wait_until(spins: u32, mut ready: impl FnMut() -> bool) {
+pub(super) fn wait_until(spins: u32, longest: Duration, mut ready: impl FnMut() -> bool) {
     for _ in 0..spins {
         if ready() {
             return;
@@ -23,7 +26,7 @@ pub(super) fn wait_until(spins: u32, mut ready: impl FnMut() -> bool) {
         if waited < YIELDING {
             std::thread::yield_now();
         } else {
-            std::thread::sleep((waited / 8).min(YIELDING));
+            std::thread::sleep((waited / 8).min(longest));
         }
     }
 }

@@ -12,7 +12,7 @@ fn every_state_written_before_a_kill_can_be_read() {
     let desk = Desk::new();
     put_bar(
         &desk,
-        4e-4,
+        1e-4,
         "PLOT TIME, 1.E-12\nRIGID SURFACE, 100, 0., 0., 0., 0., 0., 1.\nPLOT ELEMENT, STRESS, STRAIN, ENERGY\n",
     );
     let begun = std::time::Instant::now();

@@ -173,50 +173,51 @@ impl<'a> Pass<'a> {
         let (group, nodes, sink, instructions) = self.taken_apart();
         // Narrow builds compile one width: a good part of a build's time is in the others, for every law and element.
         if cfg!(any(one_width, test)) {
-            return chunks::<P::Portable, N, S>(group, nodes, sink, step);
+            return step.chunks_portable::<P::Portable>(group, nodes, sink);
         }
         match instructions.vectors() {
             // SAFETY: an instruction set is one that this processor has.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { chunks_avx512::<P::Avx512, N, S>(group, nodes, sink, step) },
+            Vectors::Avx512 => unsafe { step.chunks_avx512::<P::Avx512>(group, nodes, sink) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { chunks_avx2::<P::Avx2, N, S>(group, nodes, sink, step) },
-            _ => chunks::<P::Portable, N, S>(group, nodes, sink, step),
+            Vectors::Avx2 => unsafe { step.chunks_avx2::<P::Avx2>(group, nodes, sink) },
+            _ => step.chunks_portable::<P::Portable>(group, nodes, sink),
         }
     }
 }
 
-/// [`chunks`] with eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions,
-/// and the pass takes several times as long (docs/performance.md, "The whole step").
-///
-/// # Safety
-/// The processor must have the instructions of the attribute.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-unsafe fn chunks_avx512<V: Lanes, const N: usize, S: StepKernel<N>>(
-    group: &mut Group,
-    nodes: NodeNumbers,
-    sink: Target,
-    kernel: &S,
-) -> PassOutcome {
-    chunks::<V, N, S>(group, nodes, sink, kernel)
+/// [`chunks`] for each instruction set. Methods of the kernel, not functions: compilers put these where the kernel stands, and so
+/// compile kinds of elements side by side. As functions all of them were one piece, for which one core took most of a build's time.
+trait Loops<const N: usize>: StepKernel<N> + Sized {
+    /// With whatever the target guarantees.
+    fn chunks_portable<V: Lanes>(&self, group: &mut Group, nodes: NodeNumbers, sink: Target) -> PassOutcome {
+        chunks::<V, N, Self>(group, nodes, sink, self)
+    }
+
+    /// With eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions,
+    /// and the pass takes several times as long (docs/performance.md, "The whole step").
+    ///
+    /// # Safety
+    /// The processor must have the instructions of the attribute.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    unsafe fn chunks_avx512<V: Lanes>(&self, group: &mut Group, nodes: NodeNumbers, sink: Target) -> PassOutcome {
+        chunks::<V, N, Self>(group, nodes, sink, self)
+    }
+
+    /// The same with four at once.
+    ///
+    /// # Safety
+    /// The processor must have AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    unsafe fn chunks_avx2<V: Lanes>(&self, group: &mut Group, nodes: NodeNumbers, sink: Target) -> PassOutcome {
+        chunks::<V, N, Self>(group, nodes, sink, self)
+    }
 }
 
-/// The same with four at once.
-///
-/// # Safety
-/// The processor must have AVX2.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-unsafe fn chunks_avx2<V: Lanes, const N: usize, S: StepKernel<N>>(
-    group: &mut Group,
-    nodes: NodeNumbers,
-    sink: Target,
-    kernel: &S,
-) -> PassOutcome {
-    chunks::<V, N, S>(group, nodes, sink, kernel)
-}
+impl<const N: usize, S: StepKernel<N>> Loops<N> for S {}
 
 /// What a pass fetches from nodes.
 #[derive(Clone, Copy)]
