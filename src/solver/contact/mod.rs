@@ -39,6 +39,7 @@ use observations::arcs::{self, Arcs};
 use press_fit::PressFit;
 use ranks::remote::Remote;
 use search::locate::Reach;
+use search::surroundings::Surroundings;
 use search::{Search, neighbourhood};
 use surface::construction::alone;
 use surface::layout::{ABSENT, Layout};
@@ -253,12 +254,25 @@ impl Contact {
         vote < 0.0
     }
 
+    /// Gives all contact nodes new search boxes. All ranks call it.
+    fn renew_boxes(&mut self, comm: &mut dyn Communicator) {
+        let Contact { layout, contact_nodes, remote, elements, reach, .. } = self;
+        contact_nodes.renew(reach.steps, reach.least);
+        // Without a least reach every step has its search.
+        if reach.least > 0.0 {
+            let is_here = |face: &u32| elements.binary_search(&(layout.faces.number[*face as usize] / 6)).is_ok();
+            let here = (0..layout.faces.len() as u32).filter(|face| remote.is_none() || is_here(face));
+            let surroundings = Surroundings::of(here, (layout, contact_nodes), *reach, comm);
+            contact_nodes.widen(reach.steps, |of| surroundings.near(of));
+        }
+    }
+
     /// Finds all candidates anew.
     fn search(&mut self, comm: &mut dyn Communicator) {
+        self.renew_boxes(comm);
         let Contact { layout, contact_nodes, problem, remote, carried, search, plane_nodes, .. } = self;
         let depth = self.reach.depth;
         self.searches += 1;
-        contact_nodes.renew(self.reach.steps, self.reach.least);
         if let Some(remote) = remote {
             let is_heir = carried.is_none() && self.searches > 1;
             let history = carried.take().unwrap_or_else(|| problem.history());

@@ -15,6 +15,7 @@ pub mod neighbourhood;
 pub mod occupancy;
 mod point_in_box;
 mod sizes;
+pub mod surroundings;
 #[cfg(test)]
 mod tests;
 

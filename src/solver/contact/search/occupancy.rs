@@ -35,11 +35,19 @@ impl Occupancy {
     /// What sound boxes occupy of a grid of so many cells along each axis, 1 to 64. All else is left out.
     pub fn of(boxes: &[Box3], cells: usize) -> Occupancy {
         let sound = || boxes.iter().filter(|of| of.is_sound());
-        let mut occupancy = Occupancy::empty(sound().fold(Box3::empty(), |all, of| all.joined(of)), cells);
-        for of in sound() {
-            occupancy.occupy(of);
-        }
+        Occupancy::within(sound().fold(Box3::empty(), |all, of| all.joined(of)), sound(), cells)
+    }
+
+    /// What boxes occupy of a grid over a box around all of them, which may be larger than they need.
+    pub fn within<'a>(around: Box3, boxes: impl Iterator<Item = &'a Box3>, cells: usize) -> Occupancy {
+        let mut occupancy = Occupancy::empty(around, cells);
+        boxes.for_each(|of| occupancy.occupy(of));
         occupancy
+    }
+
+    /// Takes over what another occupies of the same grid.
+    pub fn join(&mut self, other: &Occupancy) {
+        self.rows.iter_mut().zip(&other.rows).for_each(|(own, other)| *own |= other);
     }
 
     fn empty(around: Box3, cells: usize) -> Occupancy {
