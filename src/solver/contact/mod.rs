@@ -263,7 +263,7 @@ impl Contact {
             let is_here = |face: &u32| elements.binary_search(&(layout.faces.number[*face as usize] / 6)).is_ok();
             let here = (0..layout.faces.len() as u32).filter(|face| remote.is_none() || is_here(face));
             let surroundings = Surroundings::of(here, (layout, contact_nodes), *reach, comm);
-            contact_nodes.widen(reach.steps, |of| surroundings.near(of));
+            contact_nodes.widen(reach.steps, |of, path| surroundings.near(of, path));
         }
     }
 

@@ -100,9 +100,13 @@ impl Surroundings {
         Surroundings { kinds: all }
     }
 
-    /// How far the fastest things near a box go in a step; `None` where nothing is fast.
-    pub fn near(&self, of: &Box3) -> Option<&Motion> {
-        self.kinds.iter().rev().find(|(_, cells)| cells.may_meet(of)).map(|(motion, _)| motion)
+    /// How far the fastest things near a box go in a step; `None` where nothing is much faster than what goes along such a path
+    /// itself, for which it has its own room.
+    pub fn near(&self, of: &Box3, path: [f64; 3]) -> Option<&Motion> {
+        let least = APART * Motion::default().and(path).longest();
+        let faster = self.kinds.iter().rev().filter(|(motion, _)| motion.longest() > least);
+        let mut near = faster.filter(|(_, cells)| cells.may_meet(of)).map(|(motion, _)| motion);
+        near.next()
     }
 }
 
@@ -137,7 +141,7 @@ mod tests {
             (0, [2.0, 0.0, 1.0], cube(9.0, 0.5)),
             (0, [1.5, 0.0, 0.0], cube(0.5, 1.0)),
         ];
-        let learnt = |ranks: usize, of: Box3| {
+        let learnt = |ranks: usize, of: Box3, path: [f64; 3]| {
             let results = run_threads(ranks, |comm| {
                 let mut kinds: [(Motion, Vec<Box3>); KINDS] = Default::default();
                 for (number, (kind, path, own)) in things.iter().enumerate() {
@@ -146,7 +150,7 @@ mod tests {
                         kinds[*kind].1.push(*own);
                     }
                 }
-                Ok::<_, ()>(Surroundings::together(&kinds, comm).near(&of).copied())
+                Ok::<_, ()>(Surroundings::together(&kinds, comm).near(&of, path).copied())
             });
             results.unwrap_or_else(|_| panic!("a rank failed"))
         };
@@ -154,9 +158,13 @@ mod tests {
         let fast = Motion { low: [0.0; 3], high: [0.0, 20.0, 0.0] };
         for (at, expected) in [(0.9, Some(slow)), (5.0, None), (9.2, Some(fast)), (-5.0, None)] {
             for ranks in [1, 2, 3] {
-                assert_eq!(learnt(ranks, cube(at, 0.1)), vec![expected; ranks], "at {at} on {ranks} ranks");
+                let found = learnt(ranks, cube(at, 0.1), [0.1; 3]);
+                assert_eq!(found, vec![expected; ranks], "at {at} on {ranks} ranks");
             }
         }
+        // What goes half as fast itself is not concerned.
+        assert_eq!(learnt(2, cube(0.9, 0.1), [0.0, 1.0, 0.0]), vec![None; 2]);
+        assert_eq!(learnt(2, cube(9.2, 0.1), [0.0, 1.0, 0.0]), vec![Some(fast); 2]);
     }
 
     #[test]
