@@ -18,7 +18,7 @@ use std::time::Duration;
 /// Polls before a waiting rank yields its core, when every rank has a core of its own.
 const SPINS: u32 = 2000;
 
-/// Ranks to a core from which on those that wait sleep longer, in proportion: the polls of a thousand ranks, one a millisecond each,
+/// Those that wait sleep longer by the ranks to a core over this number, where that is more than one: the polls of a thousand ranks, one a millisecond each,
 /// would leave two cores no time for anything else.
 const CROWD: usize = 4;
 

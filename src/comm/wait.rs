@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 /// How long a rank keeps yielding before it begins to sleep between polls.
 const YIELDING: Duration = Duration::from_millis(1);
 
-/// Longest sleep between polls where ranks have cores of their own, or nearly so.
+/// Longest sleep between polls unless ranks are crowded on their cores.
 pub(super) const LONGEST_SLEEP: Duration = Duration::from_millis(1);
 
 /// Polls `ready` until it holds: `spins` times in a tight loop, then yielding the core between polls, and after a

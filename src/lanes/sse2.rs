@@ -4,7 +4,7 @@
 //! SAFETY, for the whole file: SSE2 belongs to every x86-64 processor. Parts are 0 to 3, so the two
 //! numbers from `part · 2` lie inside a row of eight, which is aligned to its line; slicing checks it.
 
-use super::{BIAS, CHUNK, Corner, CornerForces, DoubleLanes, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
+use super::{BIAS, Corner, CornerForces, DoubleLanes, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -31,10 +31,10 @@ impl Neg for F64x2 {
     }
 }
 
-/// Two numbers of eight, from an even place on.
+/// One part of a row.
 #[inline(always)]
-fn pair(numbers: &[f64; CHUNK], place: usize) -> __m128d {
-    unsafe { _mm_load_pd(numbers[place..place + 2].as_ptr()) }
+fn pair(Row(numbers): &Row, part: usize) -> __m128d {
+    unsafe { _mm_load_pd(numbers[2 * part..2 * part + 2].as_ptr()) }
 }
 
 impl Lanes for F64x2 {
@@ -48,7 +48,7 @@ impl Lanes for F64x2 {
     }
     #[inline(always)]
     fn load(row: &Row, part: usize) -> Self {
-        F64x2(pair(&row.0, 2 * part))
+        F64x2(pair(row, part))
     }
     #[inline(always)]
     fn store(self, row: &mut Row, part: usize) {
@@ -108,10 +108,10 @@ impl DoubleLanes for F64x2 {
     #[inline(always)]
     fn gather(rows: &[Row], index: Corner, piece: usize) -> [Self; 8] {
         unsafe {
-            let of = |i: usize| &rows[index[piece / 4][piece % 4 * 2 + i] as usize].0;
+            let of = |i: usize| &rows[index[piece / 4][piece % 4 * 2 + i] as usize];
             let (first, second) = (of(0), of(1));
             let turned = array![i in 4 => {
-                let (a, b) = (pair(first, 2 * i), pair(second, 2 * i));
+                let (a, b) = (pair(first, i), pair(second, i));
                 [F64x2(_mm_unpacklo_pd(a, b)), F64x2(_mm_unpackhi_pd(a, b))]
             }];
             array![c in 8 => turned[c / 2][c % 2]]

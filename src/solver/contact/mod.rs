@@ -256,12 +256,18 @@ impl Contact {
 
     /// Gives all contact nodes new search boxes. All ranks call it.
     fn renew_boxes(&mut self, comm: &mut dyn Communicator) {
-        let Contact { layout, contact_nodes, remote, elements, reach, .. } = self;
+        let Contact { layout, contact_nodes, remote, reach, .. } = self;
         contact_nodes.renew(reach.steps, reach.least);
-        // Without a least reach every step has its search.
+        // Without a least reach there is no speed that counts as fast.
         if reach.least > 0.0 {
-            let is_here = |face: &u32| elements.binary_search(&(layout.faces.number[*face as usize] / 6)).is_ok();
-            let here = (0..layout.faces.len() as u32).filter(|face| remote.is_none() || is_here(face));
+            let all: Vec<u32>;
+            let here = match remote {
+                Some(remote) => remote.faces(),
+                None => {
+                    all = (0..layout.faces.len() as u32).collect();
+                    &all
+                }
+            };
             let surroundings = Surroundings::of(here, (layout, contact_nodes), *reach, comm);
             contact_nodes.widen(reach.steps, |of, path| surroundings.near(of, path));
         }

@@ -206,8 +206,8 @@ impl ContactNodes {
         }
     }
 
-    /// Lets those contact nodes that are near something fast go as it does, for so many steps; `near` is asked with the box of each and the path
-    /// that it goes itself.
+    /// Lets those contact nodes that are near something much faster go along with it, for so many steps; `near` is asked with the box
+    /// of each and the path that it goes itself.
     pub fn widen<'a>(&mut self, steps: f64, near: impl Fn(&Box3, [f64; 3]) -> Option<&'a Motion>) {
         for contact_node in 0..self.list.len() {
             let [low, high] = self.search_boxes[contact_node].corners();

@@ -69,6 +69,11 @@ impl Remote {
         }
     }
 
+    /// Faces of elements that are here, ascending.
+    pub fn faces(&self) -> &[u32] {
+        &self.faces
+    }
+
     /// Brings the motion of a step to the owner ranks. What is a node here stays where it is.
     pub fn send_motion(
         &mut self,

@@ -38,7 +38,7 @@ impl Occupancy {
         Occupancy::within(sound().fold(Box3::empty(), |all, of| all.joined(of)), sound(), cells)
     }
 
-    /// What boxes occupy of a grid over a box around all of them, which may be larger than they need.
+    /// What sound boxes occupy of a grid over a box around all of them, which may be larger than they need.
     pub fn within<'a>(around: Box3, boxes: impl Iterator<Item = &'a Box3>, cells: usize) -> Occupancy {
         let mut occupancy = Occupancy::empty(around, cells);
         boxes.for_each(|of| occupancy.occupy(of));

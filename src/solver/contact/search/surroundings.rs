@@ -1,14 +1,14 @@
 //! How fast things go where a node is: what rests beside something fast may soon be as fast.
 //!
 //! A node that is struck leaves a search box that was made for its rest, and one node that leaves is enough for a new search: a plate
-//! that closes a gap from one end to the other asked for one every few dozen steps. What is near fast faces therefore gets a box in
-//! which it can go as they do.
+//! that closes a gap from one end to the other asked for one every few dozen steps. What is slow beside fast faces therefore gets a box
+//! in which it can go along with them for a while.
 
 use super::Box3;
 use super::locate::Reach;
 use super::neighbourhood::face_box;
 use super::occupancy::Occupancy;
-use crate::comm::{Communicator, gather_for_all};
+use crate::comm::Communicator;
 use crate::solver::contact::geometry::motion::{larger, smaller};
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::surface::layout::Layout;
@@ -19,6 +19,10 @@ const CELLS: usize = 32;
 /// Kinds of speed that are told apart, each so many times as fast as the one before.
 const KINDS: usize = 4;
 const APART: f64 = 4.0;
+
+/// The fastest path that counts, in rooms of nodes at rest over the steps of a search: what is faster counts as this fast. A fragment
+/// must not give everything near some ordinary fast face a box as large as its own way.
+const MOST: f64 = APART * APART * APART * APART;
 
 /// How far some things go in a step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -51,16 +55,17 @@ impl Surroundings {
     /// Where faces are whose corners leave the room of nodes at rest before their search boxes end. `faces` are those of elements
     /// that are here; the boxes of the contact nodes are those of the coming search. All ranks call it and learn the same.
     pub fn of(
-        faces: impl Iterator<Item = u32>,
+        faces: &[u32],
         (layout, contact_nodes): (&Layout, &ContactNodes),
         reach: Reach,
         comm: &mut dyn Communicator,
     ) -> Surroundings {
-        let path = |node: usize| contact_nodes.path(node);
+        let most = MOST * reach.least / reach.steps;
+        let path = |node: usize| contact_nodes.path(node).map(|path| path.clamp(-most, most));
         let length = |node: usize| Motion::default().and(path(node)).longest();
         let longest: Vec<f64> = (0..contact_nodes.list.len()).map(length).collect();
         let mut kinds: [(Motion, Vec<Box3>); KINDS] = Default::default();
-        for face in faces {
+        for &face in faces {
             let corners = layout.faces.corners[face as usize];
             let corners = corners.iter().filter_map(|&corner| contact_nodes.of(corner));
             let fastest = corners.clone().fold(0.0, |fastest, node| larger(longest[node], fastest));
@@ -86,17 +91,12 @@ impl Surroundings {
         let mut all = Vec::new();
         for ([low, high, lowest, highest], (_, boxes)) in least.into_iter().zip(kinds) {
             let motion = Motion { low: lowest, high: highest.map(|x| -x) };
-            if motion.longest() <= 0.0 {
-                continue;
+            if motion.longest() > 0.0 {
+                let around = Box3 { low, high: high.map(|x| -x) };
+                all.push((motion, Occupancy::within(around, boxes.iter(), CELLS)));
             }
-            let around = Box3 { low, high: high.map(|x| -x) };
-            let own = Occupancy::within(around, boxes.iter(), CELLS).to_bytes();
-            let length = own.len();
-            let mut cells = Occupancy::within(around, [].iter(), CELLS);
-            let of_each = gather_for_all(own, comm);
-            of_each.chunks_exact(length).for_each(|bytes| cells.join(&Occupancy::from_bytes(bytes, CELLS)));
-            all.push((motion, cells));
         }
+        join_over_ranks(all.iter_mut().map(|(_, cells)| cells).collect(), comm);
         Surroundings { kinds: all }
     }
 
@@ -108,6 +108,25 @@ impl Surroundings {
         let mut near = faster.filter(|(_, cells)| cells.may_meet(of)).map(|(motion, _)| motion);
         near.next()
     }
+}
+
+/// Grids that are the same on all ranks become occupied where they are on any. By way of rank 0, so that each rank gets them once.
+fn join_over_ranks(mut grids: Vec<&mut Occupancy>, comm: &mut dyn Communicator) {
+    if grids.is_empty() || comm.size() == 1 {
+        return;
+    }
+    let mut take = |bytes: &[u8]| {
+        let parts = bytes.chunks_exact((bytes.len() / grids.len()).max(1));
+        grids.iter_mut().zip(parts).for_each(|(grid, bytes)| grid.join(&Occupancy::from_bytes(bytes, CELLS)));
+        grids.iter().flat_map(|grid| grid.to_bytes()).collect::<Vec<u8>>()
+    };
+    let own = take(&[]);
+    let mut all = own.clone();
+    for bytes in comm.gather(own).into_iter().flatten() {
+        all = take(&bytes);
+    }
+    comm.broadcast(&mut all);
+    take(&all);
 }
 
 /// The kind of a speed at which so many times the room of a node at rest is gone; `None` for what stays within it.
