@@ -41,6 +41,7 @@ use ranks::remote::Remote;
 use search::locate::Reach;
 use search::surroundings::Surroundings;
 use search::{Search, neighbourhood};
+use std::borrow::Cow;
 use surface::construction::alone;
 use surface::layout::{ABSENT, Layout};
 use surface::pairings::Pairings;
@@ -260,15 +261,9 @@ impl Contact {
         contact_nodes.renew(reach.steps, reach.least);
         // Without a least reach there is no speed that counts as fast.
         if reach.least > 0.0 {
-            let all: Vec<u32>;
-            let here = match remote {
-                Some(remote) => remote.faces(),
-                None => {
-                    all = (0..layout.faces.len() as u32).collect();
-                    &all
-                }
-            };
-            let surroundings = Surroundings::of(here, (layout, contact_nodes), *reach, comm);
+            let all = || (0..layout.faces.len() as u32).collect();
+            let here: Cow<[u32]> = remote.as_ref().map_or_else(all, |remote| remote.faces().into());
+            let surroundings = Surroundings::of(&here, (layout, contact_nodes), *reach, comm);
             contact_nodes.widen(reach.steps, |of, path| surroundings.near(of, path));
         }
     }

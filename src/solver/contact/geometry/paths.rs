@@ -32,6 +32,18 @@ impl PathRange {
         self.high.iter_mut().for_each(|high| *high += room);
     }
 
+    /// Of the paths of both.
+    pub fn joined(self, other: PathRange) -> PathRange {
+        let of = |choose: fn(f64, f64) -> f64, own: Four, other: Four| [0, 1, 2, 3].map(|i| choose(other[i], own[i]));
+        let poison = of(|a, b| a + b, self.poison, other.poison);
+        PathRange { low: of(smaller, self.low, other.low), high: of(larger, self.high, other.high), poison }
+    }
+
+    /// The least and the greatest along each axis, lengths.
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        [three(self.low), three(self.high)]
+    }
+
     /// As numbers of which the least of all ranks are those of all paths.
     pub fn to_array(self) -> [f64; 7] {
         let (low, high) = (self.low, self.high);
@@ -48,7 +60,7 @@ impl PathRange {
     /// How far they go at most.
     pub fn paths(&self) -> Paths {
         if self.poison[..3] == [0.0; 3] {
-            Paths::between([three(self.low), three(self.high)])
+            Paths::between(self.bounds())
         } else {
             Paths { longest: f64::INFINITY, half_range: f64::INFINITY }
         }

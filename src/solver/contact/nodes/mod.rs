@@ -6,9 +6,9 @@ pub mod sparse;
 use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::geometry::motion::{NodeMotion, larger, smaller};
+use crate::solver::contact::geometry::paths::PathRange;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
-use crate::solver::contact::search::surroundings::Motion;
 use crate::solver::contact::surface::layout::{ABSENT, inverse};
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 use result::NodeResult;
@@ -208,15 +208,16 @@ impl ContactNodes {
 
     /// Lets those contact nodes that are near something much faster go along with it, for so many steps; `near` is asked with the box
     /// of each and the path that it goes itself.
-    pub fn widen<'a>(&mut self, steps: f64, near: impl Fn(&Box3, [f64; 3]) -> Option<&'a Motion>) {
+    pub fn widen<'a>(&mut self, steps: f64, near: impl Fn(&Box3, [f64; 3]) -> Option<&'a PathRange>) {
         for contact_node in 0..self.list.len() {
             let [low, high] = self.search_boxes[contact_node].corners();
-            let Some(motion) = near(&Box3 { low, high }, self.path(contact_node)) else { continue };
+            let Some(paths) = near(&Box3 { low, high }, self.path(contact_node)) else { continue };
             let at = subtract(self.motion.start(contact_node as u32), self.motion.origin());
-            let room = STRUCK_SIDE * steps * motion.longest();
+            let room = STRUCK_SIDE * steps * paths.paths().longest;
+            let [backward, forward] = paths.bounds();
             let of = |path: f64, room: f64, at: f64| at + (STRUCK * steps * path + room);
-            let least = [0, 1, 2].map(|i| smaller(of(motion.low[i], -room, at[i]), low[i]));
-            let most = [0, 1, 2].map(|i| larger(of(motion.high[i], room, at[i]), high[i]));
+            let least = [0, 1, 2].map(|i| smaller(of(backward[i], -room, at[i]), low[i]));
+            let most = [0, 1, 2].map(|i| larger(of(forward[i], room, at[i]), high[i]));
             self.search_boxes[contact_node] = SweptBox::around(least, most);
         }
     }

@@ -45,11 +45,6 @@ impl Occupancy {
         occupancy
     }
 
-    /// Takes over what another occupies of the same grid.
-    pub fn join(&mut self, other: &Occupancy) {
-        self.rows.iter_mut().zip(&other.rows).for_each(|(own, other)| *own |= other);
-    }
-
     fn empty(around: Box3, cells: usize) -> Occupancy {
         let cells = cells.clamp(1, MOST);
         let inverse = [0, 1, 2].map(|axis| {

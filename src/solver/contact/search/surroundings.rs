@@ -9,7 +9,8 @@ use super::locate::Reach;
 use super::neighbourhood::face_box;
 use super::occupancy::Occupancy;
 use crate::comm::Communicator;
-use crate::solver::contact::geometry::motion::{larger, smaller};
+use crate::solver::contact::geometry::motion::{four, larger};
+use crate::solver::contact::geometry::paths::PathRange;
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::surface::layout::Layout;
 
@@ -24,31 +25,9 @@ const APART: f64 = 4.0;
 /// must not give everything near some ordinary fast face a box as large as its own way.
 const MOST: f64 = APART * APART * APART * APART;
 
-/// How far some things go in a step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Motion {
-    /// Between which lengths along each axis, zero among them.
-    pub low: [f64; 3],
-    /// The largest.
-    pub high: [f64; 3],
-}
-
-impl Motion {
-    /// Of these and of another thing, which goes along a path.
-    fn and(self, path: [f64; 3]) -> Motion {
-        let of = |choose: fn(f64, f64) -> f64, own: [f64; 3]| [0, 1, 2].map(|axis| choose(path[axis], own[axis]));
-        Motion { low: of(smaller, self.low), high: of(larger, self.high) }
-    }
-
-    /// The farthest along an axis, a length.
-    pub fn longest(&self) -> f64 {
-        [0, 1, 2].into_iter().fold(0.0, |longest, axis| larger(larger(-self.low[axis], self.high[axis]), longest))
-    }
-}
-
 /// The space in which fast things are, for each kind of speed.
 pub struct Surroundings {
-    kinds: Vec<(Motion, Occupancy)>,
+    kinds: Vec<(PathRange, Occupancy)>,
 }
 
 impl Surroundings {
@@ -61,19 +40,20 @@ impl Surroundings {
         comm: &mut dyn Communicator,
     ) -> Surroundings {
         let most = MOST * reach.least / reach.steps;
-        let path = |node: usize| contact_nodes.path(node).map(|path| path.clamp(-most, most));
-        let length = |node: usize| Motion::default().and(path(node)).longest();
-        let longest: Vec<f64> = (0..contact_nodes.list.len()).map(length).collect();
-        let mut kinds: [(Motion, Vec<Box3>); KINDS] = Default::default();
+        let limited = |path: f64| if path.is_nan() { 0.0 } else { path.clamp(-most, most) };
+        let path = |node: usize| contact_nodes.path(node).map(limited);
+        let mut kinds: [(PathRange, Vec<Box3>); KINDS] = Default::default();
         for &face in faces {
             let corners = layout.faces.corners[face as usize];
-            let corners = corners.iter().filter_map(|&corner| contact_nodes.of(corner));
-            let fastest = corners.clone().fold(0.0, |fastest, node| larger(longest[node], fastest));
-            let Some(kind) = kind(fastest * reach.steps / reach.least) else { continue };
+            let mut own_paths = PathRange::default();
+            for corner in corners.iter().filter_map(|&corner| contact_nodes.of(corner)) {
+                own_paths.take([[0.0; 4], four(path(corner))], u64::MAX);
+            }
+            let Some(kind) = kind(own_paths.paths().longest * reach.steps / reach.least) else { continue };
             let own = face_box(face, layout, contact_nodes);
             if own.is_sound() {
-                let (motion, boxes) = &mut kinds[kind];
-                *motion = corners.fold(*motion, |motion, node| motion.and(path(node)));
+                let (paths, boxes) = &mut kinds[kind];
+                *paths = paths.joined(own_paths);
                 boxes.push(own);
             }
         }
@@ -81,52 +61,49 @@ impl Surroundings {
     }
 
     /// What all ranks know together. A grid for each kind, the same on all, whose cells are occupied where they are on any.
-    fn together(kinds: &[(Motion, Vec<Box3>); KINDS], comm: &mut dyn Communicator) -> Surroundings {
-        let mut least = [[[0.0; 3]; 4]; KINDS];
-        for (least, (motion, boxes)) in least.iter_mut().zip(kinds) {
+    fn together(kinds: &[(PathRange, Vec<Box3>); KINDS], comm: &mut dyn Communicator) -> Surroundings {
+        let mut boxes = [[[0.0; 3]; 2]; KINDS];
+        let mut paths = kinds.each_ref().map(|(paths, _)| paths.to_array());
+        for (around, (_, boxes)) in boxes.iter_mut().zip(kinds) {
             let Box3 { low, high } = boxes.iter().fold(Box3::empty(), |all, of| all.joined(of));
-            *least = [low, high.map(|x| -x), motion.low, motion.high.map(|x| -x)];
+            *around = [low, high.map(|x| -x)];
         }
-        comm.all_min(least.as_flattened_mut().as_flattened_mut());
-        let mut all = Vec::new();
-        for ([low, high, lowest, highest], (_, boxes)) in least.into_iter().zip(kinds) {
-            let motion = Motion { low: lowest, high: highest.map(|x| -x) };
-            if motion.longest() > 0.0 {
+        comm.all_min(boxes.as_flattened_mut().as_flattened_mut());
+        comm.all_min(paths.as_flattened_mut());
+        let (mut present, mut cells) = (Vec::new(), Vec::new());
+        for ((paths, [low, high]), (_, boxes)) in paths.into_iter().zip(boxes).zip(kinds) {
+            let paths = PathRange::from_array(paths);
+            if paths.paths().longest > 0.0 {
                 let around = Box3 { low, high: high.map(|x| -x) };
-                all.push((motion, Occupancy::within(around, boxes.iter(), CELLS)));
+                present.push(paths);
+                cells.push(Occupancy::within(around, boxes.iter(), CELLS));
             }
         }
-        join_over_ranks(all.iter_mut().map(|(_, cells)| cells).collect(), comm);
-        Surroundings { kinds: all }
+        Surroundings { kinds: present.into_iter().zip(joined_over_ranks(cells, comm)).collect() }
     }
 
     /// How far the fastest things near a box go in a step; `None` where nothing is much faster than what goes along such a path
     /// itself, for which it has its own room.
-    pub fn near(&self, of: &Box3, path: [f64; 3]) -> Option<&Motion> {
-        let least = APART * Motion::default().and(path).longest();
-        let faster = self.kinds.iter().rev().filter(|(motion, _)| motion.longest() > least);
-        let mut near = faster.filter(|(_, cells)| cells.may_meet(of)).map(|(motion, _)| motion);
-        near.next()
+    pub fn near(&self, of: &Box3, path: [f64; 3]) -> Option<&PathRange> {
+        let least = APART * path.iter().fold(0.0, |longest, path| larger(path.abs(), longest));
+        let is_near = |(paths, cells): &&(PathRange, Occupancy)| paths.paths().longest > least && cells.may_meet(of);
+        self.kinds.iter().rev().find(is_near).map(|(paths, _)| paths)
     }
 }
 
-/// Grids that are the same on all ranks become occupied where they are on any. By way of rank 0, so that each rank gets them once.
-fn join_over_ranks(mut grids: Vec<&mut Occupancy>, comm: &mut dyn Communicator) {
+/// Grids that are the same on all ranks, occupied where they are on any. By way of rank 0, so that each rank gets them once. All ranks
+/// call it.
+fn joined_over_ranks(grids: Vec<Occupancy>, comm: &mut dyn Communicator) -> Vec<Occupancy> {
     if grids.is_empty() || comm.size() == 1 {
-        return;
+        return grids;
     }
-    let mut take = |bytes: &[u8]| {
-        let parts = bytes.chunks_exact((bytes.len() / grids.len()).max(1));
-        grids.iter_mut().zip(parts).for_each(|(grid, bytes)| grid.join(&Occupancy::from_bytes(bytes, CELLS)));
-        grids.iter().flat_map(|grid| grid.to_bytes()).collect::<Vec<u8>>()
-    };
-    let own = take(&[]);
-    let mut all = own.clone();
-    for bytes in comm.gather(own).into_iter().flatten() {
-        all = take(&bytes);
-    }
+    let own: Vec<u8> = grids.iter().flat_map(Occupancy::to_bytes).collect();
+    let length = own.len() / grids.len();
+    // What is not a cell is the same in all.
+    let both = |one: Vec<u8>, other: Vec<u8>| one.iter().zip(&other).map(|(a, b)| a | b).collect();
+    let mut all = comm.gather(own).and_then(|parts| parts.into_iter().reduce(both)).unwrap_or_default();
     comm.broadcast(&mut all);
-    take(&all);
+    all.chunks_exact(length).map(|bytes| Occupancy::from_bytes(bytes, CELLS)).collect()
 }
 
 /// The kind of a speed at which so many times the room of a node at rest is gone; `None` for what stays within it.
@@ -162,19 +139,19 @@ mod tests {
         ];
         let learnt = |ranks: usize, of: Box3, path: [f64; 3]| {
             let results = run_threads(ranks, |comm| {
-                let mut kinds: [(Motion, Vec<Box3>); KINDS] = Default::default();
+                let mut kinds: [(PathRange, Vec<Box3>); KINDS] = Default::default();
                 for (number, (kind, path, own)) in things.iter().enumerate() {
                     if number % ranks == comm.rank() {
-                        kinds[*kind].0 = kinds[*kind].0.and(*path);
+                        kinds[*kind].0.take([[0.0; 4], four(*path)], u64::MAX);
                         kinds[*kind].1.push(*own);
                     }
                 }
-                Ok::<_, ()>(Surroundings::together(&kinds, comm).near(&of, path).copied())
+                Ok::<_, ()>(Surroundings::together(&kinds, comm).near(&of, path).map(PathRange::bounds))
             });
             results.unwrap_or_else(|_| panic!("a rank failed"))
         };
-        let slow = Motion { low: [0.0, 0.0, -1.0], high: [2.0, 0.0, 1.0] };
-        let fast = Motion { low: [0.0; 3], high: [0.0, 20.0, 0.0] };
+        let slow = [[0.0, 0.0, -1.0], [2.0, 0.0, 1.0]];
+        let fast = [[0.0; 3], [0.0, 20.0, 0.0]];
         for (at, expected) in [(0.9, Some(slow)), (5.0, None), (9.2, Some(fast)), (-5.0, None)] {
             for ranks in [1, 2, 3] {
                 let found = learnt(ranks, cube(at, 0.1), [0.1; 3]);
