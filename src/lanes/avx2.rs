@@ -5,30 +5,12 @@
 
 use super::{BIAS, Corner, CornerForces, DoubleLanes, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Four doubles.
 #[derive(Clone, Copy)]
 pub struct F64x4(pub(super) __m256d);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F64x4 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F64x4(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
-
-impl Neg for F64x4 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F64x4(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
-    }
-}
+lane_by_lane!(F64x4: _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd; sign _mm256_xor_pd, _mm256_set1_pd);
 
 /// Four 4-vectors transposed.
 #[inline(always)]

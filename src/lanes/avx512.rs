@@ -9,30 +9,12 @@
 
 use super::{BIAS, CHUNK, Corner, CornerForces, DoubleLanes, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Eight doubles.
 #[derive(Clone, Copy)]
 pub struct F64x8(pub(super) __m512d);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F64x8 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F64x8(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
-
-impl Neg for F64x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F64x8(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
-    }
-}
+lane_by_lane!(F64x8: _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd; sign _mm512_xor_pd, _mm512_set1_pd);
 
 /// Numbers 0 to 3 or 4 to 7 of a row.
 #[inline(always)]

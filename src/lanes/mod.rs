@@ -35,6 +35,28 @@ macro_rules! array {
 
 pub(crate) use array;
 
+/// The arithmetic of a register's newtype, lane by lane: intrinsics of the four operations, and of the change of sign.
+///
+/// SAFETY: values of a newtype are only made where the instructions of its register were found (the file of each says where).
+#[cfg(target_arch = "x86_64")]
+macro_rules! lane_by_lane {
+    ($register:ident: $add:ident, $sub:ident, $mul:ident, $div:ident; sign $xor:ident, $splat:ident) => {
+        lane_by_lane!(@binary $register: Add add $add, Sub sub $sub, Mul mul $mul, Div div $div);
+        impl std::ops::Neg for $register {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self { Self(unsafe { $xor(self.0, $splat(-0.0)) }) }
+        }
+    };
+    (@binary $register:ident: $($trait:ident $method:ident $intrinsic:ident),+) => { $(
+        impl std::ops::$trait for $register {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self { Self(unsafe { $intrinsic(self.0, other.0) }) }
+        }
+    )+ };
+}
+
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]

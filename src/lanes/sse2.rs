@@ -6,30 +6,12 @@
 
 use super::{BIAS, Corner, CornerForces, DoubleLanes, Force, Lanes, MANTISSA_BITS, Row, WHOLE};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Two doubles.
 #[derive(Clone, Copy)]
 pub struct F64x2(pub(super) __m128d);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F64x2 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F64x2(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm_add_pd, Sub sub _mm_sub_pd, Mul mul _mm_mul_pd, Div div _mm_div_pd);
-
-impl Neg for F64x2 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F64x2(unsafe { _mm_xor_pd(self.0, _mm_set1_pd(-0.0)) })
-    }
-}
+lane_by_lane!(F64x2: _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd; sign _mm_xor_pd, _mm_set1_pd);
 
 /// One part of a row.
 #[inline(always)]

@@ -7,30 +7,12 @@ use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
 use crate::lanes::avx2::F64x4;
 use crate::lanes::{CHUNK, Lanes, SingleRow};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Eight numbers of single precision.
 #[derive(Clone, Copy)]
 pub struct F32x8(__m256);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F32x8 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F32x8(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
-
-impl Neg for F32x8 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F32x8(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
-    }
-}
+lane_by_lane!(F32x8: _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps; sign _mm256_xor_ps, _mm256_set1_ps);
 
 impl Lanes for F32x8 {
     type Row = SingleRow;

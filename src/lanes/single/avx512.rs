@@ -6,30 +6,12 @@ use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
 use crate::lanes::avx512::F64x8;
 use crate::lanes::{Lanes, MOST_LANES, SingleRow};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Sixteen numbers of single precision.
 #[derive(Clone, Copy)]
 pub struct F32x16(__m512);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F32x16 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F32x16(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps);
-
-impl Neg for F32x16 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F32x16(unsafe { _mm512_xor_ps(self.0, _mm512_set1_ps(-0.0)) })
-    }
-}
+lane_by_lane!(F32x16: _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps; sign _mm512_xor_ps, _mm512_set1_ps);
 
 impl Lanes for F32x16 {
     type Row = SingleRow;

@@ -7,30 +7,12 @@ use super::{BIAS, MANTISSA_BITS, ROUNDING, UPPER_HALF, WHOLE};
 use crate::lanes::sse2::F64x2;
 use crate::lanes::{Lanes, SingleRow};
 use std::arch::x86_64::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Four numbers of single precision.
 #[derive(Clone, Copy)]
 pub struct F32x4(__m128);
 
-macro_rules! lane_by_lane {
-    ($($trait:ident $method:ident $intrinsic:ident),+) => { $(
-        impl $trait for F32x4 {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self { F32x4(unsafe { $intrinsic(self.0, other.0) }) }
-        }
-    )+ };
-}
-lane_by_lane!(Add add _mm_add_ps, Sub sub _mm_sub_ps, Mul mul _mm_mul_ps, Div div _mm_div_ps);
-
-impl Neg for F32x4 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        F32x4(unsafe { _mm_xor_ps(self.0, _mm_set1_ps(-0.0)) })
-    }
-}
+lane_by_lane!(F32x4: _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps; sign _mm_xor_ps, _mm_set1_ps);
 
 impl Lanes for F32x4 {
     type Row = SingleRow;

@@ -31,11 +31,14 @@ pub const SYMPTOM: Symptom = Symptom {
     label: |_| "passes of contact run out".into(),
     words: |evidence| {
         let Evidence { share, amount, count, of, .. } = *evidence;
+        let now = match evidence.spots[0] {
+            Some(_) => format!("now the deepest is at {}", evidence.places()),
+            None => "now nothing overlaps".to_string(),
+        };
         format!(
             "the passes of contact have run out in {count} of {of} steps with contact, {}; overlaps are up to \
-             {amount:.1e} of a face; now the deepest is at {}",
-            percent(share),
-            evidence.places()
+             {amount:.1e} of a face; {now}",
+            percent(share)
         )
     },
     advice: "more CONTACT PASSES, or a coarser tolerance there; light nodes between stiff faces and long chains of bodies \
