@@ -1,4 +1,4 @@
-//! A constraint of contact: the members whose gap is to be closed, and what is known of it in the course of the iterations.
+//! A constraint of contact: the members whose gap is to be closed, and what is known of it in a step.
 
 use super::accounts::certificate::{Target, penetration_after};
 use super::carried::Carried;
@@ -58,15 +58,12 @@ impl Constraint {
 
     /// Relative velocity of its members: Σ w v, over the step without contact, and over the step before.
     pub fn velocities(&self, motion: &NodeMotion) -> [[f64; 3]; 2] {
-        let of = |velocity: fn(&NodeMotion, u32) -> [f64; 3]| {
-            self.parts().fold([0.0; 3], |sum, (point, weight)| add(sum, scaled(velocity(motion, point as u32), weight)))
-        };
-        [of(NodeMotion::velocity), of(NodeMotion::velocity_before)]
-    }
-
-    /// Force on a member of weight 1.
-    pub fn force(&self) -> [f64; 3] {
-        add(scaled(self.normal, self.carried.normal_force), self.carried.tangential_force)
+        let (mut free, mut before) = ([0.0; 3], [0.0; 3]);
+        for (point, weight) in self.parts() {
+            free = add(free, scaled(motion.velocity(point as u32), weight));
+            before = add(before, scaled(motion.velocity_before(point as u32), weight));
+        }
+        [free, before]
     }
 
     /// Relative velocity that forces give its members.
@@ -104,7 +101,7 @@ impl Response {
     }
 }
 
-/// A constraint in the course of the iterations.
+/// What is known of a constraint in a step beyond what it is: before the iterations, and after them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConstraintState {
     /// Reduced mass of the constraint alone, times its share, a mass; 0 where nothing can be moved.
@@ -128,11 +125,7 @@ pub struct ConstraintState {
     pub ray: f64,
     /// Whether this rank has made it.
     pub own: bool,
-    /// Normal and friction force of the last iteration.
-    pub last: (f64, [f64; 3]),
-    /// Whether it pushes or overlaps.
-    pub active: bool,
-    /// Whether it did so at any time in this step: else nothing would be another without it.
+    /// Whether it pushed or overlapped at any time in this step: else nothing would be another without it.
     pub touched: bool,
     /// Whether its friction was ever as large as it can be: else a larger coefficient would change nothing.
     pub slid: bool,

@@ -19,6 +19,7 @@ use super::accounts::certificate::{Sums, Target, Terms, tangential};
 use super::accounts::ledger::Ledger;
 use super::carried::Carried;
 use super::constraint::{Constraint, ConstraintState, Response};
+use super::iterates::Iterates;
 use super::iterations::{Limits, Outcome, Times};
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
@@ -54,6 +55,8 @@ pub struct Enforcer {
     /// Forces and loads while they are summed.
     sums: Vec<Response>,
     pub(super) states: Vec<ConstraintState>,
+    /// Forces in the course of the iterations.
+    pub(super) iterates: Iterates,
     /// Rays of single points, where the ledger is theirs.
     rays: Vec<Terms>,
     /// Points of the constraints, ascending.
@@ -93,24 +96,18 @@ impl Enforcer {
     ) -> Outcome {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
-        for (c, state) in constraints.iter().zip(&mut self.states) {
-            state.last = (c.carried.normal_force, c.carried.tangential_force);
-            state.active = state.strength > 0.0 && (c.carried.normal_force > 0.0 || state.closing < 0.0);
-            state.touched = state.active;
-        }
+        self.iterates.begin(constraints, &self.states);
         // Where nothing overlaps there is nothing to do. One iteration is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
-        let wanted = self.states.iter().any(|state| state.closing < 0.0);
+        let wanted = self.iterates.are_wanted();
         let outcome = if wanted || others.are_there() {
             self.iterate(constraints, motion, times, limits, wanted, others)
         } else {
             None
         };
+        self.iterates.end(constraints, &mut self.states);
         if outcome.is_some() {
-            for (c, state) in constraints.iter_mut().zip(&self.states) {
-                (c.carried.normal_force, c.carried.tangential_force) = state.last;
-            }
             self.settle(constraints, motion, times, ledger, others);
         } else {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
@@ -133,7 +130,7 @@ impl Enforcer {
         if let Ledger::Unlimited = ledger {
             return;
         }
-        self.scatter(constraints, motion, times, others);
+        self.scatter(motion, times, others);
         let granted = ledger.granted();
         let mut all = Sums::default();
         self.rays.clear();
@@ -270,14 +267,8 @@ impl Enforcer {
     }
 
     /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move.
-    pub(super) fn scatter(
-        &mut self,
-        constraints: &[Constraint],
-        motion: &NodeMotion,
-        times: Times,
-        others: &mut dyn OtherRanks,
-    ) {
-        sweep::scatter(self.instructions, constraints, &self.states, &mut self.sums);
+    pub(super) fn scatter(&mut self, motion: &NodeMotion, times: Times, others: &mut dyn OtherRanks) {
+        sweep::scatter(self.instructions, &self.iterates, &mut self.sums);
         for &point in &self.members {
             let p = point as usize;
             let sum = std::mem::take(&mut self.sums[p]);
@@ -288,7 +279,7 @@ impl Enforcer {
                 Response { velocity_change: [k * (x * m[0]), k * (y * m[1]), k * (z * m[2])], load: sum.load };
         }
         if !motion.mobility.bodies.is_empty() {
-            let mut bodies = BodySums::of(constraints, &self.states, motion);
+            let mut bodies = BodySums::of(&self.iterates, motion);
             others.merge(bodies.sums());
             bodies.answer(&self.members, motion, times.kick, &mut self.responses);
         }

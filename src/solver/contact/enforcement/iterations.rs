@@ -68,11 +68,11 @@ pub(super) struct Times {
 }
 
 impl Enforcer {
-    /// Iterates; `None` where nobody has a gap to close. Others are asked with the first: where somebody wants them, and that is
+    /// Iterates with the forces of [`Enforcer::iterates`]; `None` where nobody has a gap to close. Others are asked with the first: where somebody wants them, and that is
     /// nearly always, it costs nothing.
     pub(super) fn iterate(
         &mut self,
-        constraints: &mut [Constraint],
+        constraints: &[Constraint],
         motion: &NodeMotion,
         times: Times,
         limits: Limits,
@@ -83,10 +83,10 @@ impl Enforcer {
         let mut own = self.extent(constraints, times.drift);
         own.wanted = f64::from(u8::from(wanted));
         loop {
-            self.scatter(constraints, motion, times, others);
+            self.scatter(motion, times, others);
             let pace = momentum.next();
-            let Enforcer { instructions, states, responses, .. } = &mut *self;
-            let moved = sweep::correct(*instructions, constraints, states, responses, (times, pace));
+            let Enforcer { instructions, iterates, responses, .. } = &mut *self;
+            let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
             let Largest { residual, wanted, deepest, depth, travel, moved } = others.largest(own);
             if wanted == 0.0 {
@@ -110,11 +110,12 @@ impl Enforcer {
 
     /// Deepest penetration that motion has made, and the farthest that a contact of this rank would move.
     fn extent(&self, constraints: &[Constraint], drift: f64) -> Largest {
-        let own = constraints.iter().zip(&self.states).filter(|(_, state)| state.own && state.strength > 0.0);
-        own.fold(Largest::default(), |all, (c, state)| {
+        let known = self.states.iter().zip(&self.iterates.normal);
+        let own = constraints.iter().zip(known).filter(|(_, (state, _))| state.own && state.strength > 0.0);
+        own.fold(Largest::default(), |all, (c, (state, iterate))| {
             let penetration = c.carried.penetration;
             // A node above a plane is no contact until it reaches it.
-            let is_contact = state.active || !matches!(c.origin, Origin::Plane(_));
+            let is_contact = iterate.active || !matches!(c.origin, Origin::Plane(_));
             let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
             let depth = if penetration > NOTICED * c.size { penetration } else { 0.0 };
             Largest {

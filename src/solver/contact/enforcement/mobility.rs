@@ -4,7 +4,8 @@
 //! The operator that turns forces into velocities is then no longer diagonal over points, but it is still symmetric and
 //! positive, which is all that the certificate of energy asks of it.
 
-use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
+use super::constraint::{Constraint, MEMBERS, Response};
+use super::iterates::Iterates;
 use crate::comm::ExactSum;
 use crate::common::vector::{add, cross, subtract};
 use crate::solver::contact::geometry::motion::NodeMotion;
@@ -118,17 +119,17 @@ pub struct BodySums(Vec<ExactSum>);
 
 impl BodySums {
     /// Of all constraints that this rank has made and that are active.
-    pub fn of(constraints: &[Constraint], states: &[ConstraintState], motion: &NodeMotion) -> BodySums {
+    pub fn of(iterates: &Iterates, motion: &NodeMotion) -> BodySums {
         let mobility = &motion.mobility;
         let mut sums = vec![ExactSum::new(); SUMS * mobility.bodies.len()];
-        for (c, state) in constraints.iter().zip(states).filter(|(_, state)| state.own && state.active) {
-            let force = c.force();
-            for (point, w) in c.parts() {
-                let Some(body) = mobility.of(point) else { continue };
-                let one = wrench(mobility.bodies[body].arm(motion, point), force);
-                let own = &mut sums[SUMS * body..][..SUMS];
-                own.iter_mut().zip(one).for_each(|(sum, part)| sum.add(w * part));
-                own[SUMS - 1].add(w.abs() * state.strength);
+        for (i, own) in iterates.normal.iter().enumerate().filter(|(_, own)| own.own && own.active) {
+            let force = iterates.force(i);
+            for (&point, w) in own.members.iter().zip(own.weights).take(own.count.into()) {
+                let Some(body) = mobility.of(point as usize) else { continue };
+                let one = wrench(mobility.bodies[body].arm(motion, point as usize), force);
+                let sums = &mut sums[SUMS * body..][..SUMS];
+                sums.iter_mut().zip(one).for_each(|(sum, part)| sum.add(w * part));
+                sums[SUMS - 1].add(w.abs() * own.strength);
             }
         }
         BodySums(sums)

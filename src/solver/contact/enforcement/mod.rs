@@ -5,6 +5,7 @@ pub mod carried;
 pub mod constraint;
 pub mod enforcer;
 pub mod friction;
+pub mod iterates;
 pub mod iterations;
 pub mod mobility;
 pub mod other_ranks;
