@@ -15,7 +15,7 @@ use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::nodes::ContactNodes;
-use crate::solver::contact::search::locate::{Candidate, Interface, Locator};
+use crate::solver::contact::search::locate::{Candidate, Interface, Locator, Rule};
 use crate::solver::contact::search::neighbourhood::{self, Boxes};
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
@@ -425,13 +425,14 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     locator.step(&motion, &layout.faces);
     let longest_path = locator.longest_path();
     let (mut contacts, mut found) = (Vec::new(), Vec::new());
+    // Whatever their interface, only points that look at a face can be behind it.
+    let strict = vec![Rule::Blocks; layout.interfaces.len()];
     let mut near: Vec<Candidate> = Vec::new();
     for i in 0..locator.slave_nodes().len() {
         let point = locator.slave_nodes()[i];
         locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
-        let faces: Vec<u32> = near.iter().map(|near| near.face).collect();
-        let check = NodeFaceCheck { motion: &motion, faces: &layout.faces, longest_path };
-        check.point(point, &faces, &vec![true; faces.len()], &NO_CONTACT, &mut contacts);
+        let check = NodeFaceCheck { motion: &motion, faces: &layout.faces, rules: &strict, longest_path };
+        check.point(point, &near, &NO_CONTACT, &mut contacts);
         for contact in &mut contacts {
             contact.tolerated = 0.0;
             let size = layout.faces.size[contact.face as usize];

@@ -78,9 +78,7 @@ pub struct LocalProblem {
     /// Points on which contact forces act now, ascending.
     pub loaded: Vec<u32>,
     near: Vec<Candidate>,
-    near_faces: Vec<u32>,
     pair_places: Vec<u32>,
-    strict: Vec<bool>,
     contacts: Vec<DetectedContact>,
     /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many
     /// ranks; else empty.
@@ -322,7 +320,7 @@ impl LocalProblem {
     fn check(&mut self, setting: &StepInput, drift: f64, met: &mut Meetings) {
         let StepInput { pairings, remaining, .. } = *setting;
         let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
-        let LocalProblem { constraints, near, near_faces, strict, contacts, .. } = self;
+        let LocalProblem { constraints, near, contacts, .. } = self;
         let longest_path = locator.longest_path();
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
@@ -337,14 +335,10 @@ impl LocalProblem {
                 }
                 continue;
             }
-            near_faces.clear();
-            near_faces.extend(near.iter().map(|near| near.face));
-            strict.clear();
-            strict.extend(near.iter().map(|near| rules[near.interface as usize] == Rule::Blocks));
             // The history of the many that nothing holds need not be fetched.
             let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
-            let check = NodeFaceCheck { motion, faces, longest_path };
-            check.point(point, near_faces, strict, &before, contacts);
+            let check = NodeFaceCheck { motion, faces, rules, longest_path };
+            check.point(point, near, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;
             }

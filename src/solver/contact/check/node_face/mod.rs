@@ -13,6 +13,7 @@ use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origi
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::search::locate::{Candidate, Rule};
 use crate::solver::contact::surface::pairings::Pairing;
 
 /// No face.
@@ -79,21 +80,31 @@ pub struct NodeFaceCheck<'a> {
     pub motion: &'a NodeMotion,
     /// Faces.
     pub faces: &'a Faces,
+    /// Rules of the interfaces, by number.
+    pub rules: &'a [Rule],
     /// The farthest that a point or a corner goes in this step along an axis, a length.
     pub longest_path: f64,
 }
 
+/// Whether a face is one of those near a point.
+fn is_near(near: &[Candidate], face: u32) -> bool {
+    near.iter().any(|near| near.face == face)
+}
+
+/// The faces near a point.
+fn faces_of(near: &[Candidate]) -> impl Iterator<Item = u32> + '_ {
+    near.iter().map(|near| near.face)
+}
+
 impl NodeFaceCheck<'_> {
     /// Fills `contacts` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
-    /// this step meet the point's; `past` the faces touched before.
-    /// `strict[i]` says whether the `i`-th of them is met only by points one of whose own faces looks at it; the nodes of a
-    /// side set do not bring all the faces of their body.
+    /// this step meet the point's; `past` the faces touched before. Where blocks say what holds, a face is met only by points one of
+    /// whose own faces looks at it; the nodes of a side set do not bring all the faces of their body.
     #[inline(always)]
     pub fn point(
         &self,
         point: u32,
-        near: &[u32],
-        strict: &[bool],
+        near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
         contacts: &mut Vec<DetectedContact>,
     ) {
@@ -102,10 +113,10 @@ impl NodeFaceCheck<'_> {
             self.persistent(point, near, past, contacts);
         }
         let held = contacts.len();
-        for (&face, &strict) in near.iter().zip(strict) {
+        for &Candidate { face, interface } in near {
             // Faces around those that hold the point have had their turn.
             if contacts[..held].iter().all(|contact| contact.face != face && !self.faces.adjacent(contact.face, face)) {
-                contacts.extend(self.newcomer(point, face, strict));
+                contacts.extend(self.newcomer(point, face, self.rules[interface as usize] == Rule::Blocks));
             }
         }
         if contacts.len() > 1 {
@@ -129,7 +140,7 @@ impl NodeFaceCheck<'_> {
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
-    fn blend(&self, near: &[u32], contact: &mut DetectedContact) {
+    fn blend(&self, near: &[Candidate], contact: &mut DetectedContact) {
         if contact.projection.rounded {
             return;
         }
@@ -152,7 +163,7 @@ impl NodeFaceCheck<'_> {
                 .sum()
         };
         let mut sum = [0.0; 3];
-        for &face in near.iter().filter(|&&face| shared(face) > 1.0 - projection::TIE) {
+        for face in faces_of(near).filter(|&face| shared(face) > 1.0 - projection::TIE) {
             let normal = unit(face);
             if dot(normal, contact.projection.normal) > SAME_WAY {
                 sum = add(sum, normal);
@@ -237,12 +248,12 @@ impl NodeFaceCheck<'_> {
     fn persistent(
         &self,
         point: u32,
-        near: &[u32],
+        near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
         contacts: &mut Vec<DetectedContact>,
     ) {
         let mut left: Option<(u32, f64, Projection)> = None;
-        for past in past.iter().filter(|past| past.face != NONE && near.contains(&past.face)) {
+        for past in past.iter().filter(|past| past.face != NONE && is_near(near, past.face)) {
             let Some(projection) = self.projection_at_end(point, past.face) else { continue };
             if projection.outside == 0.0 {
                 if self.in_reach(past.face, &projection, past.tolerated) {
@@ -272,7 +283,7 @@ impl NodeFaceCheck<'_> {
     fn moved_on(
         &self,
         point: u32,
-        near: &[u32],
+        near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
         (old, tolerated, projection): (u32, f64, Projection),
         contacts: &mut Vec<DetectedContact>,
@@ -280,10 +291,10 @@ impl NodeFaceCheck<'_> {
         let (slightly, normal) = (projection.outside <= HOLD * self.faces.size[old as usize], projection.normal);
         let (mut behind, mut rises) = (false, false);
         let mut next: Option<(u32, Projection)> = None;
-        let to = |face: &&u32| {
-            self.related(old, **face) && past.iter().all(|p| p.face != **face) && self.stays_outside(point, old, **face)
+        let to = |&face: &u32| {
+            self.related(old, face) && past.iter().all(|p| p.face != face) && self.stays_outside(point, old, face)
         };
-        for &face in near.iter().filter(to) {
+        for face in faces_of(near).filter(to) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
             let Some(projection) = self
                 .projection_at_end(point, face)
@@ -323,13 +334,13 @@ impl NodeFaceCheck<'_> {
     fn still_around(
         &self,
         point: u32,
-        near: &[u32],
+        near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
         contacts: &mut Vec<DetectedContact>,
     ) {
         for past in past.iter().filter(|past| past.face != NONE && self.faces.is_two_sided(past.face)) {
             let another = contacts.iter().all(|contact| contact.face != past.face);
-            if another && near.contains(&past.face) {
+            if another && is_near(near, past.face) {
                 contacts.extend(self.held_around(point, past.face, past.tolerated));
             }
         }
@@ -353,12 +364,12 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
-    fn folds(&self, point: u32, near: &[u32], contacts: &mut Vec<DetectedContact>) {
+    fn folds(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
         let held = contacts.len();
         for i in 0..held {
             let old = contacts[i];
             let middle = projection::centre(&self.faces.end(old.face, self.motion));
-            for &face in near.iter().filter(|&&face| face != old.face && self.faces.adjacent(old.face, face)) {
+            for face in faces_of(near).filter(|&face| face != old.face && self.faces.adjacent(old.face, face)) {
                 let corners = self.faces.end(face, self.motion);
                 let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
                 if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
