@@ -83,8 +83,9 @@ impl Given {
     pub fn body(&self) -> Result<Body, Failure> {
         let model = &self.problem.model;
         let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
-        if let Some(refusal) = body.added_mass.refusal() {
-            return Err(Failure::input(refusal));
+        let unfit = body.added_mass.refusals();
+        if !unfit.is_empty() {
+            return Err(refused(&self.problem, unfit));
         }
         if let Some(refusal) = body.tied.refusal(&self.mesh, &body.node_mass) {
             return Err(Failure::input(refusal));
@@ -116,11 +117,7 @@ impl Given {
                 if unfit.is_empty() {
                     return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
                 }
-                let mut told = problem.diagnostics;
-                for (block, Unfit { reason, help }) in unfit {
-                    told.push(Diagnostic::error(format!("block {block}: {reason}")).help(help));
-                }
-                Err(Failure::input(render(&told)))
+                Err(refused(&problem, unfit))
             }
             (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
             (Ok(_), Err(failure)) => Err(failure),
@@ -205,6 +202,21 @@ pub fn all_used(given: &Definitions) -> Result<(), Failure> {
 pub fn render(diagnostics: &Diagnostics) -> String {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     diagnostics.render(color).trim_end().to_string()
+}
+
+/// The failure of a deck whose blocks cannot be computed as it says: each with the command that the reason begins with, or its
+/// MATERIAL.
+fn refused(problem: &Problem, unfit: Vec<(i64, Unfit)>) -> Failure {
+    let mut told = problem.diagnostics.clone();
+    for (block, Unfit { reason, help }) in unfit {
+        let place = problem.place_of_block(block, |command| reason.starts_with(command));
+        let message = Diagnostic::error(format!("block {block}: {reason}")).help(help);
+        told.push(match place {
+            Some(place) => message.at(place, format!("for block {block}")),
+            None => message,
+        });
+    }
+    Failure::input(render(&told))
 }
 
 /// The deck as named, or with its suffix added.

@@ -23,6 +23,18 @@ pub struct Problem {
     pub diagnostics: Diagnostics,
 }
 
+impl Problem {
+    /// Where the deck speaks of a block: in the last command of an accepted name that is for this block or for all blocks, else where
+    /// the block gets its material.
+    pub fn place_of_block(&self, block: i64, accepted: impl Fn(&str) -> bool) -> Option<Span> {
+        let cards = |accepted: &dyn Fn(&str) -> bool| {
+            let of_block = |card: &&Card| card.complete && card.maybe_integer("block").is_none_or(|own| own == block);
+            self.deck.cards.iter().filter(|card| accepted(&card.name)).rfind(of_block).map(|card| card.record)
+        };
+        cards(&accepted).or_else(|| cards(&|name| name == "MATERIAL"))
+    }
+}
+
 /// A command of the deck and what it does to the model.
 pub(super) type Setter = (&'static str, fn(&Card, &mut Draft));
 

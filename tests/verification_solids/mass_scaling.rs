@@ -150,7 +150,11 @@ fn more_than_the_limit_is_refused_with_what_it_would_be() {
     desk.put("bar.i", &bar_deck(1e-5, "MASS SCALING, ALL, FACTOR, 1.06\n"));
     for arguments in [&["check", "bar"][..], &["bar"]] {
         let left = desk.urto(arguments).with(2);
-        left.says(&["MASS SCALING: block 1 would gain 0.060 of its mass", "0.050 is the most"]);
+        left.says(&[
+            "block 1: MASS SCALING: it would gain 0.060 of its mass",
+            "0.050 is the most",
+            "MASS SCALING, ALL, FACTOR, 1.06",
+        ]);
     }
     assert!(!desk.has("bar.e"), "a run that is refused leaves no results");
     desk.put("bar.i", &bar_deck(1e-5, "MASS SCALING, ALL, FACTOR, 1.06, 0.1\n"));

@@ -9,7 +9,7 @@ use crate::lanes::{CHUNK, Force, InstructionSet, Row};
 use crate::mesh::Mesh;
 use crate::model::{MassScaling, Model, ScaleMass};
 use crate::solver::Body;
-use crate::solver::elements::{ElementBlock, NewElement, PassSettings, Sink};
+use crate::solver::elements::{ElementBlock, NewElement, PassSettings, Sink, Unfit};
 
 /// What MASS SCALING has added.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -118,25 +118,23 @@ impl AddedMass {
         self.blocks.iter().map(|block| block.added).sum()
     }
 
-    /// Why a run with it may not begin: blocks that would gain more than the deck lets them, a line each.
-    pub fn refusal(&self) -> Option<String> {
-        let over: Vec<String> = self
-            .blocks
-            .iter()
-            .filter(|block| block.share() > block.limit * ROUND_OFF || block.share().is_nan())
-            .map(|block| {
-                format!(
-                    "error: MASS SCALING: block {} would gain {:.3} of its mass, in {} of its elements, and {:.3} is the most\n\
-                     help: ask for a shorter step, or refine less; if its inertia is of no account, give the share that it may \
-                     gain as the last number of the command",
-                    block.block,
-                    block.share(),
-                    block.elements,
-                    block.limit
-                )
-            })
-            .collect();
-        (!over.is_empty()).then(|| over.join("\n"))
+    /// Why a run with it may not begin: blocks that would gain more than the deck lets them.
+    pub fn refusals(&self) -> Vec<(i64, Unfit)> {
+        let is_over = |block: &&BlockMass| block.share() > block.limit * ROUND_OFF || block.share().is_nan();
+        let unfit = |block: &BlockMass| {
+            Unfit {
+            reason: format!(
+                "MASS SCALING: it would gain {:.3} of its mass, in {} of its elements, and {:.3} is the most",
+                block.share(),
+                block.elements,
+                block.limit
+            ),
+            help: "ask for a shorter step, or refine less; if its inertia is of no account, give the share that it may gain as \
+                   the last number of the command"
+                .into(),
+        }
+        };
+        self.blocks.iter().filter(is_over).map(|block| (block.block, unfit(block))).collect()
     }
 }
 
