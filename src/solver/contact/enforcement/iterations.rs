@@ -6,9 +6,9 @@ use super::other_ranks::{Largest, OtherRanks};
 use super::sweep::{self, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
 
-/// Iterations go on until they move nothing by more than this part of the farthest motion of a contact in the step. What sinks
-/// in while loads are small can be lifted only at the price of the loads that come.
-const SETTLED: f64 = 0.002;
+/// Iterations go on until they move nothing by more than so many times the tolerance, as a part of the farthest motion of a contact in
+/// the step: by default a five-hundredth. What sinks in while loads are small can be lifted only at the price of the loads that come.
+const SETTLED: f64 = 200.0;
 
 /// Iterations whose last one still moves this part of that motion have run out, whatever they leave: contacts creep.
 const UNSETTLED: f64 = 0.1;
@@ -23,6 +23,15 @@ pub struct Limits {
     pub iterations: u32,
     /// Overlap that is left alone, as a part of the face's size.
     pub tolerance: f64,
+}
+
+impl Limits {
+    /// Whether an iteration that has moved constraints so far, as a part of the face's size and as a length, was the last: with a
+    /// tolerance so many times looser. `travel` is the farthest motion of a contact in the step.
+    fn are_met(&self, looser: f64, [residual, moved, travel]: [f64; 3]) -> bool {
+        let tolerance = looser * self.tolerance;
+        residual <= tolerance && moved <= (SETTLED * tolerance).min(UNSETTLED) * travel
+    }
 }
 
 /// What became of a step's constraints.
@@ -94,7 +103,7 @@ impl Enforcer {
             }
             momentum.watch(moved);
             let mut looser = outcome.looser;
-            let by_looser = |factor: f64| residual <= factor * limits.tolerance && moved <= SETTLED * travel;
+            let by_looser = |factor: f64| limits.are_met(factor, [residual, moved, travel]);
             for (spared, _) in looser.iter_mut().zip(ended).filter(|(_, ended)| *ended) {
                 *spared = Spared { iterations: spared.iterations + 1, moved: spared.moved + residual };
             }
