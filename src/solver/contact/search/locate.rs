@@ -391,9 +391,13 @@ impl Locator {
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
         let (sleep, mut rest, mut awake) = (SLEEP * self.paths.half_range, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
-        // Behind a thin face a point may be touching a thick one beside it, and then both normals count.
-        let depths = candidates.iter().map(|candidate| faces.depth[candidate.face as usize]);
-        let deepest = depths.fold(0.0, f64::max);
+        // Behind a thin face a point may be touching a thick one beside it, and then both normals count. Found where it is asked for:
+        // most points are kept apart by boxes alone.
+        let mut deepest = None;
+        let depth_of_all = || {
+            let depths = candidates.iter().map(|candidate| faces.depth[candidate.face as usize]);
+            depths.fold(0.0, f64::max)
+        };
         for (bit, candidate) in candidates.iter().enumerate().take(64) {
             let face = candidate.face;
             // Both sides may come nearer.
@@ -401,7 +405,8 @@ impl Locator {
             let mut away = SAFE * (apart - reach);
             if !held && away <= sleep {
                 let front = self.depth * faces.depth[face as usize] + faces.reach[face as usize] + reach;
-                let apart = separation([point, face], motion, faces, [front, deepest]);
+                let deepest = deepest.get_or_insert_with(depth_of_all);
+                let apart = separation([point, face], motion, faces, [front, *deepest]);
                 away = away.max(apart / TWICE_ROOT_THREE);
             }
             if away > sleep && past.iter().all(|past| past.face != face) {
