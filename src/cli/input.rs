@@ -85,7 +85,8 @@ impl Given {
         let body = Body::new(&self.mesh, model).map_err(Failure::input_error)?;
         let unfit = body.added_mass.refusals();
         if !unfit.is_empty() {
-            return Err(refused(&self.problem, unfit));
+            let told = Diagnostics::new(self.problem.deck.source.clone());
+            return Err(refused(&self.problem, told, unfit));
         }
         if let Some(refusal) = body.tied.refusal(&self.mesh, &body.node_mass) {
             return Err(Failure::input(refusal));
@@ -117,7 +118,7 @@ impl Given {
                 if unfit.is_empty() {
                     return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
                 }
-                Err(refused(&problem, unfit))
+                Err(refused(&problem, problem.diagnostics.clone(), unfit))
             }
             (Err(mistakes), Ok(_)) => Err(Failure::input(render(&mistakes))),
             (Ok(_), Err(failure)) => Err(failure),
@@ -204,17 +205,13 @@ pub fn render(diagnostics: &Diagnostics) -> String {
     diagnostics.render(color).trim_end().to_string()
 }
 
-/// The failure of a deck whose blocks cannot be computed as it says: each with the command that the reason begins with, or its
-/// MATERIAL.
-fn refused(problem: &Problem, unfit: Vec<(i64, Unfit)>) -> Failure {
-    let mut told = problem.diagnostics.clone();
+/// The failure of a deck whose blocks cannot be computed as it says, after what has been `told`: each with the commands whose name the
+/// reason begins with, or its MATERIAL.
+fn refused(problem: &Problem, mut told: Diagnostics, unfit: Vec<(i64, Unfit)>) -> Failure {
     for (block, Unfit { reason, help }) in unfit {
-        let place = problem.place_of_block(block, |command| reason.starts_with(command));
+        let places = problem.places_of_block(block, |command| reason.starts_with(command));
         let message = Diagnostic::error(format!("block {block}: {reason}")).help(help);
-        told.push(match place {
-            Some(place) => message.at(place, format!("for block {block}")),
-            None => message,
-        });
+        told.push(places.into_iter().fold(message, |message, place| message.at(place, format!("for block {block}"))));
     }
     Failure::input(render(&told))
 }

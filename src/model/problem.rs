@@ -24,14 +24,16 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Where the deck speaks of a block: in the last command of an accepted name that is for this block or for all blocks, else where
-    /// the block gets its material.
-    pub fn place_of_block(&self, block: i64, accepted: impl Fn(&str) -> bool) -> Option<Span> {
-        let cards = |accepted: &dyn Fn(&str) -> bool| {
+    /// Where the deck speaks of a block: the commands of an accepted name that are for this block or for all blocks, else where the
+    /// block gets its material.
+    pub fn places_of_block(&self, block: i64, accepted: impl Fn(&str) -> bool) -> Vec<Span> {
+        let cards = |accepted: &dyn Fn(&str) -> bool| -> Vec<Span> {
             let of_block = |card: &&Card| card.complete && card.maybe_integer("block").is_none_or(|own| own == block);
-            self.deck.cards.iter().filter(|card| accepted(&card.name)).rfind(of_block).map(|card| card.record)
+            let cards = self.deck.cards.iter().filter(|card| accepted(&card.name));
+            cards.filter(of_block).map(|card| card.record).collect()
         };
-        cards(&accepted).or_else(|| cards(&|name| name == "MATERIAL"))
+        let places = cards(&accepted);
+        if places.is_empty() { cards(&|name| name == "MATERIAL") } else { places }
     }
 }
 

@@ -99,7 +99,7 @@ pub enum ContactEdges {
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
     pub passes: u32,
-    /// Overlap that ends the passes, as a part of the face's size.
+    /// Overlap that ends the passes, as a part of the face's size; what they may still move follows it.
     pub tolerance: f64,
     /// How near faces are found.
     pub search: ContactSearch,

@@ -121,22 +121,21 @@ impl AddedMass {
     /// Why a run with it may not begin: blocks that would gain more than the deck lets them.
     pub fn refusals(&self) -> Vec<(i64, Unfit)> {
         let is_over = |block: &&BlockMass| block.share() > block.limit * ROUND_OFF || block.share().is_nan();
-        let unfit = |block: &BlockMass| {
-            Unfit {
-            reason: format!(
-                "MASS SCALING: it would gain {:.3} of its mass, in {} of its elements, and {:.3} is the most",
-                block.share(),
-                block.elements,
-                block.limit
-            ),
-            help: "ask for a shorter step, or refine less; if its inertia is of no account, give the share that it may gain as \
-                   the last number of the command"
-                .into(),
-        }
-        };
-        self.blocks.iter().filter(is_over).map(|block| (block.block, unfit(block))).collect()
+        let over = self.blocks.iter().filter(is_over).map(|block| {
+            let BlockMass { elements, limit, .. } = block;
+            let reason = format!(
+                "MASS SCALING: it would gain {:.3} of its mass, in {elements} of its elements, and {limit:.3} is the most",
+                block.share()
+            );
+            (block.block, Unfit { reason, help: TOO_MUCH.into() })
+        });
+        over.collect()
     }
 }
+
+/// What may be done where a block would gain too much.
+const TOO_MUCH: &str = "ask for a shorter step, or refine less; if its inertia is of no account, give the share that it may gain as the \
+                        last number of the command";
 
 impl MassScaling {
     /// Whether it holds for a block.

@@ -6,8 +6,9 @@ use super::other_ranks::{Largest, OtherRanks};
 use super::sweep::{self, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
 
-/// Iterations go on until they move nothing by more than so many times the tolerance, as a part of the farthest motion of a contact in
-/// the step: by default a five-hundredth. What sinks in while loads are small can be lifted only at the price of the loads that come.
+/// Iterations go on until they move nothing by more than so many times the tolerance, as a part of the farthest motion of a
+/// contact in the step: by default a five-hundredth. What sinks in while loads are small can be lifted only at the price of the
+/// loads that come.
 const SETTLED: f64 = 200.0;
 
 /// Iterations whose last one still moves this part of that motion have run out, whatever they leave: contacts creep.
@@ -21,7 +22,7 @@ const NOTICED: f64 = 1e-4;
 pub struct Limits {
     /// Largest number of iterations.
     pub iterations: u32,
-    /// Overlap that is left alone, as a part of the face's size.
+    /// Overlap that is left alone, as a part of the face's size; what iterations may still move follows it.
     pub tolerance: f64,
 }
 
@@ -77,8 +78,8 @@ pub(super) struct Times {
 }
 
 impl Enforcer {
-    /// Iterates with the forces of [`Enforcer::iterates`]; `None` where nobody has a gap to close. Others are asked with the first: where somebody wants them, and that is
-    /// nearly always, it costs nothing.
+    /// Iterates with the forces of [`Enforcer::iterates`]; `None` where nobody has a gap to close. Others are asked with the first:
+    /// where somebody wants them, and that is nearly always, it costs nothing.
     pub(super) fn iterate(
         &mut self,
         constraints: &[Constraint],
