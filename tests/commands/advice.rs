@@ -355,6 +355,12 @@ fn a_looser_tolerance_spares_the_passes_that_it_is_said_to() {
     let spared = 100.0 * (1.0 - passes("loose.o") / passes("tight.o"));
     assert!((spared - share).abs() < 5.0, "{spared} % instead of {share} %");
     assert!(!difference_of_common(&desk, "tight", "loose").0);
+    // Nothing but the tolerance says when passes end: a coarser one than usual saves them as well.
+    advised(&desk, "usual", &deck(""), &[]);
+    advised(&desk, "coarse", &deck("CONTACT PASSES, 20, 1.E-3\n"), &[]);
+    let [usual, coarse] = ["usual.o", "coarse.o"].map(passes);
+    println!("{usual} passes as usual, {coarse} to 1.E-3");
+    assert!(coarse < 0.5 * usual, "{coarse} instead of {usual}");
 }
 
 /// A ball on a plate: coarse, it touches with a node or two; fine, with many elements.
