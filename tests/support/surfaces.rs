@@ -1,7 +1,8 @@
 //! Whether surfaces go through each other: a measure of its own, which knows nothing of the solver's contact.
 //!
-//! Where surfaces have gone through anything in part, an edge pierces a face. Faces are cut into four triangles at their
-//! middle.
+//! Where surfaces have gone through anything in part, an edge pierces a face: its ends lie on either side of it. A warped face has a
+//! bulge, on which an edge may lie although it has passed nothing: one of its two divisions into two triangles stands out on each
+//! side. So an edge goes through a face where it does in both.
 
 use urto::mesh::exterior::exterior;
 use urto::mesh::{Mesh, Shape};
@@ -125,14 +126,17 @@ fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Whether a segment goes through a face.
-fn through(a: Point, b: Point, face: &[Point; 4]) -> bool {
+/// Whether a segment goes through a face, however that is divided into two triangles.
+fn through(a: Point, b: Point, x: &[Point; 4]) -> bool {
     let volume = |p: Point, q: Point, r: Point, s: Point| dot(minus(p, s), cross(minus(q, s), minus(r, s)));
-    triangles(face).any(|[p, q, r]| {
+    let pierces = |[i, j, k]: [usize; 3]| {
+        let (p, q, r) = (x[i], x[j], x[k]);
         let sides = volume(a, p, q, r) * volume(b, p, q, r);
         let turns = [volume(a, b, p, q), volume(a, b, q, r), volume(a, b, r, p)];
         sides < 0.0 && (turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0))
-    })
+    };
+    // Through both triangles of a division it has gone in and out again.
+    [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]].iter().all(|[one, other]| pierces(*one) != pierces(*other))
 }
 
 /// Distance of a point from a triangle (Ericson 2005).
@@ -151,4 +155,18 @@ fn to_triangle(p: Point, [a, b, c]: [Point; 3]) -> f64 {
         dot(r, r).sqrt()
     };
     to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+}
+
+#[test]
+fn an_edge_on_the_bulge_of_a_warped_face_is_not_through_it() {
+    // Two opposite corners stand up: the divisions lie at 0.1 and 0 in the middle.
+    let face = [[0.0, 0.0, 0.1], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]];
+    let edge = |low: f64, high: f64| through([0.4, 0.5, low], [0.6, 0.5, high], &face);
+    assert!(edge(-0.1, 0.2) && edge(0.2, -0.1));
+    // It ends between both divisions, or goes into the bulge and out again.
+    assert!(!edge(0.05, 0.2) && !edge(-0.1, 0.05));
+    assert!(!through([0.5, -0.2, 0.05], [0.5, 1.2, 0.05], &face));
+    let triangle = [face[0], face[1], face[2], face[2]];
+    assert!(through([0.6, 0.3, -0.1], [0.6, 0.3, 0.2], &triangle));
+    assert!(!through([0.3, 0.6, -0.1], [0.3, 0.6, 0.2], &triangle));
 }

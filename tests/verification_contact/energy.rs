@@ -280,8 +280,8 @@ fn contact_of_triangles_gives_no_energy() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
-    // Found: 16, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 16, deep: usize::MAX });
+    // Found: 8, seven folds whose nodes are pinched between leaves and a stack with half the room, see docs/verification.md.
+    try_all(120..1200, shell_scene, Allowed { crushed: 8, deep: usize::MAX });
 }
 
 #[test]
