@@ -20,21 +20,23 @@ MACH, STEPS = 0.01, 60
 
 
 def laws():
-    """Names of the laws of decks/materials.i, and their commands as those of block 1."""
+    """Names of the laws of decks/materials.i, and their commands as those of block 1, with the functions."""
     text = "\n".join(line.split("$")[0].rstrip() for line in MATERIALS.read_text().splitlines())
-    functions = [f for f in re.findall(r"^FUNCTION,.*?^END\n", text, re.S | re.M)]
+    functions = re.findall(r"^FUNCTION,.*?^END\n", text, re.S | re.M)
     for block, law in re.findall(r"^MATERIAL, (\d+), ([^,]+),", text, re.M):
         commands = re.findall(rf"^(?:MATERIAL|EQUATION OF STATE), {block},.*?^END\n", text, re.S | re.M)
-        commands += re.findall(rf"^DETONATION POINT, .*\n", text, re.M) if "JWL" in "".join(commands) else []
+        if "JWL" in "".join(commands):
+            commands += re.findall(r"^DETONATION POINT, .*\n", text, re.M)
         state = re.search(rf"^EQUATION OF STATE, {block}, (.*)$", text, re.M)
-        yield law + (f", {state[1]}" if state else ""), functions, [re.sub(rf", {block},", ", 1,", c, count=1) for c in commands]
+        own = [re.sub(rf", {block},", ", 1,", command, count=1) for command in commands]
+        yield law + (f", {state[1]}" if state else ""), functions + own
 
 
-def deck(functions, commands, sound, more=""):
+def deck(commands, sound, more):
     """A deck of a slab that is pressed together."""
     time = STEPS * 0.9 * EDGE / sound
     lines = ["TITLE", " slab", f"TERMINATION TIME, {time!r}", f"OUTPUT TIME, {time!r}", f"PLOT TIME, {time!r}"]
-    lines += [*functions, "FUNCTION, 99", "0., 1.", "1., 1.", "END", *commands]
+    lines += ["FUNCTION, 99", "0., 1.", "1., 1.", "END", *commands]
     lines += [f"PRESCRIBED VELOCITY, X, 1, 99, {MACH * sound!r}", f"PRESCRIBED VELOCITY, X, 2, 99, {-MACH * sound!r}"]
     return "\n".join(line.rstrip() for line in [*lines, more, "EXIT", ""] if line)
 
@@ -66,16 +68,17 @@ def main():
             f"NODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, {8 * EDGE!r}\n"
         )
         subprocess.run([options.after, "mesh", str(recipe), "-o", str(mesh)], check=True, capture_output=True)
-        scenes = [(name, functions, commands, "") for name, functions, commands in laws()]
+        scenes = [(name, commands, "") for name, commands in laws()]
         first, plastic = scenes[0], next(scene for scene in scenes if scene[0] == "ELASTIC PLASTIC")
         knobs = ["HOURGLASS CONTROL, FB", "PRECISION, SINGLE", "ELEMENT, 1, EIGHT POINTS", "SPIN, SECOND ORDER"]
-        scenes += [(f"{name}: {knob}", *rest, knob) for name, *rest, _ in (first, plastic) for knob in knobs]
+        scenes += [(f"{name}: {knob}", commands, knob) for name, commands, _ in (first, plastic) for knob in knobs]
         print(f"{elements} elements, ns per element and step\n| | before | after | ratio |\n|---|---|---|---|")
-        for name, functions, commands, knob in scenes:
+        for name, commands, knob in scenes:
             sound = 5000.0 if "YOUNGS" in "".join(commands) else 1500.0
-            path.write_text(deck(functions, commands, sound, knob))
-            times = [[nanoseconds(p, path, mesh, elements, folder) for p in (options.before, options.after)] for _ in range(options.turns)]
-            least = [min((t for t in column if t is not None), default=None) for column in zip(*times)]
+            path.write_text(deck(commands, sound, knob))
+            programs = [options.before, options.after] * options.turns
+            times = [nanoseconds(program, path, mesh, elements, folder) for program in programs]
+            least = [min((t for t in times[i::2] if t is not None), default=None) for i in (0, 1)]
             told = ["" if t is None else f"{t:.0f}" for t in least]
             ratio = "" if None in least else f"{least[1] / least[0]:.2f}"
             print(f"| {name.lower()} | {told[0]} | {told[1]} | {ratio} |", flush=True)

@@ -1,8 +1,8 @@
 //! Whether surfaces go through each other: a measure of its own, which knows nothing of the solver's contact.
 //!
-//! Where surfaces have gone through anything in part, an edge pierces a face: its ends lie on either side of it. A warped face has a
-//! bulge, on which an edge may lie although it has passed nothing: one of its two divisions into two triangles stands out on each
-//! side. So an edge goes through a face where it does in both.
+//! Where surfaces have gone through anything in part, an edge pierces a face. Faces are cut into four triangles at their
+//! middle. A warped face has a bulge, into which an edge may dip that has passed nothing: one of its two divisions into two
+//! triangles stands out on each side. Whether an edge is through both is told apart.
 
 use urto::mesh::exterior::exterior;
 use urto::mesh::{Mesh, Shape};
@@ -66,6 +66,13 @@ impl Surfaces {
         found
     }
 
+    /// Whether a pair that is pierced is so however the face is divided into two triangles: the edge does not merely dip into the
+    /// bulge of a warped face.
+    pub fn is_through(&self, at: &[Point], (edge, face): &([u32; 2], [u32; 4])) -> bool {
+        let [a, b] = edge.map(|n| at[n as usize]);
+        through_all(a, b, &face.map(|n| at[n as usize]))
+    }
+
     /// The least distance between a node of shells and a face of shells that has no node in common with the faces around it,
     /// with the node and the corners of the face.
     pub fn nearest(&self, at: &[Point]) -> (f64, u32, [u32; 4]) {
@@ -126,17 +133,23 @@ fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Whether a segment goes through a face, however that is divided into two triangles.
-fn through(a: Point, b: Point, x: &[Point; 4]) -> bool {
+/// Whether a segment goes through a face.
+fn through(a: Point, b: Point, face: &[Point; 4]) -> bool {
+    triangles(face).any(|triangle| pierces(a, b, triangle))
+}
+
+/// The same of both divisions of the face into two triangles. Through both triangles of one it has gone in and out again.
+fn through_all(a: Point, b: Point, &[p, q, r, s]: &[Point; 4]) -> bool {
+    let divisions = [[[p, q, r], [p, r, s]], [[p, q, s], [q, r, s]]];
+    divisions.iter().all(|[one, other]| pierces(a, b, *one) != pierces(a, b, *other))
+}
+
+/// Whether a segment goes through a triangle.
+fn pierces(a: Point, b: Point, [p, q, r]: [Point; 3]) -> bool {
     let volume = |p: Point, q: Point, r: Point, s: Point| dot(minus(p, s), cross(minus(q, s), minus(r, s)));
-    let pierces = |[i, j, k]: [usize; 3]| {
-        let (p, q, r) = (x[i], x[j], x[k]);
-        let sides = volume(a, p, q, r) * volume(b, p, q, r);
-        let turns = [volume(a, b, p, q), volume(a, b, q, r), volume(a, b, r, p)];
-        sides < 0.0 && (turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0))
-    };
-    // Through both triangles of a division it has gone in and out again.
-    [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]].iter().all(|[one, other]| pierces(*one) != pierces(*other))
+    let sides = volume(a, p, q, r) * volume(b, p, q, r);
+    let turns = [volume(a, b, p, q), volume(a, b, q, r), volume(a, b, r, p)];
+    sides < 0.0 && (turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0))
 }
 
 /// Distance of a point from a triangle (Ericson 2005).
@@ -158,15 +171,14 @@ fn to_triangle(p: Point, [a, b, c]: [Point; 3]) -> f64 {
 }
 
 #[test]
-fn an_edge_on_the_bulge_of_a_warped_face_is_not_through_it() {
+fn an_edge_in_the_bulge_of_a_warped_face_is_not_through_all_of_it() {
     // Two opposite corners stand up: the divisions lie at 0.1 and 0 in the middle.
     let face = [[0.0, 0.0, 0.1], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0]];
-    let edge = |low: f64, high: f64| through([0.4, 0.5, low], [0.6, 0.5, high], &face);
-    assert!(edge(-0.1, 0.2) && edge(0.2, -0.1));
-    // It ends between both divisions, or goes into the bulge and out again.
-    assert!(!edge(0.05, 0.2) && !edge(-0.1, 0.05));
-    assert!(!through([0.5, -0.2, 0.05], [0.5, 1.2, 0.05], &face));
+    let edge = |low: f64, high: f64| [through, through_all].map(|f| f([0.4, 0.45, low], [0.7, 0.45, high], &face));
+    assert_eq!([edge(-0.1, 0.2), edge(0.2, -0.1)], [[true, true]; 2]);
+    // It ends between both divisions, beyond the middle surface or not.
+    assert_eq!([edge(0.02, 0.2), edge(-0.1, 0.02)], [[true, false], [false, false]]);
     let triangle = [face[0], face[1], face[2], face[2]];
-    assert!(through([0.6, 0.3, -0.1], [0.6, 0.3, 0.2], &triangle));
-    assert!(!through([0.3, 0.6, -0.1], [0.3, 0.6, 0.2], &triangle));
+    assert!(through_all([0.6, 0.3, -0.1], [0.6, 0.3, 0.2], &triangle));
+    assert!(!through_all([0.3, 0.6, -0.1], [0.3, 0.6, 0.2], &triangle));
 }
