@@ -11,6 +11,9 @@ use urto::mesh::{HEX_SIDES, Mesh};
 
 type Point = [f64; 3];
 
+/// What rounding makes of volumes that are zero, as a part of the whole.
+const ROUNDING: f64 = 1e-9;
+
 /// The outside of a mesh.
 pub struct Skin {
     /// Nodes of each element.
@@ -82,6 +85,14 @@ impl Skin {
         Skin { elements, body, faces, nodes, edges }
     }
 
+    /// The same where a node set lies in a plane of symmetry: what lies there is no outside.
+    pub fn with_symmetry(mesh: &Mesh, node_set: i64) -> Skin {
+        let mut skin = Skin::new(mesh);
+        let in_plane = &mesh.node_set(node_set).expect("a node set").nodes;
+        skin.faces.retain(|face| !face.nodes.iter().all(|node| in_plane.contains(node)));
+        skin
+    }
+
     /// Number of bodies.
     pub fn bodies(&self) -> usize {
         self.body.iter().max().map_or(0, |last| *last as usize + 1)
@@ -99,6 +110,20 @@ impl Skin {
     /// Every node of the outside that lies inside an element of which it is no corner; the deepest for each node.
     pub fn inside(&self, positions: &[Point]) -> Vec<Inside> {
         self.find(self.nodes.iter().map(|&n| Sample { x: positions[n as usize], own: [n, n] }), positions)
+    }
+
+    /// How deep the deepest node is that has come to be inside an element since the start, as a part of a face, where no corner of that element
+    /// nor of the node's own has turned inside out, and they are no neighbours.
+    pub fn sunk(&self, start: &[Point], now: &[Point]) -> f64 {
+        let before: Vec<u32> = self.inside(start).iter().map(|inside| inside.own[0]).collect();
+        let is_sound = |nodes: &[u32; 8]| has_no_corner_inside_out(&nodes.map(|n| now[n as usize]));
+        let is_foreign = |inside: &Inside| {
+            let element = &self.elements[inside.element as usize];
+            let mut own = self.elements.iter().filter(|nodes| nodes.contains(&inside.own[0]));
+            is_sound(element) && own.all(|own| is_sound(own) && !own.iter().any(|node| element.contains(node)))
+        };
+        let found = self.inside(now).into_iter().filter(|one| !before.contains(&one.own[0]) && is_foreign(one));
+        found.map(|inside| inside.part).fold(0.0, f64::max)
     }
 
     /// The same for three points of every edge of an outer face.
@@ -153,11 +178,10 @@ pub fn deepest(found: Vec<Inside>) -> Option<Inside> {
     found.into_iter().max_by(|a, b| a.part.total_cmp(&b.part))
 }
 
-/// Asserts that in no plot state a node is deeper inside an element than `most` face sizes, and prints the deepest
-/// node and the deepest point of an edge.
+/// Asserts that in no plot state a node, or a point of an edge, is deeper inside an element than `most` face sizes, and prints the
+/// deepest of both.
 #[track_caller]
-pub fn nothing_deeper(case: &str, run: &Run, mesh: &Mesh, most: f64) {
-    let skin = Skin::new(mesh);
+pub fn nothing_deeper(case: &str, run: &Run, (mesh, skin): (&Mesh, &Skin), most: [f64; 2]) {
     let mut worst: [Option<(f64, Inside)>; 2] = [None; 2];
     for state in &run.states {
         let positions = state.positions(mesh);
@@ -167,12 +191,11 @@ pub fn nothing_deeper(case: &str, run: &Run, mesh: &Mesh, most: f64) {
             }
         }
     }
-    for (what, worst) in ["node", "point of an edge"].iter().zip(worst) {
+    for ((what, worst), most) in ["node", "point of an edge"].iter().zip(worst).zip(most) {
         let (time, part) = worst.map_or((0.0, 0.0), |(time, found)| (time, found.part));
         println!("{case} deepest {what}: {:.4} % of a face, at time {time:.4e}", 100.0 * part);
+        assert!(part <= most, "{case}: a {what} is inside: {worst:?}");
     }
-    let part = worst[0].map_or(0.0, |(_, found)| found.part);
-    assert!(part <= most, "{case}: a node is inside: {:?}", worst[0]);
 }
 
 /// Bodies of elements: numbers from 0 in the order of their first elements.
@@ -203,6 +226,15 @@ fn bodies(elements: &[[u32; 8]], nodes: usize) -> Vec<u32> {
     elements.iter().map(&mut number).collect()
 }
 
+fn has_no_corner_inside_out(x: &[Point; 8]) -> bool {
+    const BESIDE: [[usize; 3]; 8] =
+        [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
+    BESIDE.iter().zip(x).all(|(beside, at)| {
+        let [a, b, c] = beside.map(|corner| minus(x[corner], *at));
+        dot(a, cross(b, c)) > 0.0
+    })
+}
+
 fn bounds(nodes: &[u32; 8], positions: &[Point]) -> [Point; 2] {
     let x = nodes.map(|n| positions[n as usize]);
     let over = |pick: fn(f64, f64) -> f64| [0, 1, 2].map(|i| x.iter().map(|p| p[i]).reduce(pick).unwrap_or(0.0));
@@ -228,7 +260,9 @@ fn in_tetrahedron(x: Point, t: [Point; 4]) -> bool {
         volume(t[0], t[1], x, t[3]),
         volume(t[0], t[1], t[2], x),
     ];
-    volume(t[0], t[1], t[2], t[3]) > 0.0 && parts.iter().all(|part| *part >= 0.0)
+    // What lies in a side of it is inside, as nodes in a plane of symmetry do.
+    let whole = volume(t[0], t[1], t[2], t[3]);
+    whole > 0.0 && parts.iter().all(|part| *part >= -ROUNDING * whole)
 }
 
 /// Distance of a point from a triangle: to its plane where the foot is in it, else to the nearest of its edges.

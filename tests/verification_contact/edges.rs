@@ -117,6 +117,85 @@ fn a_fold_meets_an_edge() {
     at_least("tent under a bar", "the same without edges", deepest_edge(&without, &mesh), 0.05);
 }
 
+/// A cube whose top is warped by a tenth, two corners across from each other up, and over its middle a bar on its edge, along the
+/// line between the two corners that are down. Nothing of both meshes but the bulge is in the way between them.
+fn bar_over_a_bulge() -> Mesh {
+    let mut mesh = recipe(
+        "TITLE\n bulge\nBOX, 1, -0.5, -0.5, -1., 1., 1., 1., 1, 1, 1\n\
+         BOX, 2, -0.9, -0.1, -0.1, 1.8, 0.2, 0.2, 1, 1, 1\nROTATE, 2, X, 45.\nROTATE, 2, Z, 135.\n\
+         TRANSLATE, 2, 0.02, 0.02, 0.15\n",
+    );
+    add_node_set(&mut mesh, 1, |p| p[2] < -0.9);
+    let is_top = |at: &[f64; 3]| at[2].abs() < 1e-9 && (at[0].abs() - 0.5).abs() < 1e-9;
+    for at in mesh.coordinates.iter_mut().filter(|at| is_top(at)) {
+        at[2] = if at[0] * at[1] > 0.0 { 0.1 } else { -0.1 };
+    }
+    mesh
+}
+
+fn falling_on_a_bulge(edges: &str) -> String {
+    format!(
+        "TITLE\n bulge\nTERMINATION TIME, 0.02\nOUTPUT TIME, 1.E-3\nPLOT TIME, 5.E-4\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -5.\nNO DISPLACEMENT, X, 1\n\
+         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nCONTACT MATERIAL\nCONTACT EDGES, {edges}\n{}{}",
+        elastic(1, 2000., 1e9, 0.3),
+        elastic(2, 500., 1e8, 0.3)
+    )
+}
+
+#[test]
+fn an_edge_does_not_dip_into_a_bulge() {
+    let mesh = bar_over_a_bulge();
+    let [with, without] = ["ALL", "ON"].map(|edges| run(&falling_on_a_bulge(edges), &mesh));
+    // Half a hundredth of a face is left to the nodes, and is where a ridge begins to answer.
+    between("bulge", "deepest point of an edge, of a face", deepest_edge(&with, &mesh), 0.0, 0.01);
+    at_least("bulge", "the same without ridges", deepest_edge(&without, &mesh), 0.05);
+    between("bulge", "worst energy balance", with.worst_balance(), 0.0, 1e-3);
+    let bits = |run: &Run| run.end().positions(&mesh).concat().iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+    let on_two = run_on(2, &falling_on_a_bulge("ALL"), &mesh).whole();
+    assert!(bits(&on_two) == bits(&with), "positions differ on two ranks");
+}
+
+/// Half of a rail and half of a slider on it, cut by a plane of symmetry; both slope there, so that what presses on the rail has its
+/// foot beside it.
+fn slider_in_a_plane_of_symmetry() -> Mesh {
+    let mut mesh = recipe(
+        "TITLE\n slider\nBOX, 1, 0., 0., -0.1, 0.8, 0.1, 0.1, 8, 1, 1\nBOX, 2, 0.02, 0., 0., 0.16, 0.08, 0.08, 2, 1, 1\n\
+         SIDE SET PLANE, 10, Z, 0.08\n",
+    );
+    add_node_set(&mut mesh, 1, |p| p[1] == 0.0);
+    add_node_set(&mut mesh, 2, |p| p[2] < -0.09);
+    mesh.coordinates.iter_mut().for_each(|at| at[2] += 0.1 * at[1]);
+    mesh
+}
+
+#[test]
+fn what_slides_along_a_plane_of_symmetry_stays_outside() {
+    let mesh = slider_in_a_plane_of_symmetry();
+    let deck = format!(
+        "TITLE\n slider\nTERMINATION TIME, 0.025\nOUTPUT TIME, 1.E-3\nPLOT TIME, 1.E-3\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nINITIAL VELOCITY MATERIAL, 2, 20., 0., 0.\nCONTACT MATERIAL\n\
+         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, X, 2\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 2\n\
+         FUNCTION, 1\n0., 1.\n1., 1.\nEND\nPRESSURE, 10, 1, 1.E6\n{}{}",
+        elastic(1, 2000., 1e9, 0.3),
+        elastic(2, 2000., 1e9, 0.3)
+    );
+    let run = run(&deck, &mesh);
+    let skin = Skin::with_symmetry(&mesh, 1);
+    let of =
+        |state: &crate::support::run::State| deepest(skin.inside(&state.positions(&mesh))).map_or(0.0, |one| one.part);
+    // Passes leave a hundred-thousandth of a face; a node that is lost sinks in by as much as the slider is pressed flat.
+    between("slider", "deepest node, of a face", run.states.iter().map(of).fold(0.0, f64::max), 0.0, 1e-3);
+    let way = run.end().positions(&mesh)[skin_node(&mesh)][0] - mesh.coordinates[skin_node(&mesh)][0];
+    at_least("slider", "way, in faces", way / 0.1, 4.0);
+}
+
+/// A node of the slider in the plane of symmetry.
+fn skin_node(mesh: &Mesh) -> usize {
+    let of_slider = |at: &[f64; 3]| at[1] == 0.0 && at[2] > 0.07;
+    mesh.coordinates.iter().position(of_slider).expect("the slider's upper side")
+}
+
 #[test]
 fn folds_are_the_same_on_any_number_of_ranks() {
     let mesh = tent();

@@ -6,12 +6,13 @@
 
 use crate::support::joined_scenes::{rigid_scene, settings_scene, tied_scene};
 use crate::support::meshes::recipe;
+use crate::support::penetration::Skin;
 use crate::support::run::model;
 use crate::support::scenes::{Scene, scene};
 use crate::support::shell_scenes::{shell_scene, triangle_scene};
 use crate::support::surfaces::Surfaces;
 use urto::comm::{Communicator, ExactSum, run_threads};
-use urto::mesh::Mesh;
+use urto::mesh::{Mesh, Shape};
 use urto::model::Model;
 use urto::solver::{Body, Request, Solver, Stop};
 
@@ -20,6 +21,9 @@ const ROUND_OFF: [f64; 2] = [1e-9, 1e-6];
 
 /// Deepest penetration that motion may make, in motions of a step.
 const DEEPEST: f64 = 3.0;
+
+/// Depth of a node in elements of others, as a part of a face, that contact should not leave.
+const SUNK: f64 = 0.05;
 
 /// What came out of a scene.
 #[derive(Default)]
@@ -45,6 +49,8 @@ struct Found {
     stops_anyhow: bool,
     /// Positions at the end.
     positions: Vec<[f64; 3]>,
+    /// The deepest node of solids in an element of others at the end, by a measure that knows nothing of contact, as a part of a face.
+    sunk: f64,
     /// All this in a line.
     what: String,
 }
@@ -171,6 +177,11 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
             return Err(if is_through { Wrong::Through(what) } else { Wrong::Dipping(what) });
         }
     }
+    // Elements that have eroded are still in the mesh.
+    let solids = mesh.shaped().all(|(shape, _)| shape == Shape::Hexahedron);
+    if found.stop.is_none() && settles && solids && kind != "perforation" {
+        found.sunk = Skin::new(&mesh).sunk(&mesh.coordinates, &found.positions);
+    }
     found.what = what;
     Ok(found)
 }
@@ -184,6 +195,8 @@ struct Allowed {
     dipping: usize,
     /// In which something else sinks in deeper than [`DEEPEST`]; of any number where it is not asked.
     deep: usize,
+    /// That end with a node of solids deeper than [`SUNK`] in others, although no element there has a corner turned inside out.
+    sunk: usize,
 }
 
 /// Runs the scenes of some seeds.
@@ -194,12 +207,15 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
     });
     let print = asked.is_some();
     let seeds = asked.unwrap_or(seeds);
-    let [mut giving, mut crushed, mut dipping, mut deep] = [const { Vec::new() }; 4];
+    let [mut giving, mut crushed, mut dipping, mut deep, mut sunk] = [const { Vec::new() }; 5];
     let mut anyhow = 0;
     for seed in seeds.clone() {
         match try_seed(scene(seed), seed, print) {
             Ok(found) => {
                 anyhow += usize::from(found.stops_anyhow);
+                if found.sunk > SUNK {
+                    sunk.push(format!("{}, sunk by {:.2} of a face", found.what, found.sunk));
+                }
                 if found.deepest[1] > DEEPEST {
                     deep.push(found.what);
                 }
@@ -210,26 +226,28 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
         }
     }
     let count = seeds.end - seeds.start;
-    let [energy, stop, dip, sink] = [&giving, &crushed, &dipping, &deep].map(Vec::len);
+    let [energy, stop, dip, sink, lost] = [&giving, &crushed, &dipping, &deep, &sunk].map(Vec::len);
     println!(
-        "of {count} scenes {energy} give energy, {stop} are crushed, {dip} dip, {sink} deep, {anyhow} stop also without contact"
+        "of {count} scenes {energy} give energy, {stop} are crushed, {dip} dip, {sink} deep, {lost} sunk, {anyhow} stop also without contact"
     );
-    crushed.iter().chain(&dipping).chain(&deep).for_each(|what| println!("{what}"));
+    crushed.iter().chain(&dipping).chain(&deep).chain(&sunk).for_each(|what| println!("{what}"));
     assert!(giving.is_empty(), "{}", giving.join("\n"));
     assert!(crushed.len() <= allowed.crushed, "crushed:\n{}", crushed.join("\n"));
     assert!(dipping.len() <= allowed.dipping, "dipping:\n{}", dipping.join("\n"));
     assert!(deep.len() <= allowed.deep, "deep:\n{}", deep.join("\n"));
+    assert!(sunk.len() <= allowed.sunk, "sunk:\n{}", sunk.join("\n"));
 }
 
 #[test]
 fn contact_gives_no_energy_in_confined_scenes() {
-    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0 });
+    // Sunk: folds, whose steps go a tenth of a face.
+    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 12 });
 }
 
 /// As they are with another estimate of the step and in single precision; and the same on two and three ranks, to the bit.
 #[test]
 fn contact_gives_no_energy_with_other_settings() {
-    try_all(0..64, settings_scene, Allowed { crushed: 0, dipping: 0, deep: 0 });
+    try_all(0..64, settings_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 1 });
     for seed in 0..64 {
         let Scene { recipe: text, deck, .. } = settings_scene(seed);
         let mesh = recipe(&text);
@@ -253,7 +271,7 @@ fn contact_gives_no_energy_with_other_settings() {
 /// A rigid body answers to contact with six unknowns, held or driven or free. Motions that no rigid body can do end a run.
 #[test]
 fn contact_with_rigid_bodies_gives_no_energy() {
-    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0 });
+    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 6 });
 }
 
 /// Beside a joint contact sees masses that are not those of its nodes alone; the accounts close as they do for what is tied alone.
@@ -280,13 +298,13 @@ fn contact_with_tied_blocks_gives_no_energy() {
 
 #[test]
 fn contact_of_shells_gives_no_energy() {
-    try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX });
+    try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0 });
 }
 
 #[test]
 fn contact_of_triangles_gives_no_energy() {
     // Found: 1, whose ends crumple within four elements.
-    try_all(0..60, triangle_scene, Allowed { crushed: 1, dipping: 0, deep: usize::MAX });
+    try_all(0..60, triangle_scene, Allowed { crushed: 1, dipping: 0, deep: usize::MAX, sunk: 0 });
 }
 
 #[test]
@@ -294,12 +312,12 @@ fn contact_of_triangles_gives_no_energy() {
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
     // Found: 8, seven folds whose nodes are pinched between leaves and a stack with half the room; 9 more whose edges dip into
     // bulges, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 9, deep: usize::MAX });
+    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 9, deep: usize::MAX, sunk: 0 });
 }
 
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
     // Deep: 4289, whose corners have turned inside out.
-    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 1 });
+    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 1, sunk: 0 });
 }

@@ -78,7 +78,7 @@ fn check(case: &str, run: &Run, mesh: &Mesh) {
     let drift = |l: [f64; 3]| size([0, 1, 2].map(|i| l[i] - first[i])) / size(first);
     let worst = run.states.iter().map(|state| drift(angular_momentum(&masses, state, mesh))).fold(0.0, f64::max);
     between(case, "drift of angular momentum", worst, 0.0, 1e-9);
-    nothing_deeper(case, run, mesh, 0.05);
+    nothing_deeper(case, run, (mesh, &Skin::new(mesh)), [0.05; 2]);
 }
 
 /// Root mean square distance of points from their mean.

@@ -1,16 +1,25 @@
 //! Edges of the surface: which stand out, and which are lines of the mesh in faces that are flat or nearly so.
 //!
-//! Edges stand out between faces that turn away from each other by more than a third of a right angle.
+//! Edges stand out between faces that turn away from each other by more than a third of a right angle. The bulge of a warped face
+//! has lines as well, its ridges: from two corners across from each other to the middle of the face, which is the mean of all four.
 
 use super::faces::Faces;
 use super::projection::{area_normal, centre};
 use crate::common::vector::{dot, subtract};
+use std::collections::BTreeSet;
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;
 
 /// The same at an edge that has stood out before: 20 degrees.
 const BLUNT: f64 = 0.94;
+
+/// A face has ridges from this height of its corners above the plane of its middle on, as a part of its size: what is less lets nothing
+/// sink in by more.
+const BULGE: f64 = 0.05;
+
+/// The part of that height down to which it keeps them.
+const FLATTENED: f64 = 0.7;
 
 /// How the faces at an edge lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +32,16 @@ pub enum Shape {
     Hollow,
 }
 
-/// Area normal and middle of a face.
-pub type Side = ([f64; 3], [f64; 3]);
+/// A face as its edges see it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Side {
+    /// Normal with the length of the area.
+    pub normal: [f64; 3],
+    /// Mean of the corners.
+    pub middle: [f64; 3],
+    /// Height of the first corner and of that across from it above the plane of the middle; the others are as far below it. A length.
+    pub warp: f64,
+}
 
 impl Shape {
     /// A number for each.
@@ -46,11 +63,12 @@ impl Shape {
     }
 
     /// The shape of an edge between two faces. One that `stood_out` before does so a little longer, lest it come and go.
-    pub fn of((n, a): Side, (m, b): Side, stood_out: bool) -> Shape {
+    pub fn of(first: Side, second: Side, stood_out: bool) -> Shape {
+        let (n, m) = (first.normal, second.normal);
         let least = if stood_out { BLUNT } else { SHARP };
         if dot(n, m) >= least * (dot(n, n) * dot(m, m)).sqrt() {
             Shape::Line
-        } else if dot(subtract(b, a), n) < 0.0 {
+        } else if dot(subtract(second.middle, first.middle), n) < 0.0 {
             Shape::StandsOut
         } else {
             Shape::Hollow
@@ -61,9 +79,9 @@ impl Shape {
 /// An edge of the outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Its ends, the lower number first.
+    /// Its ends, the lower number first; of ridges the corners from which they go to the middle of the face.
     pub ends: [u32; 2],
-    /// The faces on both sides.
+    /// The faces on both sides; of ridges their face twice.
     pub faces: [u32; 2],
     /// How the faces lie.
     pub shape: Shape,
@@ -72,15 +90,39 @@ pub struct Edge {
 }
 
 impl Edge {
+    /// Whether it stands for two ridges of a face.
+    pub fn is_ridge(&self) -> bool {
+        self.faces[0] == self.faces[1]
+    }
+
+    /// The points on which it hangs: its ends, twice, or the corners of the face of ridges.
+    #[inline(always)]
+    pub fn points(&self, faces: &Faces) -> [u32; 4] {
+        let [a, b] = self.ends;
+        if self.is_ridge() { faces.corners[self.faces[0] as usize] } else { [a, b, a, b] }
+    }
+
     /// Whether it stands out.
     pub fn stands_out(&self) -> bool {
         self.shape == Shape::StandsOut
     }
 
     /// How it lies when its faces lie so. An edge of a surface, which has no inside, always stands out: it meets all others, that
-    /// no line of a sheet sinks in between the nodes of another, however it comes to be bent.
+    /// no line of a sheet sinks in between the nodes of another, however it comes to be bent. Ridges are there while the face bulges.
     pub fn shape_between(&self, first: Side, second: Side, faces: &Faces) -> Shape {
+        if self.is_ridge() {
+            return if self.bulges(first.warp, faces) { Shape::Line } else { Shape::Hollow };
+        }
         if self.is_of_surface(faces) { Shape::StandsOut } else { Shape::of(first, second, self.stands_out()) }
+    }
+
+    /// Whether the face of ridges bulges outwards along them.
+    fn bulges(&self, warp: f64, faces: &Faces) -> bool {
+        let face = self.faces[0] as usize;
+        let [a, _, c, _] = faces.corners[face];
+        let along = if self.ends.contains(&a) && self.ends.contains(&c) { warp } else { -warp };
+        let least = BULGE * faces.size[face];
+        along > if self.shape == Shape::Line { FLATTENED * least } else { least }
     }
 
     /// Whether it is an edge of a surface, which can be met from all around.
@@ -109,8 +151,8 @@ fn pair_at(same: &[([u32; 2], u32)], faces: &Faces) -> Option<[u32; 2]> {
     }
 }
 
-/// Edges between two of some faces, in ascending order of their ends.
-pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edge> {
+/// Edges between two of some faces, and with `ridges` those of each, in ascending order of their ends.
+pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bool) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * chosen.len());
     for &face in chosen {
         let corners = faces.corners[face as usize];
@@ -122,22 +164,47 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]]) -> Vec<Edg
         }
     }
     sides.sort_unstable();
-    let side = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
+    let of_chosen = |face: u32| side(&faces.corners[face as usize].map(|p| positions[p as usize]));
+    let shaped = |edge: Edge| {
+        let [first, second] = edge.faces.map(of_chosen);
+        let shape = edge.shape_between(first, second, faces);
+        Edge { shape, in_mesh: shape, ..edge }
+    };
+    let unshaped = |ends, faces| Edge { ends, faces, shape: Shape::Hollow, in_mesh: Shape::Hollow };
     let mut edges: Vec<Edge> = (sides.chunk_by(|a, b| a.0 == b.0))
-        .filter_map(|same| {
-            let [first, second] = pair_at(same, faces)?;
-            let edge = Edge { ends: same[0].0, faces: [first, second], shape: Shape::Hollow, in_mesh: Shape::Hollow };
-            let shape = edge.shape_between(side(first), side(second), faces);
-            Some(Edge { shape, in_mesh: shape, ..edge })
-        })
+        .filter_map(|same| Some(shaped(unshaped(same[0].0, pair_at(same, faces)?))))
         .collect();
+    // Ends say which edge is meant: of two with the same ends there is one.
+    let mut known: BTreeSet<[u32; 2]> = BTreeSet::new();
+    let is_edge = |ends: &[u32; 2]| sides.binary_search_by(|(own, _)| own.cmp(ends)).is_ok();
+    for &face in chosen.iter().filter(|_| ridges) {
+        for ends in diagonals(face, faces).into_iter().filter(|ends| !is_edge(ends)) {
+            if known.insert(ends) {
+                edges.push(shaped(unshaped(ends, [face; 2])));
+            }
+        }
+    }
+    edges.sort_unstable_by_key(|edge| edge.ends);
     edges.shrink_to_fit();
     edges
 }
 
-/// Area normal and middle of a face.
+/// Ends of the ridges that a face may have: none of a triangle, nor of a surface, whose folds take so much passing of nodes from leaf to
+/// leaf that more constraints let more through.
+fn diagonals(face: u32, faces: &Faces) -> Vec<[u32; 2]> {
+    let [a, b, c, d] = faces.corners[face as usize];
+    if faces.is_two_sided(face) || a == b || b == c || c == d || d == a {
+        return Vec::new();
+    }
+    vec![[a.min(c), a.max(c)], [b.min(d), b.max(d)]]
+}
+
+/// A face by its corners.
 pub fn side(corners: &[[f64; 3]; 4]) -> Side {
-    (area_normal(corners), centre(corners))
+    let (normal, middle) = (area_normal(corners), centre(corners));
+    let length = dot(normal, normal).sqrt();
+    let warp = if length > 0.0 { dot(subtract(corners[0], middle), normal) / length } else { 0.0 };
+    Side { normal, middle, warp }
 }
 
 /// Whether two edges may ever touch: they have no end in common and belong to different elements.
@@ -145,5 +212,6 @@ pub fn unrelated(a: &Edge, b: &Edge, faces: &Faces) -> bool {
     let apart = |edge: &Edge, faces_of: &Edge| {
         faces_of.faces.iter().all(|&face| !edge.ends.iter().all(|&end| faces.same_element(face, end)))
     };
-    !a.ends.iter().any(|end| b.ends.contains(end)) && apart(a, b) && apart(b, a)
+    let points = b.points(faces);
+    !a.points(faces).iter().any(|point| points.contains(point)) && apart(a, b) && apart(b, a)
 }

@@ -30,9 +30,10 @@ impl LocalProblem {
         let due = locator.edge_pairs().iter().enumerate().filter(|(place, _)| locator.is_pair_due(*place));
         let due = due.map(|(_, pair)| (pair, PAIR));
         for ([first, second], cost) in due.chain(self.edge_history.iter().map(|past| (&past.pair, HELD))) {
-            let [ends, others] = [first, second].map(|&edge| edges[edge as usize].ends);
+            let ends = edges[*first as usize].ends;
             costs.push((number(ends[0]), cost));
-            [ends[1], others[0], others[1]].iter().for_each(|&end| is_met[end as usize] = true);
+            is_met[ends[1] as usize] = true;
+            edges[*second as usize].points(faces).iter().for_each(|&point| is_met[point as usize] = true);
         }
         costs.extend((0..).zip(is_met).filter(|(_, is_met)| *is_met).map(|(point, _)| (number(point), 0)));
         costs

@@ -382,8 +382,12 @@ impl LocalProblem {
             let past = past.next_if(|past| past.pair == pair);
             // Neither edge is the master.
             let pairing = || Pairing { share: 0.5, ..pairings.of(Rule::Blocks, block(pair[0]), block(pair[1])) };
-            let [[a, b], [c, d]] = pair.map(|edge| edges[edge as usize].ends);
+            let [first, second] = pair.map(|edge| &edges[edge as usize]);
+            let ([a, b], [c, d]) = (first.ends, second.ends);
             motion.place_all([a, b, c, d]);
+            if second.is_ridge() {
+                motion.place_all(second.points(faces));
+            }
             match (EdgeCheck { motion, faces, edges, reaches: edge_reaches }).pair(pair, past, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);

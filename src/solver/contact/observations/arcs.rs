@@ -116,7 +116,7 @@ fn neighbours(faces: &Faces, positions: &[[f64; 3]]) -> Vec<[u32; 2]> {
         a == d && b == c
     };
     if !all.iter().all(|&face| is_strip(face)) {
-        return edges::between(&all, faces, positions).iter().map(|edge| edge.faces).collect();
+        return edges::between(&all, faces, positions, false).iter().map(|edge| edge.faces).collect();
     }
     let beside = |point: u32| -> Option<[u32; 2]> {
         let mut around = faces.around(point).to_vec();

@@ -82,7 +82,7 @@ impl CommunicationPlan {
         for pair in &found.pairs {
             let ends = pair.iter().filter_map(|edge| {
                 let place = regional.edges.ids.binary_search(edge).ok()?;
-                Some(layout.edges[*edge as usize].ends.into_iter().zip(regional.edge_owners[place]))
+                Some(layout.edges[*edge as usize].points(&layout.faces).into_iter().zip(regional.edge_owners[place]))
             });
             let members = ends.flatten();
             if members.clone().all(|(_, owner_rank)| owner_rank == me) {

@@ -17,8 +17,8 @@ pub struct Regional {
     pub own_edges: Vec<u32>,
     /// Owner ranks of the corners of each face.
     pub face_owners: Vec<[u32; 4]>,
-    /// Owner ranks of the ends of each edge.
-    pub edge_owners: Vec<[u32; 2]>,
+    /// Owner ranks of the points on which each edge hangs, see [`Edge::points`](crate::solver::contact::geometry::edges::Edge::points).
+    pub edge_owners: Vec<[u32; 4]>,
 }
 
 impl Regional {
@@ -46,8 +46,8 @@ impl Regional {
         let cells: Vec<Box3> = occupied.iter().flat_map(Occupancy::boxes).collect();
         let cells = Occupancy::of(&cells, neighbourhood::CELLS);
         let edges = neighbourhood::edges_near(here, &cells, layout, contact_nodes);
-        let ends = |edge: u32| layout.edges[edge as usize].ends.map(owner_rank);
-        let (edges, edge_owners) = sent_near(edges.ids.into_iter().zip(edges.boxes), ends, &occupied, comm);
+        let hang_on = |edge: u32| layout.edges[edge as usize].points(&layout.faces).map(owner_rank);
+        let (edges, edge_owners) = sent_near(edges.ids.into_iter().zip(edges.boxes), hang_on, &occupied, comm);
         let occupied = occupied_by_all(&points.boxes, comm);
         let corners = |face: u32| layout.faces.corners[face as usize].map(owner_rank);
         let faces = faces.iter().map(|&face| (face, neighbourhood::face_box(face, layout, contact_nodes)));

@@ -149,7 +149,7 @@ impl Locator {
     pub fn new(found: SearchResult, depth: f64, points: usize, faces: &Faces, edges: &[Edge]) -> Locator {
         let mut is_moving = vec![false; points];
         for &edge in found.pairs.iter().flatten() {
-            edges[edge as usize].ends.iter().for_each(|&end| is_moving[end as usize] = true);
+            edges[edge as usize].points(faces).iter().for_each(|&point| is_moving[point as usize] = true);
         }
         found.slave_nodes.iter().for_each(|&point| is_moving[point as usize] = true);
         for near in &found.candidates {

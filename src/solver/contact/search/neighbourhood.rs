@@ -2,7 +2,7 @@
 
 use super::locate::{Candidate, Interface, Rule};
 use crate::solver::contact::check::{edge_edge, node_face};
-use crate::solver::contact::geometry::edges;
+use crate::solver::contact::geometry::edges::{self, Edge};
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::search::occupancy::{CellRange, Occupancy};
 use crate::solver::contact::search::{Box3, Candidates, Search};
@@ -68,9 +68,8 @@ pub fn face_boxes(layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
 /// Box of an edge, whose ends are contact nodes.
 fn edge_box(edge: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
     let edge = &layout.edges[edge as usize];
-    let [a, b] = edge.ends;
     let reach = edge_edge::farthest_reach(&layout.faces, edge) + edge.distance(&layout.faces);
-    contact_nodes.reach([a, b, a, b]).grown(reach)
+    contact_nodes.reach(edge.points(&layout.faces)).grown(reach)
 }
 
 /// Boxes of those of some edges that stand out, which all others that cross must meet.
@@ -93,12 +92,15 @@ pub fn edges_near(
     let farthest = edge_edge::largest_reach(&layout.faces);
     let ends = contact_nodes.list.iter().map(|contact_node| contact_nodes.reach([contact_node.point; 4]));
     let cells: Vec<CellRange> = ends.map(|of| occupied.cells_of(&of.grown(farthest))).collect();
-    let are_near = |[a, b]: [u32; 2]| match [a, b].map(|end| contact_nodes.of(end)) {
-        [Some(a), Some(b)] => occupied.any(cells[a].joined(cells[b])),
+    let are_near = |edge: &Edge| match edge.points(&layout.faces).map(|point| contact_nodes.of(point)) {
+        [Some(a), Some(b), Some(c), Some(d)] if edge.is_ridge() => {
+            occupied.any(cells[a].joined(cells[b]).joined(cells[c]).joined(cells[d]))
+        }
+        [Some(a), Some(b), ..] => occupied.any(cells[a].joined(cells[b])),
         _ => true,
     };
     let mut all = Boxes::default();
-    for edge in edges.filter(|&edge| are_near(layout.edges[edge as usize].ends) && layout.takes_part(edge)) {
+    for edge in edges.filter(|&edge| layout.takes_part(edge) && are_near(&layout.edges[edge as usize])) {
         let of = edge_box(edge, layout, contact_nodes);
         if occupied.may_meet(&of) {
             all.push(edge, of);
@@ -252,7 +254,7 @@ fn may_cross(first: u32, other: u32, layout: &Layout) -> bool {
     let (one, another) = (&layout.edges[first as usize], &layout.edges[other as usize]);
     layout.meets(first, other)
         && (other > first || !another.stands_out())
-        && !one.ends.iter().any(|&end| layout.are_joined(end, &another.ends))
+        && !one.ends.iter().any(|&end| layout.are_joined(end, &another.points(&layout.faces)))
         && !layout.exclusions.keep_edges_apart(one.faces, another.faces, &layout.faces)
         && edges::unrelated(one, another, &layout.faces)
 }

@@ -142,13 +142,14 @@ impl Contact {
             if holders.len() < 2 || first.is_some() {
                 continue;
             }
-            if let Some(([a, b, c], [d, e, f])) = second {
+            if let Some(Side { normal: [a, b, c], middle: [d, e, f], .. }) = second {
                 let others = holders.iter().filter(|&&holder| holder != rank);
                 others.for_each(|&holder| parcels.add(holder, number, &[a, b, c, d, e, f]));
             }
         }
         let records = parcels.exchange(comm);
-        let side = |v: &[f64]| ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+        // Ridges have one face, so that nobody asks for the warp of another rank's.
+        let side = |v: &[f64]| Side { normal: [v[0], v[1], v[2]], middle: [v[3], v[4], v[5]], warp: 0.0 };
         (0..records.len()).map(|i| (records.ids[i], side(records.values(i)))).collect()
     }
 }

@@ -160,8 +160,9 @@ impl Skin {
         layout.interfaces = self.interfaces(&layout, &automatic);
         if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
-            layout.edges = edges::between(&automatic.faces, &layout.faces, &positions);
-            layout.surfaces = layout.edges.iter().any(|edge| edge.is_of_surface(&layout.faces));
+            let surfaces = automatic.faces.iter().any(|&face| layout.faces.is_two_sided(face));
+            layout.edges = edges::between(&automatic.faces, &layout.faces, &positions, layout.lines || surfaces);
+            layout.surfaces = surfaces;
         }
         layout
     }

@@ -285,20 +285,20 @@ impl NodeFaceCheck<'_> {
         point: u32,
         near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
-        (old, tolerated, projection): (u32, f64, Projection),
+        (old, tolerated, left): (u32, f64, Projection),
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let (slightly, normal) = (projection.outside <= HOLD * self.faces.size[old as usize], projection.normal);
+        let (slightly, normal) = (left.outside <= HOLD * self.faces.size[old as usize], left.normal);
+        let is_solid = !self.faces.is_two_sided(old);
         let (mut behind, mut rises) = (false, false);
-        let mut next: Option<(u32, Projection)> = None;
+        let mut next: Option<(u32, Projection, (bool, f64, f64))> = None;
         let to = |&face: &u32| {
             self.related(old, face) && past.iter().all(|p| p.face != face) && self.stays_outside(point, old, face)
         };
         for face in faces_of(near).filter(to) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
-            let Some(projection) = self
-                .projection_at_end(point, face)
-                .filter(|next| !slightly || self.goes_on(old, face, &projection, next))
+            let Some(projection) =
+                self.projection_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &left, next))
             else {
                 continue;
             };
@@ -306,24 +306,30 @@ impl NodeFaceCheck<'_> {
                 behind = true;
                 rises |= self.rises(old, face, normal);
             }
-            if projection.outside == 0.0
+            // What slides along a sharp edge of a solid stays as far beyond as on the face that it leaves, before it goes around
+            // the corner. In a plane of symmetry, where faces need not stand upright, feet fall beside them, and the face in the
+            // plane has its gap closed for ever. Surfaces are round at their borders.
+            let goes_around = is_solid && !self.goes_on(old, face, &left, &projection);
+            let beyond =
+                if is_solid && !slightly && !goes_around { HOLD * self.faces.size[face as usize] } else { 0.0 };
+            let found = (goes_around, projection.outside, projection.gap.abs());
+            if projection.outside <= beyond
                 && self.in_reach(face, &projection, tolerated)
-                && next.is_none_or(|(_, best)| projection.gap.abs() < best.gap.abs())
+                && next.is_none_or(|(_, _, best)| found < best)
             {
-                next = Some((face, projection));
+                next = Some((face, projection, found));
             }
         }
         match next {
-            Some((face, projection)) => contacts.push(self.held(face, projection, tolerated)),
-            None if slightly && self.in_reach(old, &projection, tolerated) => {
-                contacts.push(self.held(old, projection, tolerated));
+            Some((face, projection, _)) => contacts.push(self.held(face, projection, tolerated)),
+            None if slightly && self.in_reach(old, &left, tolerated) => {
+                contacts.push(self.held(old, left, tolerated));
             }
             None => {
                 // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
                 // is as well, where it is nearer than they touch.
-                let deep = behind && projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs();
-                let flat =
-                    (deep && self.in_reach(old, &projection, tolerated)).then(|| self.held(old, projection, tolerated));
+                let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
+                let flat = (deep && self.in_reach(old, &left, tolerated)).then(|| self.held(old, left, tolerated));
                 let around = || self.held_around(point, old, tolerated);
                 contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
             }

@@ -4,6 +4,8 @@
 //! sink between the nodes. The check of the former is that of nodes and faces: by motion for a pair that comes anew, where it
 //! would be at the end of the step for one that has touched before.
 
+mod lines;
+
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
@@ -11,15 +13,13 @@ use crate::solver::contact::geometry::crossing;
 use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::geometry::projection::area_normal;
+use crate::solver::contact::geometry::projection::{area_normal, centre};
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
+use lines::{CROSSING, Crossing, Line, QuickCrossing, between};
 
-/// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
-const CROSSING: f64 = 0.05;
-
-/// The same of edges of surfaces, which have no inside: ends that lie on both sides of an edge are apart by this part of it, and the
+/// Smallest sine of the angle between edges of surfaces that meet, which have no inside: ends that lie on both sides of an edge are apart by this part of it, and the
 /// side on which they stay must be known by then.
 const CROSSING_OF_SURFACES: f64 = 0.01;
 
@@ -69,64 +69,12 @@ pub fn in_order(past: EdgeContact, edges: &[Edge]) -> Option<EdgeContact> {
     Some(if swaps { EdgeContact { pair: [b, a], carried: past.carried.reversed(), ..past } } else { past })
 }
 
-/// Where two edges are nearest to each other.
-struct Crossing {
-    /// Unit normal to both, in the sense of the product of their directions.
-    normal: [f64; 3],
-    /// Places along the edges, 0 to 1 between the ends.
-    places: [f64; 2],
-    /// Distance from the second to the first along the normal, a length with a sign.
-    gap: f64,
-    /// Lengths of the edges.
-    lengths: [f64; 2],
-}
-
-impl Crossing {
-    /// `None` for edges that are nearly parallel or have no length.
-    fn of(a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> Option<Crossing> {
-        Crossing::with([a, b], CROSSING)
-    }
-
-    /// The same of edges with at least this sine of the angle between them.
-    fn with([a, b]: [[[f64; 3]; 2]; 2], least: f64) -> Option<Crossing> {
-        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
-        let product = cross(u, v);
-        let (uu, vv, square) = (dot(u, u), dot(v, v), dot(product, product));
-        if square.is_nan() || square <= least * least * uu * vv {
-            return None;
-        }
-        let places = [dot(cross(r, v), product) / square, dot(cross(r, u), product) / square];
-        let length = square.sqrt();
-        let normal = scaled(product, 1.0 / length);
-        Some(Crossing { normal, places, gap: -dot(r, normal), lengths: [uu.sqrt(), vv.sqrt()] })
-    }
-
-    /// Whether they cross between their ends, by more than `depth` from every end: nearer to an end, a node or another
-    /// edge is in the way before these two.
-    fn between_ends(&self, depth: f64) -> bool {
-        (0..2).all(|i| self.places[i].min(1.0 - self.places[i]) * self.lengths[i] > depth)
-    }
-
-    fn shorter(&self) -> f64 {
-        self.lengths[0].min(self.lengths[1])
-    }
-}
-
 /// What the check of a pair of edges finds.
 pub enum EdgeVerdict {
     /// They touch.
     Touching(EdgeContact, Box<Constraint>),
     /// They do not; along an axis they are so far apart in this step, beyond where they would be near, or 0.
     Apart(f64),
-}
-
-/// Two edges that cross, seen along the normal of both, as numbers that need no root and no quotient.
-struct QuickCrossing {
-    /// Product of their directions, and its square.
-    product: [f64; 3],
-    square: f64,
-    /// Vector from the first to the second, times the product.
-    fall: f64,
 }
 
 /// The check of edges against edges.
@@ -142,20 +90,47 @@ pub struct EdgeCheck<'a> {
 }
 
 impl EdgeCheck<'_> {
-    fn start(&self, edge: u32) -> [[f64; 3]; 2] {
-        let [a, b] = self.edges[edge as usize].ends;
-        [self.motion.start(a), self.motion.start(b)]
+    /// Two edges as lines; of ridges the one from their first end, or the second, to the middle of the face.
+    #[inline(always)]
+    fn lines(&self, pair: [u32; 2], half: usize, at: impl Fn(u32) -> [f64; 3]) -> [Line; 2] {
+        let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
+        let own = [at(first.ends[0]), at(first.ends[1])];
+        if !second.is_ridge() {
+            return [own, [at(second.ends[0]), at(second.ends[1])]];
+        }
+        let [a, b, c, d] = second.points(self.faces);
+        [own, [at(second.ends[half]), centre(&[at(a), at(b), at(c), at(d)])]]
     }
 
-    fn end(&self, edge: u32) -> [[f64; 3]; 2] {
-        let [a, b] = self.edges[edge as usize].ends;
-        [self.motion.end(a), self.motion.end(b)]
+    /// The same at the beginning of the step.
+    #[inline(always)]
+    fn starts(&self, pair: [u32; 2], half: usize) -> [Line; 2] {
+        self.lines(pair, half, |point| self.motion.start(point))
+    }
+
+    /// The same at its end.
+    #[inline(always)]
+    fn ends(&self, pair: [u32; 2], half: usize) -> [Line; 2] {
+        self.lines(pair, half, |point| self.motion.end(point))
+    }
+
+    /// Which half of ridges an edge crosses at the end of the step, or comes nearest to crossing; 0 of a single line.
+    fn half(&self, pair: [u32; 2]) -> usize {
+        if !self.edges[pair[1] as usize].is_ridge() {
+            return 0;
+        }
+        let beyond = |half: usize| {
+            let crossing = Crossing::with(self.ends(pair, half), 0.0);
+            crossing.map_or(f64::INFINITY, |crossing| (-crossing.places[1]).max(crossing.places[1] - 1.0))
+        };
+        usize::from(beyond(1) < beyond(0))
     }
 
     /// Box around the path of an edge over the step.
     fn swept_box(&self, edge: u32) -> Box3 {
-        let ([a, b], [c, d]) = (self.start(edge), self.end(edge));
-        Box3::around(&[a, b, c, d])
+        let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
+        let at = |point: u32| [self.motion.start(point), self.motion.end(point)];
+        Box3::around(&[at(a), at(b), at(c), at(d)].concat())
     }
 
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
@@ -164,8 +139,9 @@ impl EdgeCheck<'_> {
         let margins = pair.map(|edge| self.reaches[edge as usize]);
         let distance = self.distance(pair);
         let bounds = |edge: u32, margin: f64| {
-            let [a, b] = self.edges[edge as usize].ends.map(|end| self.motion.swept_box(end));
-            SweptBox::joined([a, b, a, b], margin as f32)
+            let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
+            let of = |point: u32| self.motion.swept_box(point);
+            SweptBox::joined([of(a), of(b), of(c), of(d)], margin as f32)
         };
         f64::from(bounds(pair[0], margins[0].max(margins[1]) + distance).distance(&bounds(pair[1], 0.0)))
     }
@@ -214,14 +190,15 @@ impl EdgeCheck<'_> {
         }
         let of_surface = self.is_of_surface(pair);
         let least = if of_surface { CROSSING_OF_SURFACES } else { CROSSING };
-        let end = Crossing::with(pair.map(|edge| self.end(edge)), least)?;
+        let half = self.half(pair);
+        let end = Crossing::with(self.ends(pair, half), least)?;
         let now = match past {
             Some(past) => {
-                let sense = past.sense * self.turned(pair, &end);
+                let sense = past.sense * self.turned(pair, half, &end);
                 // What has opened does not close again for nothing.
                 EdgeContact { sense, tolerated: past.tolerated.max((sense * end.gap - distance).min(0.0)), ..*past }
             }
-            None if of_surface => self.comes_near(pair, &end, distance)?,
+            None if of_surface => self.comes_near(pair, half, &end, distance)?,
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - distance - now.tolerated;
@@ -233,19 +210,17 @@ impl EdgeCheck<'_> {
         if !end.between_ends(depth) || gap > KEEP * reach || gap < -deepest {
             return None;
         }
-        Some((now, self.constraint(pair, &end, &now, gap, pairing)))
+        Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
     }
 
-    /// How two edges cross at the end of the step; `None` where they do not between their ends.
+    /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
     #[inline(always)]
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
-        let [a, b] = pair.map(|edge| self.end(edge));
-        let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
-        let product = cross(u, v);
-        let square = dot(product, product);
-        let within = |place: f64| place >= 0.0 && place <= square;
-        let crosses = within(dot(cross(r, v), product)) && within(dot(cross(r, u), product));
-        crosses.then(|| QuickCrossing { product, square, fall: dot(r, product) })
+        let first = QuickCrossing::of(self.ends(pair, 0));
+        if first.is_some() || !self.edges[pair[1] as usize].is_ridge() {
+            return first;
+        }
+        QuickCrossing::of(self.ends(pair, 1))
     }
 
     /// Whether the edge that crosses a line does so on the outside, or hardly inside.
@@ -267,7 +242,8 @@ impl EdgeCheck<'_> {
         if !self.swept_box(pair[0]).grown(SUNK * scale).overlaps(&self.swept_box(pair[1])) {
             return None;
         }
-        let end = Crossing::of(self.end(pair[0]), self.end(pair[1]))?;
+        let half = self.half(pair);
+        let end = Crossing::of(self.ends(pair, half))?;
         if !end.between_ends(0.0) {
             return None;
         }
@@ -283,7 +259,7 @@ impl EdgeCheck<'_> {
             // To be pushed out would give it velocity: it is left where it is until it goes by itself.
             Some(past) => EdgeContact { sense, tolerated: past.tolerated.max(gap).min(tolerated), ..*past },
             None => {
-                let before = self.gap_before(pair, &end, sense)?;
+                let before = self.gap_before((pair, half), &end, sense)?;
                 if gap >= tolerated || before <= -SUNK * scale {
                     return None;
                 }
@@ -294,12 +270,12 @@ impl EdgeCheck<'_> {
         if beyond > SLACK * scale || beyond < -DEEP * scale {
             return None;
         }
-        Some((now, self.constraint(pair, &end, &now, beyond, pairing)))
+        Some((now, self.constraint((pair, half), &end, &now, beyond, pairing)))
     }
 
     /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
-    fn gap_before(&self, pair: [u32; 2], end: &Crossing, sense: f64) -> Option<f64> {
-        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+    fn gap_before(&self, (pair, half): ([u32; 2], usize), end: &Crossing, sense: f64) -> Option<f64> {
+        let start = Crossing::of(self.starts(pair, half))?;
         Some(dot(start.normal, end.normal).signum() * sense * start.gap)
     }
 
@@ -320,18 +296,18 @@ impl EdgeCheck<'_> {
     }
 
     /// −1 where the normal of two edges of surfaces has turned over within the step, as they went through parallel; else 1.
-    fn turned(&self, pair: [u32; 2], end: &Crossing) -> f64 {
+    fn turned(&self, pair: [u32; 2], half: usize, end: &Crossing) -> f64 {
         if !self.is_of_surface(pair) {
             return 1.0;
         }
-        let start = Crossing::with(pair.map(|edge| self.start(edge)), 0.0);
+        let start = Crossing::with(self.starts(pair, half), 0.0);
         start.map_or(1.0, |start| if dot(start.normal, end.normal) < 0.0 { -1.0 } else { 1.0 })
     }
 
     /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
     /// stays. Where the mesh or a path from beside has brought them nearer, they stay as near.
-    fn comes_near(&self, pair: [u32; 2], end: &Crossing, distance: f64) -> Option<EdgeContact> {
-        let separation = between(self.start(pair[0]), self.start(pair[1]));
+    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing, distance: f64) -> Option<EdgeContact> {
+        let separation = between(self.starts(pair, half));
         let (length, along) = (dot(separation, separation).sqrt(), dot(separation, end.normal));
         if along.abs() <= SAME_SIDE * length {
             return None;
@@ -351,7 +327,7 @@ impl EdgeCheck<'_> {
 
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<EdgeContact> {
-        let start = Crossing::of(self.start(pair[0]), self.start(pair[1]))?;
+        let start = Crossing::of(self.starts(pair, 0))?;
         // Turning through parallel within a step leaves no sense to compare.
         if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
             return None;
@@ -383,27 +359,62 @@ impl EdgeCheck<'_> {
         );
         crossing::roots(&volume).any(|t| {
             let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
-            Crossing::of([at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]).is_some_and(|c| c.between_ends(0.0))
+            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]]).is_some_and(|c| c.between_ends(0.0))
         })
     }
 
     /// Places where the edges see each other at the beginning of the step, along the normal of its end: forces there have
     /// no moment.
-    fn places_along(&self, pair: [u32; 2], end: &Crossing) -> [f64; 2] {
-        let [a, b] = pair.map(|edge| self.start(edge));
+    fn places_along(&self, [a, b]: [Line; 2], end: &Crossing) -> [f64; 2] {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let volume = dot(end.normal, cross(u, v));
         let places = [dot(end.normal, cross(r, v)) / volume, dot(end.normal, cross(r, u)) / volume];
         if places.iter().all(|place| (-0.5..=1.5).contains(place)) { places } else { end.places }
     }
 
-    fn constraint(&self, pair: [u32; 2], end: &Crossing, now: &EdgeContact, gap: f64, pairing: Pairing) -> Constraint {
+    /// Three corners of a face and their shares in the point at `place` of the way from an end of ridges to the middle. Seen
+    /// along the normal it is the point that all four would have: forces there have no moment.
+    fn shares_on_ridge(&self, ridge: u32, half: usize, place: f64, normal: [f64; 3]) -> [(u32, f64); 3] {
+        let edge = &self.edges[ridge as usize];
+        let (end, across) = (edge.ends[half], edge.ends[1 - half]);
+        let at = |point: u32| subtract(self.motion.start(point), self.motion.start(end));
+        let corners = edge.points(self.faces);
+        let third = |half: usize| corners.iter().copied().filter(|corner| !edge.ends.contains(corner)).nth(half);
+        let others = [third(0).unwrap_or(end), third(1).unwrap_or(end)];
+        let to_place = scaled(add(at(across), add(at(others[0]), at(others[1]))), 0.25 * place);
+        let shares = |other: u32| {
+            let volume = dot(normal, cross(at(other), at(across)));
+            (dot(normal, cross(to_place, at(across))) / volume, dot(normal, cross(at(other), to_place)) / volume)
+        };
+        let found = others.map(|other| (other, shares(other)));
+        // The point lies in one of the two triangles, or on the line between them.
+        let (other, (own, beyond)) = if found[0].1.0 >= 0.0 { found[0] } else { found[1] };
+        if !(0.0..=1.0).contains(&own) || !(-0.5..=1.5).contains(&beyond) {
+            return [(end, 1.0 - 0.5 * place), (across, 0.5 * place), (end, 0.0)];
+        }
+        [(end, 1.0 - own - beyond), (across, beyond), (other, own)]
+    }
+
+    fn constraint(
+        &self,
+        (pair, half): ([u32; 2], usize),
+        end: &Crossing,
+        now: &EdgeContact,
+        gap: f64,
+        pairing: Pairing,
+    ) -> Constraint {
         let [a, b] = [self.edges[pair[0] as usize].ends, self.edges[pair[1] as usize].ends];
-        let [s, t] = self.places_along(pair, end);
+        let [s, t] = self.places_along(self.starts(pair, half), end);
+        let is_ridge = self.edges[pair[1] as usize].is_ridge();
+        let [(c, w), (d, v), (e, u)] = if is_ridge {
+            self.shares_on_ridge(pair[1], half, t, end.normal)
+        } else {
+            [(b[0], 1.0 - t), (b[1], t), (a[0], 0.0)]
+        };
         Constraint {
-            members: [a[0], a[1], b[0], b[1], a[0]],
-            weights: [1.0 - s, s, t - 1.0, -t, 0.0],
-            count: MEMBERS - 1,
+            members: [a[0], a[1], c, d, e],
+            weights: [1.0 - s, s, -w, -v, -u],
+            count: if is_ridge { MEMBERS } else { MEMBERS - 1 },
             normal: scaled(end.normal, now.sense),
             gap,
             growth: 0.0,
@@ -415,18 +426,6 @@ impl EdgeCheck<'_> {
             origin: Origin::Edges(pair[0], pair[1]),
         }
     }
-}
-
-/// Shortest way from the second of two edges to the first, between their ends (Ericson 2005).
-fn between(a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> [f64; 3] {
-    let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(a[0], b[0]));
-    let (uu, uv, vv, ur, vr) = (dot(u, u), dot(u, v), dot(v, v), dot(u, r), dot(v, r));
-    let within = |place: f64| if place > 0.0 { place.min(1.0) } else { 0.0 };
-    // Of edges that are parallel any place of the first will do; what is no number becomes 0.
-    let s = within((uv * vr - ur * vv) / (uu * vv - uv * uv));
-    let t = within((uv * s + vr) / vv);
-    let s = within((uv * t - ur) / uu);
-    subtract(add(r, scaled(u, s)), scaled(v, t))
 }
 
 /// How far around itself an edge looks for others, a length.
