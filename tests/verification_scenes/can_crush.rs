@@ -43,7 +43,7 @@ fn v29_coarse_can_is_crushed() {
     let text = with(RECIPE, "3,       40,     40,    HALF", "2,       24,     24,    HALF");
     let mesh = recipe(&with(&text, "28, 28, 3", "14, 14, 2"));
     let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    check("V-29 coarse", &run, &mesh);
+    check("V-29 coarse", &run, &mesh, 0.05);
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn v29_coarse_can_is_crushed() {
 fn v29_can_is_crushed() {
     let mesh = recipe(RECIPE);
     let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    check("V-29", &run, &mesh);
+    check("V-29", &run, &mesh, 0.05);
 }
 
 #[test]
@@ -59,11 +59,12 @@ fn v29_can_is_crushed() {
 fn v29_can_of_the_paper_is_crushed() {
     let mesh = recipe(PAPER_RECIPE);
     let run = run_on(2, &with(PAPER_DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    check("V-29 paper", &run, &mesh);
+    // Lines bent by up to 30 degrees pass each other.
+    check("V-29 paper", &run, &mesh, 0.06);
 }
 
-/// Energy, folds that touch, and no node inside anything.
-fn check(case: &str, run: &Run, mesh: &Mesh) {
+/// Energy, folds that touch, no node inside anything, and no edge deeper than this part of a face.
+fn check(case: &str, run: &Run, mesh: &Mesh, deepest_edge: f64) {
     between(case, "worst energy balance", run.worst_balance(), 0.0, 0.02);
     // What contact takes is booked apart, but must be as small: an elastic impact takes nothing.
     let taken = -run.last().totals.contact / run.initial_energy;
@@ -72,7 +73,7 @@ fn check(case: &str, run: &Run, mesh: &Mesh) {
     let lost = run.initial_energy - run.last().totals.kinetic;
     at_least(case, "energy that the can has taken up", lost, 0.5 * 2.9296e6);
     at_least(case, "nodes of the can that have touched the can in a state", folded(run, mesh) as f64, 20.0);
-    nothing_deeper(case, run, (mesh, &Skin::with_symmetry(mesh, 1)), [0.05; 2]);
+    nothing_deeper(case, run, (mesh, &Skin::with_symmetry(mesh, 1)), [0.05, deepest_edge]);
 }
 
 /// The number of nodes of the can that meet an element of the can in any state.
