@@ -118,13 +118,13 @@ fn a_fold_meets_an_edge() {
 }
 
 /// A cube whose top is warped by a tenth, two corners across from each other up, and over its middle a bar on its edge, along the
-/// line between the two corners that are down. Nothing of both meshes but the bulge is in the way between them.
-fn bar_over_a_bulge() -> Mesh {
-    let mut mesh = recipe(
+/// line between the two corners that are down, or so far `beside` it. Nothing of both meshes but the bulge is in the way between them.
+fn bar_over_a_bulge(beside: f64) -> Mesh {
+    let mut mesh = recipe(&format!(
         "TITLE\n bulge\nBOX, 1, -0.5, -0.5, -1., 1., 1., 1., 1, 1, 1\n\
          BOX, 2, -0.9, -0.1, -0.1, 1.8, 0.2, 0.2, 1, 1, 1\nROTATE, 2, X, 45.\nROTATE, 2, Z, 135.\n\
-         TRANSLATE, 2, 0.02, 0.02, 0.15\n",
-    );
+         TRANSLATE, 2, {beside}, {beside}, 0.16\n",
+    ));
     add_node_set(&mut mesh, 1, |p| p[2] < -0.9);
     let is_top = |at: &[f64; 3]| at[2].abs() < 1e-9 && (at[0].abs() - 0.5).abs() < 1e-9;
     for at in mesh.coordinates.iter_mut().filter(|at| is_top(at)) {
@@ -133,10 +133,10 @@ fn bar_over_a_bulge() -> Mesh {
     mesh
 }
 
-fn falling_on_a_bulge(edges: &str) -> String {
+fn falling_on_a_bulge(edges: &str, along: f64) -> String {
     format!(
         "TITLE\n bulge\nTERMINATION TIME, 0.02\nOUTPUT TIME, 1.E-3\nPLOT TIME, 5.E-4\n\
-         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nINITIAL VELOCITY MATERIAL, 2, 0., 0., -5.\nNO DISPLACEMENT, X, 1\n\
+         PLOT NODAL, DISPLACEMENT, VELOCITY, CONTACT\nINITIAL VELOCITY MATERIAL, 2, {along}, {along}, -5.\nNO DISPLACEMENT, X, 1\n\
          NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nCONTACT MATERIAL\nCONTACT EDGES, {edges}\n{}{}",
         elastic(1, 2000., 1e9, 0.3),
         elastic(2, 500., 1e8, 0.3)
@@ -145,14 +145,21 @@ fn falling_on_a_bulge(edges: &str) -> String {
 
 #[test]
 fn an_edge_does_not_dip_into_a_bulge() {
-    let mesh = bar_over_a_bulge();
-    let [with, without] = ["ALL", "ON"].map(|edges| run(&falling_on_a_bulge(edges), &mesh));
+    let mesh = bar_over_a_bulge(0.02);
+    let deck = falling_on_a_bulge("ALL", 0.0);
+    let [with, without] = [deck.clone(), falling_on_a_bulge("ON", 0.0)].map(|deck| run(&deck, &mesh));
     // Half a hundredth of a face is left to the nodes, and is where a ridge begins to answer.
     between("bulge", "deepest point of an edge, of a face", deepest_edge(&with, &mesh), 0.0, 0.01);
     at_least("bulge", "the same without ridges", deepest_edge(&without, &mesh), 0.05);
+    // Over the middle itself, to which both ridges fall, and from one ridge to the other.
+    for (beside, along) in [(0.0, 0.0), (-0.06, 6.0)] {
+        let mesh = bar_over_a_bulge(beside);
+        let run = run(&falling_on_a_bulge("ALL", along), &mesh);
+        between("bulge, middle", "deepest point of an edge, of a face", deepest_edge(&run, &mesh), 0.0, 0.01);
+    }
     between("bulge", "worst energy balance", with.worst_balance(), 0.0, 1e-3);
     let bits = |run: &Run| run.end().positions(&mesh).concat().iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-    let on_two = run_on(2, &falling_on_a_bulge("ALL"), &mesh).whole();
+    let on_two = run_on(2, &deck, &mesh).whole();
     assert!(bits(&on_two) == bits(&with), "positions differ on two ranks");
 }
 

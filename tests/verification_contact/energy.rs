@@ -179,7 +179,7 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
     }
     // Elements that have eroded are still in the mesh.
     let solids = mesh.shaped().all(|(shape, _)| shape == Shape::Hexahedron);
-    if found.stop.is_none() && settles && solids && kind != "perforation" {
+    if found.stop.is_none() && found.refusal.is_none() && settles && solids && kind != "perforation" {
         found.sunk = Skin::new(&mesh).sunk(&mesh.coordinates, &found.positions);
     }
     found.what = what;

@@ -6,7 +6,6 @@
 use super::faces::Faces;
 use super::projection::{area_normal, centre};
 use crate::common::vector::{dot, subtract};
-use std::collections::BTreeSet;
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;
@@ -174,16 +173,15 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bo
     let mut edges: Vec<Edge> = (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| Some(shaped(unshaped(same[0].0, pair_at(same, faces)?))))
         .collect();
-    // Ends say which edge is meant: of two with the same ends there is one.
-    let mut known: BTreeSet<[u32; 2]> = BTreeSet::new();
-    let is_edge = |ends: &[u32; 2]| sides.binary_search_by(|(own, _)| own.cmp(ends)).is_ok();
-    for &face in chosen.iter().filter(|_| ridges) {
-        for ends in diagonals(face, faces).into_iter().filter(|ends| !is_edge(ends)) {
-            if known.insert(ends) {
-                edges.push(shaped(unshaped(ends, [face; 2])));
-            }
-        }
-    }
+    // Ends say which edge is meant: of two with the same ends there is one, a side before ridges.
+    let with_ridges = chosen.iter().copied().filter(|_| ridges);
+    let of_faces =
+        with_ridges.flat_map(|face| diagonals(face, faces).into_iter().flatten().map(move |ends| (ends, face)));
+    let mut of_faces: Vec<([u32; 2], u32)> = of_faces.collect();
+    of_faces.sort_unstable();
+    of_faces.dedup_by_key(|(ends, _)| *ends);
+    of_faces.retain(|(ends, _)| sides.binary_search_by(|(own, _)| own.cmp(ends)).is_err());
+    edges.extend(of_faces.into_iter().map(|(ends, face)| shaped(unshaped(ends, [face; 2]))));
     edges.sort_unstable_by_key(|edge| edge.ends);
     edges.shrink_to_fit();
     edges
@@ -191,12 +189,10 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bo
 
 /// Ends of the ridges that a face may have: none of a triangle, nor of a surface, whose folds take so much passing of nodes from leaf to
 /// leaf that more constraints let more through.
-fn diagonals(face: u32, faces: &Faces) -> Vec<[u32; 2]> {
+fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
     let [a, b, c, d] = faces.corners[face as usize];
-    if faces.is_two_sided(face) || a == b || b == c || c == d || d == a {
-        return Vec::new();
-    }
-    vec![[a.min(c), a.max(c)], [b.min(d), b.max(d)]]
+    let has_four_sides = a != b && b != c && c != d && d != a;
+    (has_four_sides && !faces.is_two_sided(face)).then(|| [[a.min(c), a.max(c)], [b.min(d), b.max(d)]])
 }
 
 /// A face by its corners.

@@ -5,6 +5,9 @@ use crate::common::vector::{add, cross, dot, scaled, subtract};
 /// Smallest sine of the angle between edges that meet: nearly parallel edges are for nodes and faces.
 pub const CROSSING: f64 = 0.05;
 
+/// Parts of a line from one end to the other.
+pub const WHOLE: [f64; 2] = [0.0, 1.0];
+
 /// A straight line by its ends.
 pub type Line = [[f64; 3]; 2];
 
@@ -46,6 +49,12 @@ impl Crossing {
         (0..2).all(|i| self.places[i].min(1.0 - self.places[i]) * self.lengths[i] > depth)
     }
 
+    /// The same where the second may be crossed beyond its ends by parts of it: from `low` to `high`.
+    pub fn between(&self, depth: f64, [low, high]: [f64; 2]) -> bool {
+        let [first, second] = self.places;
+        first.min(1.0 - first) * self.lengths[0] > depth && (second - low).min(high - second) * self.lengths[1] > depth
+    }
+
     /// Length of the shorter one.
     pub fn shorter(&self) -> f64 {
         self.lengths[0].min(self.lengths[1])
@@ -62,14 +71,14 @@ pub struct QuickCrossing {
 }
 
 impl QuickCrossing {
-    /// How two lines cross; `None` where they do not between their ends.
+    /// How two lines cross; `None` where they do not between their ends, of the second from `low` to `high` of its length.
     #[inline(always)]
-    pub fn of([a, b]: [Line; 2]) -> Option<QuickCrossing> {
+    pub fn of([a, b]: [Line; 2], [low, high]: [f64; 2]) -> Option<QuickCrossing> {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
-        let within = |place: f64| place >= 0.0 && place <= square;
-        let crosses = within(dot(cross(r, v), product)) && within(dot(cross(r, u), product));
+        let within = |place: f64, [low, high]: [f64; 2]| place >= low * square && place <= high * square;
+        let crosses = within(dot(cross(r, v), product), WHOLE) && within(dot(cross(r, u), product), [low, high]);
         crosses.then(|| QuickCrossing { product, square, fall: dot(r, product) })
     }
 }

@@ -17,7 +17,7 @@ use crate::solver::contact::geometry::projection::{area_normal, centre};
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
-use lines::{CROSSING, Crossing, Line, QuickCrossing, between};
+use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE, between};
 
 /// Smallest sine of the angle between edges of surfaces that meet, which have no inside: ends that lie on both sides of an edge are apart by this part of it, and the
 /// side on which they stay must be known by then.
@@ -38,6 +38,10 @@ const SLACK: f64 = 0.005;
 
 /// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
 const SUNK: f64 = 0.05;
+
+/// Part of a ridge by which an edge may cross it beyond the middle of the face. Both fall towards the middle, so that an edge below it
+/// crosses neither.
+const BEYOND_MIDDLE: f64 = 0.05;
 
 /// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
 const STEEP: f64 = 0.8;
@@ -90,7 +94,17 @@ pub struct EdgeCheck<'a> {
 }
 
 impl EdgeCheck<'_> {
-    /// Two edges as lines; of ridges the one from their first end, or the second, to the middle of the face.
+    /// From where to where an edge, or a half of ridges, may be crossed, as parts of it.
+    #[inline(always)]
+    fn parts(&self, edge: u32, half: usize) -> [f64; 2] {
+        match (self.edges[edge as usize].is_ridge(), half) {
+            (false, _) => WHOLE,
+            (true, 0) => [0.0, 1.0 + BEYOND_MIDDLE],
+            (true, _) => [-BEYOND_MIDDLE, 1.0],
+        }
+    }
+
+    /// Two edges as lines; of ridges the one from their first end to the middle of the face, or on from there to the second.
     #[inline(always)]
     fn lines(&self, pair: [u32; 2], half: usize, at: impl Fn(u32) -> [f64; 3]) -> [Line; 2] {
         let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
@@ -99,7 +113,8 @@ impl EdgeCheck<'_> {
             return [own, [at(second.ends[0]), at(second.ends[1])]];
         }
         let [a, b, c, d] = second.points(self.faces);
-        [own, [at(second.ends[half]), centre(&[at(a), at(b), at(c), at(d)])]]
+        let middle = centre(&[at(a), at(b), at(c), at(d)]);
+        [own, if half == 0 { [at(second.ends[0]), middle] } else { [middle, at(second.ends[1])] }]
     }
 
     /// The same at the beginning of the step.
@@ -129,8 +144,8 @@ impl EdgeCheck<'_> {
     /// Box around the path of an edge over the step.
     fn swept_box(&self, edge: u32) -> Box3 {
         let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
-        let at = |point: u32| [self.motion.start(point), self.motion.end(point)];
-        Box3::around(&[at(a), at(b), at(c), at(d)].concat())
+        let (start, end) = (|point: u32| self.motion.start(point), |point: u32| self.motion.end(point));
+        Box3::around(&[start(a), start(b), start(c), start(d), end(a), end(b), end(c), end(d)])
     }
 
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
@@ -207,7 +222,7 @@ impl EdgeCheck<'_> {
         // that go over its border.
         let (depth, deepest) =
             if of_surface { (0.0, DEEP * reach + distance) } else { ((-gap).max(0.0), DEEP * reach) };
-        if !end.between_ends(depth) || gap > KEEP * reach || gap < -deepest {
+        if !end.between(depth, self.parts(pair[1], half)) || gap > KEEP * reach || gap < -deepest {
             return None;
         }
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
@@ -216,11 +231,13 @@ impl EdgeCheck<'_> {
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
     #[inline(always)]
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
-        let first = QuickCrossing::of(self.ends(pair, 0));
+        let of = |half: usize, parts: [f64; 2]| QuickCrossing::of(self.ends(pair, half), parts);
+        let first = of(0, WHOLE);
         if first.is_some() || !self.edges[pair[1] as usize].is_ridge() {
             return first;
         }
-        QuickCrossing::of(self.ends(pair, 1))
+        let beyond = |half: usize| of(half, self.parts(pair[1], half));
+        of(1, WHOLE).or_else(|| beyond(0)).or_else(|| beyond(1))
     }
 
     /// Whether the edge that crosses a line does so on the outside, or hardly inside.
@@ -244,7 +261,7 @@ impl EdgeCheck<'_> {
         }
         let half = self.half(pair);
         let end = Crossing::of(self.ends(pair, half))?;
-        if !end.between_ends(0.0) {
+        if !end.between(0.0, self.parts(pair[1], half)) {
             return None;
         }
         let line = self.outwards(pair[1]);
@@ -407,7 +424,7 @@ impl EdgeCheck<'_> {
         let [s, t] = self.places_along(self.starts(pair, half), end);
         let is_ridge = self.edges[pair[1] as usize].is_ridge();
         let [(c, w), (d, v), (e, u)] = if is_ridge {
-            self.shares_on_ridge(pair[1], half, t, end.normal)
+            self.shares_on_ridge(pair[1], half, if half == 0 { t } else { 1.0 - t }, end.normal)
         } else {
             [(b[0], 1.0 - t), (b[1], t), (a[0], 0.0)]
         };

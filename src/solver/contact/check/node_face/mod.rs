@@ -289,7 +289,6 @@ impl NodeFaceCheck<'_> {
         contacts: &mut Vec<DetectedContact>,
     ) {
         let (slightly, normal) = (left.outside <= HOLD * self.faces.size[old as usize], left.normal);
-        let is_solid = !self.faces.is_two_sided(old);
         let (mut behind, mut rises) = (false, false);
         let mut next: Option<(u32, Projection, (bool, f64, f64))> = None;
         let to = |&face: &u32| {
@@ -309,9 +308,13 @@ impl NodeFaceCheck<'_> {
             // What slides along a sharp edge of a solid stays as far beyond as on the face that it leaves, before it goes around
             // the corner. In a plane of symmetry, where faces need not stand upright, feet fall beside them, and the face in the
             // plane has its gap closed for ever. Surfaces are round at their borders.
+            let is_solid = !self.faces.is_two_sided(old) && !self.faces.is_two_sided(face);
             let goes_around = is_solid && !self.goes_on(old, face, &left, &projection);
-            let beyond =
-                if is_solid && !slightly && !goes_around { HOLD * self.faces.size[face as usize] } else { 0.0 };
+            let beyond = if is_solid && !slightly && !goes_around && self.faces.distance(point, face) == 0.0 {
+                HOLD * self.faces.size[face as usize]
+            } else {
+                0.0
+            };
             let found = (goes_around, projection.outside, projection.gap.abs());
             if projection.outside <= beyond
                 && self.in_reach(face, &projection, tolerated)
