@@ -7,6 +7,7 @@
 //! in the mesh.
 
 use super::run::Run;
+use urto::mesh::corners::all_corners_are_sound;
 use urto::mesh::{HEX_SIDES, Mesh};
 
 type Point = [f64; 3];
@@ -112,11 +113,11 @@ impl Skin {
         self.find(self.nodes.iter().map(|&n| Sample { x: positions[n as usize], own: [n, n] }), positions)
     }
 
-    /// How deep the deepest node is that has come to be inside an element since the start, as a part of a face, where no corner of that element
-    /// nor of the node's own has turned inside out, and they are no neighbours.
+    /// Depth, as a part of a face, of the deepest node that has come to be inside an element since the start: of elements that are no
+    /// neighbours of the node's own, where no corner of any of them has turned inside out.
     pub fn sunk(&self, start: &[Point], now: &[Point]) -> f64 {
         let before: Vec<u32> = self.inside(start).iter().map(|inside| inside.own[0]).collect();
-        let is_sound = |nodes: &[u32; 8]| has_no_corner_inside_out(&nodes.map(|n| now[n as usize]));
+        let is_sound = |nodes: &[u32; 8]| all_corners_are_sound(&nodes.map(|n| now[n as usize]));
         let is_foreign = |inside: &Inside| {
             let element = &self.elements[inside.element as usize];
             let mut own = self.elements.iter().filter(|nodes| nodes.contains(&inside.own[0]));
@@ -224,15 +225,6 @@ fn bodies(elements: &[[u32; 8]], nodes: usize) -> Vec<u32> {
         }) as u32
     };
     elements.iter().map(&mut number).collect()
-}
-
-fn has_no_corner_inside_out(x: &[Point; 8]) -> bool {
-    const BESIDE: [[usize; 3]; 8] =
-        [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]];
-    BESIDE.iter().zip(x).all(|(beside, at)| {
-        let [a, b, c] = beside.map(|corner| minus(x[corner], *at));
-        dot(a, cross(b, c)) > 0.0
-    })
 }
 
 fn bounds(nodes: &[u32; 8], positions: &[Point]) -> [Point; 2] {

@@ -3,7 +3,7 @@
 //! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact.
 
 use crate::support::meshes::{add_node_set, recipe};
-use crate::support::penetration::{Skin, deepest};
+use crate::support::penetration::{Inside, Skin, deepest};
 use crate::support::run::{Run, model, run, run_on};
 use crate::support::{at_least, between};
 use urto::mesh::Mesh;
@@ -12,10 +12,18 @@ use urto::solver::Body;
 /// Deepest point of an edge in any plot state, as a part of a face.
 fn deepest_edge(run: &Run, mesh: &Mesh) -> f64 {
     let skin = Skin::new(mesh);
-    let of = |state: &crate::support::run::State| {
-        deepest(skin.edges_inside(&state.positions(mesh))).map_or(0.0, |one| one.part)
-    };
-    run.states.iter().map(of).fold(0.0, f64::max)
+    deepest_of(run, mesh, |at| skin.edges_inside(at))
+}
+
+/// The deepest of what is inside in any plot state, as a part of a face.
+fn deepest_of(run: &Run, mesh: &Mesh, inside: impl Fn(&[[f64; 3]]) -> Vec<Inside>) -> f64 {
+    let of_states = run.states.iter().filter_map(|state| deepest(inside(&state.positions(mesh))));
+    of_states.map(|one| one.part).fold(0.0, f64::max)
+}
+
+/// Every bit of the positions at the end.
+fn bits(run: &Run, mesh: &Mesh) -> Vec<u64> {
+    run.end().positions(mesh).as_flattened().iter().map(|x| x.to_bits()).collect()
 }
 
 fn elastic(block: usize, density: f64, modulus: f64, poisson: f64) -> String {
@@ -158,9 +166,8 @@ fn an_edge_does_not_dip_into_a_bulge() {
         between("bulge, middle", "deepest point of an edge, of a face", deepest_edge(&run, &mesh), 0.0, 0.01);
     }
     between("bulge", "worst energy balance", with.worst_balance(), 0.0, 1e-3);
-    let bits = |run: &Run| run.end().positions(&mesh).concat().iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
     let on_two = run_on(2, &deck, &mesh).whole();
-    assert!(bits(&on_two) == bits(&with), "positions differ on two ranks");
+    assert!(bits(&on_two, &mesh) == bits(&with, &mesh), "positions differ on two ranks");
 }
 
 /// Half of a rail and half of a slider on it, cut by a plane of symmetry; both slope there, so that what presses on the rail has its
@@ -189,16 +196,15 @@ fn what_slides_along_a_plane_of_symmetry_stays_outside() {
     );
     let run = run(&deck, &mesh);
     let skin = Skin::with_symmetry(&mesh, 1);
-    let of =
-        |state: &crate::support::run::State| deepest(skin.inside(&state.positions(&mesh))).map_or(0.0, |one| one.part);
     // Passes leave a hundred-thousandth of a face; a node that is lost sinks in by as much as the slider is pressed flat.
-    between("slider", "deepest node, of a face", run.states.iter().map(of).fold(0.0, f64::max), 0.0, 1e-3);
-    let way = run.end().positions(&mesh)[skin_node(&mesh)][0] - mesh.coordinates[skin_node(&mesh)][0];
+    between("slider", "deepest node, of a face", deepest_of(&run, &mesh, |at| skin.inside(at)), 0.0, 1e-3);
+    let node = node_of_slider(&mesh);
+    let way = run.end().positions(&mesh)[node][0] - mesh.coordinates[node][0];
     at_least("slider", "way, in faces", way / 0.1, 4.0);
 }
 
 /// A node of the slider in the plane of symmetry.
-fn skin_node(mesh: &Mesh) -> usize {
+fn node_of_slider(mesh: &Mesh) -> usize {
     let of_slider = |at: &[f64; 3]| at[1] == 0.0 && at[2] > 0.07;
     mesh.coordinates.iter().position(of_slider).expect("the slider's upper side")
 }
@@ -207,10 +213,9 @@ fn skin_node(mesh: &Mesh) -> usize {
 fn folds_are_the_same_on_any_number_of_ranks() {
     let mesh = tent();
     let deck = folding("ALL");
-    let bits = |run: &Run| run.end().positions(&mesh).concat().iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-    let one = bits(&run(&deck, &mesh));
+    let one = bits(&run(&deck, &mesh), &mesh);
     for ranks in [2, 3, 5] {
-        assert!(bits(&run_on(ranks, &deck, &mesh).whole()) == one, "positions differ on {ranks} ranks");
+        assert!(bits(&run_on(ranks, &deck, &mesh).whole(), &mesh) == one, "positions differ on {ranks} ranks");
     }
 }
 

@@ -187,8 +187,8 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bo
     edges
 }
 
-/// Ends of the ridges that a face may have: none of a triangle, nor of a surface, whose folds take so much passing of nodes from leaf to
-/// leaf that more constraints let more through.
+/// Ends of the ridges that a face of a solid may have: none of a triangle. In folds of surfaces ridges let more through than they hold
+/// (docs/decisions.md, "A bulge has ridges").
 fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
     let [a, b, c, d] = faces.corners[face as usize];
     let has_four_sides = a != b && b != c && c != d && d != a;

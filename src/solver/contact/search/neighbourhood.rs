@@ -93,10 +93,9 @@ pub fn edges_near(
     let ends = contact_nodes.list.iter().map(|contact_node| contact_nodes.reach([contact_node.point; 4]));
     let cells: Vec<CellRange> = ends.map(|of| occupied.cells_of(&of.grown(farthest))).collect();
     let are_near = |edge: &Edge| match edge.points(&layout.faces).map(|point| contact_nodes.of(point)) {
-        [Some(a), Some(b), Some(c), Some(d)] if edge.is_ridge() => {
-            occupied.any(cells[a].joined(cells[b]).joined(cells[c]).joined(cells[d]))
+        [Some(a), Some(b), Some(c), Some(d)] => {
+            occupied.any(cells[a].joined(cells[b]).joined(cells[c].joined(cells[d])))
         }
-        [Some(a), Some(b), ..] => occupied.any(cells[a].joined(cells[b])),
         _ => true,
     };
     let mut all = Boxes::default();

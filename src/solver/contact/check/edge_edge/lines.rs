@@ -46,11 +46,11 @@ impl Crossing {
     /// Whether they cross between their ends, by more than `depth` from every end: nearer to an end, a node or another
     /// edge is in the way before these two.
     pub fn between_ends(&self, depth: f64) -> bool {
-        (0..2).all(|i| self.places[i].min(1.0 - self.places[i]) * self.lengths[i] > depth)
+        self.within(depth, WHOLE)
     }
 
-    /// The same where the second may be crossed beyond its ends by parts of it: from `low` to `high`.
-    pub fn between(&self, depth: f64, [low, high]: [f64; 2]) -> bool {
+    /// The same where the second line reaches from `low` to `high`, as parts of it.
+    pub fn within(&self, depth: f64, [low, high]: [f64; 2]) -> bool {
         let [first, second] = self.places;
         first.min(1.0 - first) * self.lengths[0] > depth && (second - low).min(high - second) * self.lengths[1] > depth
     }
@@ -71,7 +71,7 @@ pub struct QuickCrossing {
 }
 
 impl QuickCrossing {
-    /// How two lines cross; `None` where they do not between their ends, of the second from `low` to `high` of its length.
+    /// How two lines cross; `None` where they do not between their ends, where the second reaches from `low` to `high`, as parts of it.
     #[inline(always)]
     pub fn of([a, b]: [Line; 2], [low, high]: [f64; 2]) -> Option<QuickCrossing> {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));

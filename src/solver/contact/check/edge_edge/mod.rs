@@ -19,8 +19,8 @@ use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
 use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE, between};
 
-/// Smallest sine of the angle between edges of surfaces that meet, which have no inside: ends that lie on both sides of an edge are apart by this part of it, and the
-/// side on which they stay must be known by then.
+/// The same as [`CROSSING`] of edges of surfaces, which have no inside: ends that lie on both sides of an edge are apart by this part of
+/// it, and the side on which they stay must be known by then.
 const CROSSING_OF_SURFACES: f64 = 0.01;
 
 /// Least cosine between the way from one edge of a surface to another at the beginning of a step and the normal to both at its end.
@@ -94,7 +94,7 @@ pub struct EdgeCheck<'a> {
 }
 
 impl EdgeCheck<'_> {
-    /// From where to where an edge, or a half of ridges, may be crossed, as parts of it.
+    /// How far an edge, or a half of ridges, reaches for what crosses it, from and to as parts of it: see [`BEYOND_MIDDLE`].
     #[inline(always)]
     fn parts(&self, edge: u32, half: usize) -> [f64; 2] {
         match (self.edges[edge as usize].is_ridge(), half) {
@@ -222,7 +222,7 @@ impl EdgeCheck<'_> {
         // that go over its border.
         let (depth, deepest) =
             if of_surface { (0.0, DEEP * reach + distance) } else { ((-gap).max(0.0), DEEP * reach) };
-        if !end.between(depth, self.parts(pair[1], half)) || gap > KEEP * reach || gap < -deepest {
+        if !end.within(depth, self.parts(pair[1], half)) || gap > KEEP * reach || gap < -deepest {
             return None;
         }
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
@@ -261,7 +261,7 @@ impl EdgeCheck<'_> {
         }
         let half = self.half(pair);
         let end = Crossing::of(self.ends(pair, half))?;
-        if !end.between(0.0, self.parts(pair[1], half)) {
+        if !end.within(0.0, self.parts(pair[1], half)) {
             return None;
         }
         let line = self.outwards(pair[1]);

@@ -296,11 +296,11 @@ impl NodeFaceCheck<'_> {
         };
         for face in faces_of(near).filter(to) {
             // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
-            let Some(projection) =
-                self.projection_at_end(point, face).filter(|next| !slightly || self.goes_on(old, face, &left, next))
-            else {
+            let Some(projection) = self.projection_at_end(point, face) else { continue };
+            let goes_on = self.goes_on(old, face, &left, &projection);
+            if slightly && !goes_on {
                 continue;
-            };
+            }
             if projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs() {
                 behind = true;
                 rises |= self.rises(old, face, normal);
@@ -309,8 +309,8 @@ impl NodeFaceCheck<'_> {
             // the corner. In a plane of symmetry, where faces need not stand upright, feet fall beside them, and the face in the
             // plane has its gap closed for ever. Surfaces are round at their borders.
             let is_solid = !self.faces.is_two_sided(old) && !self.faces.is_two_sided(face);
-            let goes_around = is_solid && !self.goes_on(old, face, &left, &projection);
-            let beyond = if is_solid && !slightly && !goes_around && self.faces.distance(point, face) == 0.0 {
+            let goes_around = is_solid && !goes_on;
+            let beyond = if is_solid && !slightly && goes_on && self.faces.distance(point, face) == 0.0 {
                 HOLD * self.faces.size[face as usize]
             } else {
                 0.0
