@@ -169,7 +169,7 @@ fn split(recipe: &Recipe, assembly: &mut Assembly, diagnostics: &mut Diagnostics
 
 fn divide(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnostics) {
     for triangles in &recipe.triangles {
-        if !changes::triangles::divide(&mut assembled.mesh, triangles.block, triangles.pattern) {
+        if !changes::triangles::divide(assembled, triangles.block, triangles.pattern) {
             diagnostics.push(
                 Diagnostic::error(format!("TRIANGLES: block {} has no quadrilaterals of a surface", triangles.block))
                     .at(triangles.place.span, "nothing is divided")

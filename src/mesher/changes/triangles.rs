@@ -1,6 +1,7 @@
 //! TRIANGLES: quadrilaterals of surfaces divided into triangles.
 
-use crate::mesh::{Mesh, Shape};
+use crate::mesh::Shape;
+use crate::mesher::assembly::Assembled;
 use std::collections::BTreeMap;
 
 /// How a quadrilateral is divided.
@@ -25,11 +26,13 @@ impl Pattern {
     }
 }
 
-/// Divides the surfaces of a block; whether there are any. Elements are numbered anew.
-pub fn divide(mesh: &mut Mesh, id: i64, pattern: Pattern) -> bool {
+/// Divides the surfaces of a block; whether there are any. Elements are numbered anew, also in the named faces.
+pub fn divide(assembled: &mut Assembled, id: i64, pattern: Pattern) -> bool {
+    let Assembled { mesh, faces } = assembled;
     let Some(place) = mesh.blocks.iter().position(|block| block.id == id && block.shape == Shape::Quadrilateral) else {
         return false;
     };
+    let behind = mesh.blocks[..=place].iter().map(|block| block.len() as u32).sum::<u32>();
     let block = &mut mesh.blocks[place];
     let quads: Vec<[u32; 4]> = block.nodes.chunks_exact(4).map(|quad| [quad[0], quad[1], quad[2], quad[3]]).collect();
     let turned = if pattern == Pattern::Alternating { odd(&quads) } else { vec![false; quads.len()] };
@@ -47,6 +50,9 @@ pub fn divide(mesh: &mut Mesh, id: i64, pattern: Pattern) -> bool {
             block.nodes.extend([a, b, c, a, c, d]);
         }
     }
+    let more = (block.len() - quads.len()) as u32;
+    let sides = faces.iter_mut().flat_map(|(_, faces)| faces).flat_map(|(_, sides)| sides);
+    sides.filter(|(element, _)| *element >= behind).for_each(|(element, _)| *element += more);
     mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
     mesh.element_ids = (1..=mesh.element_count() as i64).collect();
     true
@@ -103,5 +109,27 @@ mod tests {
         counts.sort_unstable();
         assert_eq!(counts, [4, 8]);
         assert!(mesher::make("BOX, 1, 0, 0, 0, 3, 2, 1, 3, 2, 1\nTRIANGLES, 1\n", "t", 1).is_err());
+    }
+
+    /// Elements behind those that are divided are others by number: their named faces stay where they are.
+    #[test]
+    fn faces_of_blocks_behind_stay_where_they_are() {
+        for pattern in ["", "DIAGONAL", "CROSS"] {
+            let sheet = format!(
+                "SHEET, 1, 0, 0, 0, 3, 2, 0, 3, 2\nTRIANGLES, 1, {pattern}\nSHEET, 4, 0, 0, 9, 3, 2, 0, 3, 2\n"
+            );
+            let boxes = "BOX, 2, 0, 0, 1, 3, 2, 2, 3, 2, 2\nNODE SET FACE, 1, 2, TOP\nSIDE SET FACE, 10, 2, TOP\n";
+            let mesh = mesher::make(&format!("{sheet}{boxes}"), "t", 1).expect("a mesh");
+            let nodes = &mesh.node_set(1).expect("a node set").nodes;
+            assert_eq!(nodes.len(), 12, "{pattern}");
+            assert!(nodes.iter().all(|&node| mesh.coordinates[node as usize][2] == 3.0), "{pattern}");
+            let sides = &mesh.side_set(10).expect("a side set").sides;
+            assert_eq!(sides.len(), 6);
+            let elements: Vec<&[u32]> = mesh.elements().map(|(_, nodes)| nodes).collect();
+            for (element, side) in sides {
+                let corners = crate::mesh::HEX_SIDES[*side as usize].map(|c| elements[*element as usize][c]);
+                assert!(corners.iter().all(|&node| mesh.coordinates[node as usize][2] == 3.0), "{pattern}");
+            }
+        }
     }
 }
