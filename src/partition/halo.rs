@@ -33,6 +33,8 @@ pub struct Decomposition<'a> {
     node_count: usize,
     /// Number of the first rotation: local numbers of rotations come behind those of all nodes.
     first_rotation: usize,
+    /// The node of each rotation, ascending.
+    turning: &'a [u32],
     /// `members[group][rank]`: the contributors that a rank computes, ascending.
     members: Vec<Vec<Vec<u32>>>,
     /// Nodes with contributions from several ranks, ascending.
@@ -61,7 +63,8 @@ pub struct Share {
     pub groups: Vec<LocalGroup>,
     /// Mesh node numbers of the local nodes, which are numbered in the order of their first use; behind them rotations.
     pub nodes: Vec<u32>,
-    /// Whether this rank, the lowest of the node's sharers, answers for the node in output and sums over nodes.
+    /// Whether this rank answers for the node in output and sums over nodes: it is the lowest of the node's sharers, or of those of
+    /// its rotation, where there is one.
     pub owned: Vec<bool>,
     /// The ranks with which nodes are shared, ascending.
     pub neighbours: Vec<Neighbour>,
@@ -122,12 +125,12 @@ impl<'a> Decomposition<'a> {
     /// Finds the shared nodes among `node_count` nodes, computed by `ranks` ranks. All node and rank numbers in
     /// `groups` must be below these. The groups come in canonical order.
     pub fn new(groups: &'a [Contributors<'a>], node_count: usize, ranks: usize) -> Self {
-        Self::with_rotations(groups, [node_count, 0], ranks)
+        Self::with_rotations(groups, node_count, &[], ranks)
     }
 
-    /// The same with so many nodes, and rotations that are numbered behind them.
-    pub fn with_rotations(groups: &'a [Contributors<'a>], [nodes, rotations]: [usize; 2], ranks: usize) -> Self {
-        let node_count = nodes + rotations;
+    /// The same with rotations of these nodes, ascending, which are numbered behind the nodes.
+    pub fn with_rotations(groups: &'a [Contributors<'a>], nodes: usize, turning: &'a [u32], ranks: usize) -> Self {
+        let node_count = nodes + turning.len();
         let members = groups.iter().map(|group| members_by_rank(group, ranks)).collect();
         let shared_nodes = find_shared_nodes(groups, node_count);
         let (first, corners) = collect_corners(groups, node_count, ranks, &shared_nodes);
@@ -137,7 +140,7 @@ impl<'a> Decomposition<'a> {
                 shared_by[rank as usize].push(position);
             }
         }
-        Self { groups, node_count, first_rotation: nodes, members, shared_nodes, first, corners, shared_by }
+        Self { groups, node_count, first_rotation: nodes, turning, members, shared_nodes, first, corners, shared_by }
     }
 
     /// The share of one rank, in O(size of the share).
@@ -173,6 +176,7 @@ impl<'a> Decomposition<'a> {
             share.add_shared_node(node, self.corners_of(*position));
         }
         share.mark_border(local.nodes.len());
+        self.own_with_rotations(&local, &mut share.owned);
         share.nodes = local.nodes;
         share
     }
@@ -182,6 +186,16 @@ impl<'a> Decomposition<'a> {
         for (group, members) in self.groups.iter().zip(&self.members) {
             let nodes = members[rank].iter().flat_map(|&member| &group.nodes[member as usize]);
             nodes.filter(|&&node| (node as usize) < self.first_rotation).for_each(|&node| _ = local.number(node));
+        }
+    }
+
+    /// Lets the rank that answers for a rotation answer for its node: ranks with only such elements at it as do not turn know
+    /// nothing of the rotation.
+    fn own_with_rotations(&self, local: &LocalNumbers, owned: &mut [bool]) {
+        for (rotation, &node) in (self.first_rotation as u32..).zip(self.turning) {
+            if let Some(node) = local.known(node) {
+                owned[node as usize] = local.known(rotation).is_some_and(|rotation| owned[rotation as usize]);
+            }
         }
     }
 
@@ -324,6 +338,11 @@ impl LocalNumbers {
             *local = self.nodes.len() as u32;
         }
         *local - 1
+    }
+
+    /// The local number of a node that has been asked for.
+    fn known(&self, node: u32) -> Option<u32> {
+        self.local[node as usize].checked_sub(1)
     }
 }
 

@@ -184,6 +184,18 @@ fn swinging_cantilever() {
     on_any_number_of_ranks(&cantilever());
 }
 
+/// A block with a skin of shells that turns: a node may belong to a rank that has only hexahedra there, and so knows nothing of the
+/// rotation that is plotted.
+#[test]
+fn rotations_of_a_skin_on_a_solid() {
+    let turn = |block: u32| format!("INITIAL VELOCITY ANGULAR, {block}, 20., 0.1, 0., 0., 0.3, 1., 0.2\n");
+    let deck = "TITLE\n skin\nTERMINATION TIME, 2.E-5\nOUTPUT TIME, 1.E-6\nPLOT TIME, 5.E-6\n\
+                PLOT NODAL, DISPLACEMENT, ROTATION, ROTATION RATE\nSHELL THICKNESS, 5, 0.002\n";
+    let deck = format!("{deck}{}{}{}{}EXIT\n", turn(1), turn(5), steel(1), steel(5));
+    let recipe = "TITLE\n skin\nBOX, 1, 0., 0., 0., 0.1, 0.04, 0.04, 10, 4, 4\nSHEET, 5, 0., 0., 0.04, 0.1, 0.04, 0., 10, 4\nMERGE\n";
+    on_any_number_of_ranks(&desk_of(&deck, recipe));
+}
+
 #[test]
 fn bricks_scatter() {
     let words = [("6, 35, 6", "3, 15, 3"), ("6, 3, 3", "3, 2, 2"), ("3, 3, 3", "2, 2, 2"), ("38, 4, 42", "10, 2, 12")];

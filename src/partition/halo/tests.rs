@@ -164,6 +164,23 @@ fn a_node_of_eight_ranks_has_eight_sources_everywhere() {
     }
 }
 
+/// A hexahedron of the first rank and a bar of the second that can turn: the second answers for the node of both, since the first knows
+/// nothing of its rotation.
+#[test]
+fn who_answers_for_a_rotation_answers_for_its_node() {
+    let mut nodes = Connectivity::default();
+    nodes.push(Shape::Hexahedron, 0..8);
+    nodes.push(Shape::Bar, [3, 8, 9, 10]);
+    let groups = [Contributors { nodes: &nodes, ranks: &[0, 1] }];
+    let decomposition = Decomposition::with_rotations(&groups, 9, &[3, 8], 2);
+    let owned_of = |share: Share| -> Vec<u32> {
+        let owned = share.nodes.iter().zip(&share.owned).filter(|(_, owned)| **owned);
+        owned.map(|(node, _)| *node).collect()
+    };
+    assert_eq!(owned_of(decomposition.share(0)), [0, 1, 2, 4, 5, 6, 7]);
+    assert_eq!(owned_of(decomposition.share(1)), [3, 8, 9, 10]);
+}
+
 #[test]
 fn one_rank_shares_nothing() {
     let (nodes, centroids) = box_of_hexes([3, 2, 1]);

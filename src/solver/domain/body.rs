@@ -103,8 +103,8 @@ impl Body {
     }
 
     /// The body cut into shares.
-    pub fn decomposition<'a>(&self, contributors: &'a [Contributors<'a>], ranks: usize) -> Decomposition<'a> {
-        Decomposition::with_rotations(contributors, [self.positions.len(), self.rotations.len()], ranks)
+    pub fn decomposition<'a>(&'a self, contributors: &'a [Contributors<'a>], ranks: usize) -> Decomposition<'a> {
+        Decomposition::with_rotations(contributors, self.positions.len(), self.rotations.turning(), ranks)
     }
 
     /// Position of a node; of a rotation, which has none, that of a node that has not turned.

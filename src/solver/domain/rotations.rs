@@ -35,9 +35,9 @@ impl Rotations {
         behind.and_then(|place| self.turning.get(place)).copied().unwrap_or(number)
     }
 
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.turning.len()
+    /// The nodes that can turn, ascending.
+    pub fn turning(&self) -> &[u32] {
+        &self.turning
     }
 
     /// Whether no node can turn.
