@@ -182,7 +182,10 @@ fn steps(
             return Err(endless.into());
         }
         let last = agreed != Request::Continue || solver.is_at_end();
-        if solver.is_ending() && !writer.restarts_closed {
+        if !solver.is_ending() {
+            // Steps may become so short that an end that was near is far again.
+            writer.restarts_closed = false;
+        } else if !writer.restarts_closed {
             writer.last_whole_state(before, solver, comm)?;
         }
         let plot_due = plots.due(solver.time, solver.time_step);

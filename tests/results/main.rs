@@ -1,5 +1,6 @@
 //! Files that a run leaves: in pieces, for other programs, when it is killed, and to go on from.
 
+mod ends;
 mod kill;
 mod other_programs;
 mod pieces;

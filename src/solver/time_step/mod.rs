@@ -17,8 +17,12 @@ use frequency::Votes;
 /// Part of a step within which a time counts as reached.
 pub(super) const REACHED: f64 = 1e-6;
 
-/// So many steps at the end are made alike, and shorter by a twentieth at most, so that the last one reaches the end.
+/// So many steps at the end are made alike, and shorter by a twentieth at most, so that the last one reaches the end. Where the step
+/// that can be taken shrinks meanwhile, one more of them may be needed, and the very last are then shorter by more.
 const LAST_STEPS: f64 = 20.0;
+
+/// Where so many times as many steps are left as are made alike, because they have become shorter, the end is no longer near.
+const RECEDES: f64 = 1.25;
 
 impl Solver {
     /// Lets the last steps be shorter, so that they reach this time. Without it, steps are as long as they can be.
@@ -32,7 +36,7 @@ impl Solver {
     }
 
     /// Whether the step from the present, prepared state, or one before it, is shorter than it could be, so that the run ends
-    /// where it shall.
+    /// where it shall; no longer where so many more steps have become necessary that the end is far.
     pub fn is_ending(&self) -> bool {
         self.ending
     }
@@ -91,7 +95,8 @@ impl Solver {
         let agreed = Request::from_number(-wish);
         // A run that is stopped before its end goes on with the step that it would have taken.
         self.time_step = if agreed == Request::Continue { self.up_to_the_end(last) } else { self.whole_step };
-        self.ending |= self.time_step < self.whole_step;
+        let is_near = self.end.is_some_and(|end| end - self.time <= RECEDES * LAST_STEPS * self.whole_step);
+        self.ending = self.time_step < self.whole_step || self.ending && is_near;
         self.kick = 0.5 * (if self.step == 0 { 0.0 } else { last } + self.time_step);
         Ok(agreed)
     }
