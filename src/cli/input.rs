@@ -11,7 +11,7 @@ use crate::mesh::{Mesh, check::unreferenced_nodes, plane};
 use crate::mesher;
 use crate::model::{Problem, examine};
 use crate::solver::elements::Unfit;
-use crate::solver::{Body, idle_rotations, unfit_blocks};
+use crate::solver::{Body, idle_deaths, idle_rotations, unfit_blocks};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -138,12 +138,12 @@ impl Given {
     pub fn warnings(&self) -> Option<String> {
         let found = &self.problem.diagnostics;
         let deck = found.warnings().next().is_some().then(|| render(found));
-        let warnings: Vec<String> = deck.into_iter().chain(self.idle_nodes()).chain(self.idle_rotations()).collect();
+        let warnings: Vec<String> = deck.into_iter().chain(self.idle()).collect();
         (!warnings.is_empty()).then(|| warnings.join("\n"))
     }
 
     /// A warning about nodes that belong to no element: they have no mass and take no part.
-    pub fn idle_nodes(&self) -> Option<String> {
+    fn idle_nodes(&self) -> Option<String> {
         let idle = unreferenced_nodes(&self.mesh);
         let first: Vec<String> =
             idle.iter().take(5).map(|&node| self.mesh.node_ids[node as usize].to_string()).collect();
@@ -160,8 +160,25 @@ impl Given {
 }
 
 impl Given {
+    /// Warnings about what is in deck or mesh and has no effect.
+    pub fn idle(&self) -> impl Iterator<Item = String> {
+        [self.idle_nodes(), self.idle_rotations(), self.idle_deaths()].into_iter().flatten()
+    }
+
+    /// A warning about elements that are to be taken away by an energy that they do not have.
+    fn idle_deaths(&self) -> Option<String> {
+        let blocks = idle_deaths(&self.mesh, &self.problem.model);
+        let blocks: Vec<String> = blocks.iter().map(|block| block.to_string()).collect();
+        (!blocks.is_empty()).then(|| {
+            format!(
+                "warning: DEATH watches HGENERGY of blocks {}, whose elements have no hourglass energy",
+                blocks.join(", ")
+            )
+        })
+    }
+
     /// A warning about rotations that are held, driven or loaded where nothing can turn.
-    pub fn idle_rotations(&self) -> Option<String> {
+    fn idle_rotations(&self) -> Option<String> {
         let sets: Vec<String> =
             idle_rotations(&self.mesh, &self.problem.model).iter().map(|set| set.to_string()).collect();
         (!sets.is_empty()).then(|| {

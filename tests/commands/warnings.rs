@@ -83,6 +83,24 @@ fn driven() -> Desk {
     )
 }
 
+/// A driven block that goes into a held one: contact can move no node of either, whose elements are one thick.
+fn driven_and_held() -> Desk {
+    let held = |set: u32, axes: &[char]| -> String {
+        axes.iter().map(|axis| format!("NO DISPLACEMENT, {axis}, {set}\n")).collect()
+    };
+    let deck = format!(
+        "TERMINATION TIME, 1.E-4\nOUTPUT TIME, 1.E-5\nCONTACT MATERIAL\nFUNCTION, 1\n0., 0.\n1., 1.\nEND\n\
+         PRESCRIBED DISPLACEMENT, Z, 1, 1, -20.\n{}{}MATERIAL, 1, ELASTIC, 7800.\n{STEEL}MATERIAL, 2, ELASTIC, 7800.\n{STEEL}",
+        held(1, &['X', 'Y']),
+        held(2, &['X', 'Y', 'Z'])
+    );
+    desk(
+        &deck,
+        "BOX, 1, 0., 0., 1.E-4, 0.01, 0.01, 0.004, 3, 3, 1\nBOX, 2, -0.002, -0.002, -0.004, 0.014, 0.014, 0.004, 4, 4, 1\n\
+         NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 2, 2\n",
+    )
+}
+
 /// A plate that flies and falls to pieces: every node goes on by itself.
 fn dust() -> Desk {
     let deck = format!(
@@ -92,7 +110,7 @@ fn dust() -> Desk {
     desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 0.1, 3, 3, 1\n")
 }
 
-fn scenes() -> [Scene; 7] {
+fn scenes() -> [Scene; 8] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -126,6 +144,11 @@ fn scenes() -> [Scene; 7] {
             &["4 nodes are deeper than half an element", "node", "on element 14 at ("],
         ),
         scene(
+            driven_and_held(),
+            "contact between nodes that the deck moves",
+            &["nodes that the deck holds or drives have gone into faces", "% of a face", "the deepest: node"],
+        ),
+        scene(
             dust(),
             "debris carries energy",
             &["32 free nodes", "carry a kinetic energy of", "100 % of the largest", "at node"],
@@ -136,6 +159,18 @@ fn scenes() -> [Scene; 7] {
 /// Lines of a text that begin like this, which differ on no number of ranks.
 fn lines<'a>(text: &'a str, with: &str) -> Vec<&'a str> {
     text.lines().filter(|line| line.contains(with)).collect()
+}
+
+/// What no force can keep apart overlaps in the log as well, and nothing is said of a first force.
+#[test]
+fn overlaps_that_nothing_can_move_are_in_the_log() {
+    let desk = driven_and_held();
+    desk.urto(&["case.i", "-q"]).with(0);
+    let log = desk.text("case.o");
+    let left = lines(&log, "LARGEST OVERLAP LEFT").concat();
+    // The driven block goes 2 mm down and begins 0.1 mm above: 1.9 mm of a face of 10/3 mm.
+    assert!(left.ends_with("5.7000e-01"), "{left}");
+    assert!(!log.contains("inf"), "{log}");
 }
 
 #[test]

@@ -133,8 +133,10 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     solver.prepare(Request::Continue, comm).map_err(stopped)?;
     let place = solver.controlling_element(comm);
     let (first, own_step) = (solver.time_step, solver.own_step);
+    let set_by = solver.bound_beside_elements().map(str::to_string);
+    let set_by = set_by.unwrap_or_else(|| format!("element {} of block {}", place.element, place.block));
     if let Some(endless) = Endless::at(solver.time, first, model.termination_time) {
-        let place = format!("set by element {} of block {}", place.element, place.block);
+        let place = format!("set by {set_by}");
         return Err(Failure::input(format_args!("error: {endless}, {place}\nhelp: {}", endless.advice())));
     }
     let foretold: String =
@@ -148,6 +150,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let by_block = by_block(given, &mut solver);
     let steps = (model.termination_time / first).ceil();
     let [x, y, z] = place.centre.map(|coordinate| scientific(coordinate, 3));
+    let centre = if place.element == 0 { String::new() } else { format!(" at ({x}, {y}, {z})") };
     let elements = mesh.element_count() as f64;
     let of_pronto = pronto_step(given, body).map_or(String::new(), |step| {
         format!("PRONTO2D's own estimate of it, by lengths in the plane: {}\n", scientific(step, 4))
@@ -158,14 +161,12 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         StepEstimate::Global => format!("of the mesh as a whole; by its elements alone {}, ", scientific(own, 4)),
     };
     Ok(format!(
-        "first time step {}, {of_mesh}set by element {} of block {} at ({x}, {y}, {z})\n{of_pronto}\
+        "first time step {}, {of_mesh}set by {set_by}{centre}\n{of_pronto}\
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          {by_block}about {} of memory, {:.0} bytes per element\n\
          {foretold}deck and mesh are sound",
         scientific(first, 4),
-        place.element,
-        place.block,
         per_step * 1e9 / elements,
         duration(per_step * steps),
         bytes(memory(given)),

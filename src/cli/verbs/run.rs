@@ -153,9 +153,8 @@ fn with_job<T>(
     let problem = &prepared.given.problem;
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
     let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
-    let idle = prepared.given.idle_nodes().map(|warning| warning.trim_start_matches("warning: ").to_string());
-    let turn = prepared.given.idle_rotations().map(|warning| warning.trim_start_matches("warning: ").to_string());
-    let warnings: Vec<String> = told.chain(idle).chain(turn).collect();
+    let idle = prepared.given.idle().map(|warning| warning.trim_start_matches("warning: ").to_string());
+    let warnings: Vec<String> = told.chain(idle).collect();
     work(&Job {
         mesh: &prepared.given.mesh,
         model: &problem.model,

@@ -1,6 +1,6 @@
 //! Commands that elements bring with them: what a deck says of the elements of a block.
 
-use crate::deck::{Card, Kind, language};
+use crate::deck::{Card, Diagnostic, Kind, language};
 use crate::model::problem::Draft;
 
 /// A command that an element brings with it, for the block that it names.
@@ -46,5 +46,10 @@ pub(in crate::model) fn take(card: &Card, draft: &mut Draft) {
             _ => (),
         }
     }
-    draft.model.sections.push(Section { command: card.name.clone(), block: card.integer("block"), numbers, words });
+    let block = card.integer("block");
+    if draft.model.section(&card.name, block).is_some() {
+        let message = format!("{}: block {block} has one already", card.name);
+        draft.report(Diagnostic::warning(message).at(card.record, "this one holds"));
+    }
+    draft.model.sections.push(Section { command: card.name.clone(), block, numbers, words });
 }

@@ -94,6 +94,9 @@ pub struct Contact {
     gain: Gain,
     /// What the log tells.
     pub tally: Tally,
+    /// Deepest penetration so far between nodes that nothing can move, of contacts of this rank: as a part of the face's size, and the
+    /// number of a node in the mesh.
+    held_deepest: Option<(f64, u32)>,
     /// What has been met so far.
     seen: Seen,
     /// What of the surface has touched when; nothing once elements have gone.
@@ -162,6 +165,7 @@ impl Contact {
             self.problem.record_arcs(&mut self.arcs, (self.age / arcs::EVERY) as u32);
         }
         self.book_resultants(step);
+        self.note_held();
         self.count(outcome);
         comm.enter(Traffic::ContactMotion);
         self.bring_forces(nodes, comm);
@@ -328,7 +332,16 @@ impl Contact {
         problem.book(resultants, (planes, block_ids), step, mine);
     }
 
-    fn count(&mut self, Outcome { iterations, ran_out, residual, deepest, depth, travel, .. }: Outcome) {
+    /// Remembers the deepest penetration that nothing can take out.
+    fn note_held(&mut self) {
+        let before = self.held_deepest.map_or(0.0, |(part, _)| part);
+        if let Some((part, point)) = self.problem.held().filter(|(part, _)| *part > before) {
+            self.held_deepest = Some((part, self.layout.nodes[point as usize]));
+        }
+    }
+
+    fn count(&mut self, Outcome { iterations, ran_out, residual, deepest, depth, travel, held, .. }: Outcome) {
+        self.tally.held = self.tally.held.max(held);
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
         if depth > 0.0 {

@@ -46,7 +46,7 @@ impl Contact {
             contact_nodes: _,
             plane_nodes: _,
             lost_work: _,
-            tally: Tally { steps, iterations, capped, left, deepest, motions, farthest },
+            tally: Tally { steps, iterations, capped, left, deepest, motions, farthest, held: penetration },
             bank: Bank { balance, asked, work, gain: excess, growth },
             gain,
             resultants,
@@ -61,6 +61,7 @@ impl Contact {
             search: _,
             // Of the problem.
             block_ids: _,
+            held_deepest: _,
             pairings: _,
             held: _,
             elements: _,
@@ -83,6 +84,7 @@ impl Contact {
             archive.number("CONTDEEPEST", deepest);
             archive.number("CONTMOTIONS", motions);
             archive.number("CONTFARTHEST", farthest);
+            archive.number("CONTHELD", penetration);
             archive.number("CONTBANK", balance);
             archive.number("CONTASKED1", &mut asked[0]);
             archive.number("CONTASKED2", &mut asked[1]);

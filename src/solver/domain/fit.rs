@@ -1,7 +1,7 @@
 //! Whether a mesh can be computed as the model has it.
 
 use crate::mesh::{Mesh, Shape};
-use crate::model::{Model, Precision, Unknown};
+use crate::model::{Death, DeathVariable, ElementField, Model, Precision, Unknown};
 use crate::solver::elements;
 use std::collections::BTreeSet;
 
@@ -36,6 +36,17 @@ fn without_eight_points(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit
         (block.id, elements::Unfit { reason, help: "take the line out".to_string() })
     };
     others.map(unfit).collect()
+}
+
+/// Blocks whose DEATH watches a hourglass energy that their elements do not have.
+pub fn idle_deaths(mesh: &Mesh, model: &Model) -> Vec<i64> {
+    let hourglass = |death: &&Death| matches!(death.variable, DeathVariable::Field(ElementField::HourglassEnergy, _));
+    let has_none = |id: &i64| {
+        let block = mesh.blocks.iter().find(|block| block.id == *id);
+        let element = block.and_then(|block| elements::Element::of_block(block, model).ok());
+        element.is_some_and(|element| element.entry().energies.hourglass.is_none())
+    };
+    model.deaths.iter().filter(hourglass).map(|death| death.block).filter(has_none).collect()
 }
 
 /// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.

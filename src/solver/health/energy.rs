@@ -95,7 +95,7 @@ impl Solver {
                 let block = body.shape.blocks.first().copied().unwrap_or(0);
                 return Err(Stop::Spin { block, rate: body.rate(), ratio });
             }
-            let place = self.controlling_element(comm);
+            let place = self.slowest_element(comm);
             return Err(Stop::TimeStep { step: self.stable_step, ratio, place });
         }
         Ok(())

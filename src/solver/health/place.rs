@@ -5,7 +5,7 @@ use super::watch::Exam;
 use crate::comm::Communicator;
 use crate::solver::body::centroid;
 use crate::solver::elements::{ElementBlock, Group};
-use crate::solver::{Domain, ElementPlace, Solver};
+use crate::solver::{Domain, ElementPlace, RigidBodies, Solver};
 
 impl Solver {
     /// Canonical number of a local place, as a number that ranks can compare.
@@ -13,8 +13,28 @@ impl Solver {
         f64::from(self.domain.element_canonical[place as usize])
     }
 
-    /// The element that sets the stable step; of several the first in canonical order.
+    /// What bounds the stable step where no element does.
+    pub fn bound_beside_elements(&self) -> Option<&'static str> {
+        let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
+        let of_deck = self.control.longest / self.control.scale;
+        match self.stable_step {
+            step if step == of_deck => Some("TIME STEP MAXIMUM"),
+            step if step == bodies => Some("the spin of a rigid body"),
+            _ => None,
+        }
+    }
+
+    /// The element that sets the stable step; of several the first in canonical order. Number 0 where
+    /// [something else](Self::bound_beside_elements) does.
     pub fn controlling_element(&self, comm: &mut dyn Communicator) -> ElementPlace {
+        match self.bound_beside_elements() {
+            Some(_) => self.locate(f64::INFINITY, comm),
+            None => self.slowest_element(comm),
+        }
+    }
+
+    /// The element with the smallest stable step; of several the first in canonical order. Number 0 where there is none.
+    pub(in crate::solver) fn slowest_element(&self, comm: &mut dyn Communicator) -> ElementPlace {
         let mine = self.local.controlling.filter(|_| self.local.stable_step == self.own_step);
         let mut first = [mine.map_or(f64::INFINITY, |place| self.canonical(place))];
         comm.all_min(&mut first);
@@ -25,7 +45,7 @@ impl Solver {
     pub(in crate::solver) fn locate(&self, canonical: f64, comm: &mut dyn Communicator) -> ElementPlace {
         let mut facts = [f64::INFINITY; 6];
         if canonical == f64::INFINITY {
-            // No element: all are rigid, or the deck bounds the step.
+            // No element: all are rigid, or something else bounds the step.
             return ElementPlace { element: 0, block: 0, centre: [0.0; 3], volume: 0.0 };
         }
         if let Some(place) = find(&self.domain, canonical) {

@@ -87,7 +87,7 @@ impl Solver {
         }
         let mut count = [own.iter().filter(|(step, ..)| *step < low * least).count() as u64];
         comm.all_sum(&mut count);
-        let place = self.controlling_element(comm);
+        let place = self.slowest_element(comm);
         let last = self.domain.blocks.iter().map(|block| block.index as f64).fold(0.0, f64::max);
         let mut last = [-last];
         comm.all_min(&mut last);

@@ -57,7 +57,8 @@ fn surfaces(scene: &Scene, seen: &Seen, has_edges: bool, list: &mut Vec<Advice>)
     }
     looser(scene, seen, list);
     let begun = seen.steps_before / scene.solver.step.max(1) as f64;
-    if begun > LATE {
+    // Where no force could act there is no first one.
+    if begun > LATE && begun.is_finite() {
         let words = format!(
             "nothing touched before time {}, in {:.0} % of the steps",
             scientific(seen.first, 3),

@@ -62,6 +62,10 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
+    /// Deepest penetration before the step between members that nothing can move, as a part of the face's size, with a member; and on any
+    /// rank.
+    pub held: (f64, u32),
+    pub(super) held_anywhere: f64,
     pub(super) instructions: InstructionSet,
 }
 
@@ -97,6 +101,7 @@ impl Enforcer {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
         self.iterates.begin(constraints, &self.states);
+        self.held_anywhere = self.held.0;
         // Where nothing overlaps there is nothing to do. One iteration is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
@@ -115,7 +120,7 @@ impl Enforcer {
             }
         }
         self.sum_forces(constraints);
-        outcome.unwrap_or_default()
+        Outcome { held: self.held_anywhere, ..outcome.unwrap_or_default() }
     }
 
     /// Goes along the ray of the forces only so far that they give no energy which the ledger does not pay.
@@ -210,6 +215,7 @@ impl Enforcer {
     /// [`Enforcer::solve`].
     pub fn prepare(&mut self, constraints: &mut [Constraint], motion: &NodeMotion, drift: f64, ledger: &Ledger) {
         self.states.clear();
+        self.held = (0.0, 0);
         let granted = ledger.granted();
         for c in constraints {
             let Carried { normal_force, tangential_force, .. } = c.carried;
@@ -243,6 +249,10 @@ impl Enforcer {
                 state.closing = drift * (state.free - state.target.with(granted));
             } else {
                 (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
+                let part = c.carried.penetration / c.size;
+                if part > self.held.0 {
+                    self.held = (part, c.members[0]);
+                }
             }
             if c.friction.is_some() {
                 (state.slip, state.slip_before) = (tangential(free, c.normal), tangential(before, c.normal));

@@ -50,6 +50,8 @@ pub struct Outcome {
     pub depth: f64,
     /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
+    /// Deepest penetration between members that nothing can move, as a part of the face's size.
+    pub held: f64,
     /// What looser tolerances would have spared.
     pub looser: [Spared; LOOSER.len()],
 }
@@ -91,15 +93,16 @@ impl Enforcer {
     ) -> Option<Outcome> {
         let (mut outcome, mut momentum, mut ended) = (Outcome::default(), Momentum::new(), [false; LOOSER.len()]);
         let mut own = self.extent(constraints, times.drift);
-        own.wanted = f64::from(u8::from(wanted));
+        (own.wanted, own.held) = (f64::from(u8::from(wanted)), self.held.0);
         loop {
             self.scatter(motion, times, others);
             let pace = momentum.next();
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
             let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
-            let Largest { residual, wanted, deepest, depth, travel, moved } = others.largest(own);
+            let Largest { residual, wanted, deepest, depth, travel, moved, held } = others.largest(own);
             if wanted == 0.0 {
+                self.held_anywhere = held;
                 return None;
             }
             momentum.watch(moved);
@@ -111,8 +114,9 @@ impl Enforcer {
             ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= by_looser(factor));
             let (iterations, ran_out) =
                 (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
-            outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser };
+            outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser, ..outcome };
             if by_looser(1.0) || iterations == limits.iterations {
+                self.held_anywhere = held;
                 return Some(outcome);
             }
         }

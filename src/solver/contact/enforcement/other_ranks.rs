@@ -19,21 +19,23 @@ pub struct Largest {
     pub travel: f64,
     /// Farthest that the iteration moved a constraint, a length.
     pub moved: f64,
+    /// Deepest penetration between members that nothing can move, as a part of the face's size.
+    pub held: f64,
 }
 
 /// Number of values in [`Largest`].
-pub const LARGEST: usize = 6;
+pub const LARGEST: usize = 7;
 
 impl Largest {
     /// As numbers, for messages.
     pub fn to_array(self) -> [f64; LARGEST] {
-        let Largest { residual, wanted, deepest, depth, travel, moved } = self;
-        [residual, wanted, deepest, depth, travel, moved]
+        let Largest { residual, wanted, deepest, depth, travel, moved, held } = self;
+        [residual, wanted, deepest, depth, travel, moved, held]
     }
 
     /// From these numbers.
-    pub fn from_array([residual, wanted, deepest, depth, travel, moved]: [f64; LARGEST]) -> Largest {
-        Largest { residual, wanted, deepest, depth, travel, moved }
+    pub fn from_array([residual, wanted, deepest, depth, travel, moved, held]: [f64; LARGEST]) -> Largest {
+        Largest { residual, wanted, deepest, depth, travel, moved, held }
     }
 }
 

@@ -297,6 +297,13 @@ impl LocalProblem {
         outcome
     }
 
+    /// Deepest penetration between members that nothing can move, as a part of the face's size, and one of them by its number in the
+    /// layout; `None` where there is none.
+    pub fn held(&self) -> Option<(f64, u32)> {
+        let (part, point) = self.enforcer.held;
+        (part > 0.0).then_some((part, *self.numbering.points.get(point as usize)?))
+    }
+
     /// Whether constraints of different points act on each other.
     fn are_coupled(&self) -> bool {
         !self.rules.is_empty() || !self.motion.mobility.bodies.is_empty()

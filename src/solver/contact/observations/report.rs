@@ -46,6 +46,8 @@ pub struct Tally {
     pub motions: f64,
     /// Farthest motion of a contact along its normal in a step so far, a length.
     pub farthest: f64,
+    /// Deepest penetration so far between nodes that nothing can move, as a part of the face's size.
+    pub held: f64,
 }
 
 /// Contact of one rank.
@@ -95,6 +97,12 @@ impl Contact {
             (node, [x, y, z, gap, status.code(), element])
         };
         self.results().map(value).collect()
+    }
+
+    /// Deepest penetration so far between nodes that nothing can move, of contacts of this rank: as a part of the face's size, and the
+    /// number of a node in the mesh.
+    pub fn held_deepest(&self) -> Option<(f64, u32)> {
+        self.held_deepest
     }
 
     /// Local nodes on the surface, and the ranks that compute their contact.

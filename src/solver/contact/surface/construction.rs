@@ -69,6 +69,7 @@ impl Contact {
             bank: Bank::default(),
             gain: Gain::default(),
             tally: Tally::default(),
+            held_deepest: None,
             seen: Seen::nothing(mesh.blocks.len(), model.rigid_surfaces.len()),
             arcs: Arcs::new(layout.nodes.len(), layout.faces.len()),
             resultants: Resultants::new(model.histories.iter().filter_map(subject)),

@@ -9,7 +9,7 @@ pub mod hourglass;
 mod imbalance;
 mod runaway;
 
-use contact::{gain, overlap_deep, overlap_moved, passes, sunk, tied_held};
+use contact::{gain, held, overlap_deep, overlap_moved, passes, sunk, tied_held};
 
 use super::finding::Evidence;
 use super::watch::Exam;
@@ -38,7 +38,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 13] = [
+pub static SYMPTOMS: [Symptom; 14] = [
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
     gain::SYMPTOM,
@@ -52,6 +52,7 @@ pub static SYMPTOMS: [Symptom; 13] = [
     debris::SYMPTOM,
     brief::SYMPTOM,
     tied_held::SYMPTOM,
+    held::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.
