@@ -3,7 +3,7 @@
 use super::nodal::NodalValues;
 use super::plane;
 use crate::comm::Communicator;
-use crate::mesh::Dimension;
+use crate::mesh::{Dimension, Shape};
 use crate::model::{ElementField, Model, NodalField};
 use crate::solver::elements::fields::{field_values, point_state, point_values, state_values};
 use crate::solver::elements::{ElementBlock, Group};
@@ -205,7 +205,11 @@ impl FieldList {
         out: &mut Vec<f64>,
     ) {
         for field in &self.element {
-            let values = field_values(*field, block, group, i, &solver.domain.nodes, rank);
+            let values = match field {
+                ElementField::Rotation if block.rigid => rigid_rotation(solver, block, group, i),
+                _ => None,
+            };
+            let values = values.unwrap_or_else(|| field_values(*field, block, group, i, &solver.domain.nodes, rank));
             out.extend(self.shown(field.components()).map(|(place, _)| values[place]));
         }
         if !self.state.is_empty() {
@@ -236,4 +240,13 @@ impl FieldList {
             out.extend(self.state.iter().map(value));
         }
     }
+}
+
+/// Rotation of an element of a rigid block that has its frame from its own steps, which rigid blocks leave out: that of its body.
+/// `None` of all others.
+fn rigid_rotation(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> Option<[f64; 9]> {
+    let rigid = solver.domain.rigid.as_ref().filter(|_| block.element.entry().shape == Shape::Hexahedron)?;
+    let body = rigid.of_node(group.node(i, 0))?;
+    let [[a, b, c], [d, e, f], [g, h, i]] = rigid.bodies[body as usize].rotation();
+    Some([a, b, c, d, e, f, g, h, i])
 }
