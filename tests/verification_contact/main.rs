@@ -9,6 +9,7 @@ mod extremes;
 mod friction;
 mod press_fit;
 mod rigid;
+mod rims;
 mod shells;
 mod solids;
 mod tied;

@@ -222,10 +222,45 @@ impl EdgeCheck<'_> {
         // that go over its border.
         let (depth, deepest) =
             if of_surface { (0.0, DEEP * reach + distance) } else { ((-gap).max(0.0), DEEP * reach) };
-        if !end.within(depth, self.parts(pair[1], half)) || gap > KEEP * reach || gap < -deepest {
+        let between = if of_surface {
+            end.within(depth, self.parts(pair[1], half))
+        } else {
+            self.is_between_ends(pair, &end, [depth, hold(past, &end)], |point| self.motion.end(point))
+        };
+        if !between || gap > KEEP * reach || gap < -deepest {
             return None;
         }
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
+    }
+
+    /// Whether edges of solids cross between their ends, or beyond one by no more than `beyond`. Nearer to an end than they are deep, if
+    /// that is more, a node or another edge is in the way before them, unless that end is outside the other body: what has slid
+    /// over its rim.
+    fn is_between_ends(
+        &self,
+        pair: [u32; 2],
+        crossing: &Crossing,
+        [depth, beyond]: [f64; 2],
+        at: impl Fn(u32) -> [f64; 3],
+    ) -> bool {
+        if crossing.within(depth, WHOLE) {
+            return true;
+        }
+        let is_outside = |point: u32, other: u32| {
+            let Edge { ends, faces, .. } = self.edges[other as usize];
+            let arm = subtract(at(point), at(ends[0]));
+            faces.iter().any(|&face| {
+                let corners = self.faces.corners[face as usize];
+                dot(arm, area_normal(&corners.map(&at))) > 0.0
+            })
+        };
+        let ends_are_outside = |i: usize| {
+            let (place, length) = (crossing.places[i], crossing.lengths[i]);
+            let ends = self.edges[pair[i] as usize].ends;
+            let far = [place * length > depth, (1.0 - place) * length > depth];
+            ends.iter().zip(far).all(|(&point, is_far)| is_far || is_outside(point, pair[1 - i]))
+        };
+        crossing.within(-beyond, WHOLE) && (depth <= beyond || ends_are_outside(0) && ends_are_outside(1))
     }
 
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
@@ -361,8 +396,10 @@ impl EdgeCheck<'_> {
         // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
         let depth = start.gap.abs();
         let sense = -sense;
-        (outwards(sense, start.normal) && depth < KEEP * start.shorter() && start.between_ends(depth))
-            .then_some(touch(sense, -depth))
+        (outwards(sense, start.normal)
+            && depth < KEEP * start.shorter()
+            && self.is_between_ends(pair, &start, [depth, 0.0], |point| self.motion.start(point)))
+        .then_some(touch(sense, -depth))
     }
 
     /// Whether the edges come into one plane within the step, and there between their ends.
@@ -443,6 +480,12 @@ impl EdgeCheck<'_> {
             origin: Origin::Edges(pair[0], pair[1]),
         }
     }
+}
+
+/// How far beyond an end of one of them two edges may cross, a length: none that meet anew. What has touched is held a little longer, as
+/// nodes are on faces, since other contacts of the step may keep them where they are.
+fn hold(past: Option<&EdgeContact>, crossing: &Crossing) -> f64 {
+    if past.is_some() { KEEP * crossing.shorter() } else { 0.0 }
 }
 
 /// How far around itself an edge looks for others, a length.

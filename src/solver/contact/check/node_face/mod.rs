@@ -388,7 +388,11 @@ impl NodeFaceCheck<'_> {
                     continue;
                 }
                 let Some(projection) = self.around_border(point, face, true) else { continue };
-                if projection.outside == 0.0 && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
+                // In a corner of a solid, what is a little behind the one is a little beyond the border of the other.
+                let is_corner =
+                    !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
+                let beyond = if is_corner { HOLD * self.faces.size[face as usize] } else { 0.0 };
+                if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, 0.0));
                 }
             }

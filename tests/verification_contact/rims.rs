@@ -1,0 +1,64 @@
+//! Bodies with flush sides and hollow corners: a little beyond a border, nodes and edges are still held.
+//!
+//! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact. Both scenes were found among
+//! random ones (`energy`).
+
+use crate::support::between;
+use crate::support::meshes::recipe;
+use crate::support::penetration::{Skin, deepest};
+use crate::support::run::run;
+
+/// The jaws of a clamp, of the thickness `jaw`, whose rim is flush with the plate between them.
+fn clamp(jaw: f64, cells: u32, opening: f64, plate: &str) -> String {
+    let upper = jaw + opening;
+    format!(
+        "TITLE\n clamp\nBOX, 1, 0., 0., 0., 1., 0.3, {jaw}, {cells}, 2, 1\nBOX, 1, 0., 0., {upper}, 1., 0.3, {jaw}, {cells}, 2, 1\n\
+         BOX, 1, 0., 0., {jaw}, {}, 0.3, {opening}, 1, 2, 1\nMERGE, 1\nNODE SET PLANE, 2, Z, {}\nNODE SET PLANE, 1, Z, 0.\n{plate}",
+        1.0 / f64::from(cells),
+        upper + jaw
+    )
+}
+
+/// The upper jaw comes down with this velocity until `until`; `materials` are those of clamp and plate.
+fn closing(velocity: f64, until: f64, end: f64, materials: &str) -> String {
+    format!(
+        "TITLE\n clamp\nTERMINATION TIME, {end}\nOUTPUT TIME, {0}\nPLOT TIME, {0}\n{materials}CONTACT MATERIAL\nNO DISPLACEMENT, Z, 1\n\
+         FUNCTION, 1\n0., 1.\n{until}, 1.\n{1}, 0.\n1., 0.\nEND\nPRESCRIBED VELOCITY, Z, 2, 1, -{velocity}\n",
+        end / 10.0,
+        1.03 * until
+    )
+}
+
+/// Asserts that nothing is deeper inside anything than edges may be, and that the balance closes.
+fn nothing_comes_through(case: &str, deck: &str, mesh: &str) {
+    let mesh = recipe(mesh);
+    let (run, skin) = (run(deck, &mesh), Skin::new(&mesh));
+    for (what, inside) in [("node", Skin::inside as fn(&Skin, &_) -> Vec<_>), ("point of an edge", Skin::edges_inside)]
+    {
+        let of_states = run.states.iter().filter_map(|state| deepest(inside(&skin, &state.positions(&mesh))));
+        let part = of_states.map(|one| one.part).fold(0.0, f64::max);
+        between(case, &format!("deepest {what}, of a face"), part, 0.0, 0.01);
+    }
+    between(case, "worst energy balance", run.worst_balance(), 0.0, 1e-3);
+}
+
+/// A thin plate is pressed flat; the nodes at its rim are pressed outwards by some millionths of a face and down beside the rim of
+/// the lower jaw, nearer to it than they are deep. Their edges cross that rim, and hold them.
+#[test]
+fn what_is_pressed_over_a_flush_rim_is_held_by_its_edges() {
+    let materials = "MATERIAL, 1, ELASTIC PLASTIC, 1145.\nYOUNGS MODULUS = 594.E9\nPOISSONS RATIO = 0.3\nYIELD STRESS = 4.36E9\n\
+                     HARDENING MODULUS = 30.E9\nBETA = 1.\nEND\nMATERIAL, 2, ELASTIC, 659.\nYOUNGS MODULUS = 4.66E9\n\
+                     POISSONS RATIO = 0.45\nEND\n";
+    let plate = "BOX, 2, 0.27, 0., 0.153, 0.65, 0.3, 0.0033, 4, 2, 1\n";
+    nothing_comes_through("rim", &closing(318.0, 1.11e-5, 3.7e-5, materials), &clamp(0.153, 4, 0.0064, plate));
+}
+
+/// A soft block slides into the corner between web and lower jaw: behind the web by what passes leave of an overlap, its lower nodes
+/// are beyond the border of the jaw by as much, and its upper edge crosses the web's beyond an end before other contacts are counted.
+#[test]
+fn what_slides_into_a_corner_is_held_by_both_sides() {
+    let materials = "MATERIAL, 1, ELASTIC, 1478.\nYOUNGS MODULUS = 1.71E11\nPOISSONS RATIO = 0.\nEND\nMATERIAL, 2, ELASTIC, 57.8\n\
+                     YOUNGS MODULUS = 2.85E8\nPOISSONS RATIO = 0.\nEND\n";
+    let block = "BOX, 2, 0.3533333333333333, 0., 0.1431, 0.5666666666666667, 0.3, 0.077, 1, 2, 1\n";
+    nothing_comes_through("corner", &closing(27.0, 5.55e-4, 1.85e-3, materials), &clamp(0.1431, 3, 0.0797, block));
+}
