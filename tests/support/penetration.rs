@@ -113,18 +113,21 @@ impl Skin {
         self.find(self.nodes.iter().map(|&n| Sample { x: positions[n as usize], own: [n, n] }), positions)
     }
 
-    /// Depth, as a part of a face, of the deepest node that has come to be inside an element since the start: of elements that are no
-    /// neighbours of the node's own, where no corner of any of them has turned inside out.
-    pub fn sunk(&self, start: &[Point], now: &[Point]) -> f64 {
-        let before: Vec<u32> = self.inside(start).iter().map(|inside| inside.own[0]).collect();
-        let is_sound = |nodes: &[u32; 8]| all_corners_are_sound(&nodes.map(|n| now[n as usize]));
-        let is_foreign = |inside: &Inside| {
-            let element = &self.elements[inside.element as usize];
-            let mut own = self.elements.iter().filter(|nodes| nodes.contains(&inside.own[0]));
-            is_sound(element) && own.all(|own| is_sound(own) && !own.iter().any(|node| element.contains(node)))
+    /// Depth, as a part of a face, of the deepest node and of the deepest point of an edge that have come to be inside an element since
+    /// the start: of elements that are no neighbours of its own, where no corner of any of them has turned inside out.
+    pub fn sunk(&self, start: &[Point], now: &[Point]) -> [f64; 2] {
+        let of = |inside: fn(&Skin, &[Point]) -> Vec<Inside>| {
+            let before: Vec<[u32; 2]> = inside(self, start).iter().map(|inside| inside.own).collect();
+            let is_sound = |nodes: &[u32; 8]| all_corners_are_sound(&nodes.map(|n| now[n as usize]));
+            let is_foreign = |found: &Inside| {
+                let element = &self.elements[found.element as usize];
+                let mut own = self.elements.iter().filter(|nodes| found.own.iter().any(|own| nodes.contains(own)));
+                is_sound(element) && own.all(|own| is_sound(own) && !own.iter().any(|node| element.contains(node)))
+            };
+            let found = inside(self, now).into_iter().filter(|one| !before.contains(&one.own) && is_foreign(one));
+            found.map(|inside| inside.part).fold(0.0, f64::max)
         };
-        let found = self.inside(now).into_iter().filter(|one| !before.contains(&one.own[0]) && is_foreign(one));
-        found.map(|inside| inside.part).fold(0.0, f64::max)
+        [of(Skin::inside), of(Skin::edges_inside)]
     }
 
     /// The same for three points of every edge of an outer face.

@@ -49,8 +49,9 @@ struct Found {
     stops_anyhow: bool,
     /// Positions at the end.
     positions: Vec<[f64; 3]>,
-    /// The deepest node of solids in an element of others at the end, by a measure that knows nothing of contact, as a part of a face.
-    sunk: f64,
+    /// The deepest node of solids, and the deepest point of an edge, in an element of others at the end, by a measure that knows nothing of
+    /// contact, as parts of a face.
+    sunk: [f64; 2],
     /// All this in a line.
     what: String,
 }
@@ -181,6 +182,10 @@ fn try_seed(scene: Scene, seed: u64, print: bool) -> Result<Found, Wrong> {
     let solids = mesh.shaped().all(|(shape, _)| shape == Shape::Hexahedron);
     if found.stop.is_none() && found.refusal.is_none() && settles && solids && kind != "perforation" {
         found.sunk = Skin::new(&mesh).sunk(&mesh.coordinates, &found.positions);
+        // Only where all edges are looked at are those bounded.
+        if deck.contains("CONTACT EDGES") {
+            found.sunk[1] = 0.0;
+        }
     }
     found.what = what;
     Ok(found)
@@ -197,6 +202,8 @@ struct Allowed {
     deep: usize,
     /// That end with a node of solids deeper than [`SUNK`] in others, although no element there has a corner turned inside out.
     sunk: usize,
+    /// The same of points of edges, where CONTACT EDGES is ALL.
+    cut: usize,
 }
 
 /// Runs the scenes of some seeds.
@@ -207,14 +214,18 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
     });
     let print = asked.is_some();
     let seeds = asked.unwrap_or(seeds);
-    let [mut giving, mut crushed, mut dipping, mut deep, mut sunk] = [const { Vec::new() }; 5];
+    let [mut giving, mut crushed, mut dipping, mut deep, mut sunk, mut cut] = [const { Vec::new() }; 6];
     let mut anyhow = 0;
     for seed in seeds.clone() {
         match try_seed(scene(seed), seed, print) {
             Ok(found) => {
                 anyhow += usize::from(found.stops_anyhow);
-                if found.sunk > SUNK {
-                    sunk.push(format!("{}, sunk by {:.2} of a face", found.what, found.sunk));
+                let [node, edge] = found.sunk;
+                if node > SUNK {
+                    sunk.push(format!("{}, sunk by {node:.2} of a face", found.what));
+                }
+                if edge > SUNK {
+                    cut.push(format!("{}, an edge in by {edge:.2} of a face", found.what));
                 }
                 if found.deepest[1] > DEEPEST {
                     deep.push(found.what);
@@ -226,28 +237,29 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
         }
     }
     let count = seeds.end - seeds.start;
-    let [energy, stop, dip, sink, lost] = [&giving, &crushed, &dipping, &deep, &sunk].map(Vec::len);
+    let [energy, stop, dip, sink, lost, edges] = [&giving, &crushed, &dipping, &deep, &sunk, &cut].map(Vec::len);
     println!(
-        "of {count} scenes {energy} give energy, {stop} are crushed, {dip} dip, {sink} deep, {lost} sunk, {anyhow} stop also without contact"
+        "of {count} scenes {energy} give energy, {stop} are crushed, {dip} dip, {sink} deep, {lost} sunk, {edges} cut by edges, {anyhow} stop also without contact"
     );
-    crushed.iter().chain(&dipping).chain(&deep).chain(&sunk).for_each(|what| println!("{what}"));
+    crushed.iter().chain(&dipping).chain(&deep).chain(&sunk).chain(&cut).for_each(|what| println!("{what}"));
     assert!(giving.is_empty(), "{}", giving.join("\n"));
     assert!(crushed.len() <= allowed.crushed, "crushed:\n{}", crushed.join("\n"));
     assert!(dipping.len() <= allowed.dipping, "dipping:\n{}", dipping.join("\n"));
     assert!(deep.len() <= allowed.deep, "deep:\n{}", deep.join("\n"));
     assert!(sunk.len() <= allowed.sunk, "sunk:\n{}", sunk.join("\n"));
+    assert!(cut.len() <= allowed.cut, "cut by edges:\n{}", cut.join("\n"));
 }
 
 #[test]
 fn contact_gives_no_energy_in_confined_scenes() {
     // Sunk: folds, whose steps go a tenth of a face.
-    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 12 });
+    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 7, cut: 7 });
 }
 
 /// As they are with another estimate of the step and in single precision; and the same on two and three ranks, to the bit.
 #[test]
 fn contact_gives_no_energy_with_other_settings() {
-    try_all(0..64, settings_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 1 });
+    try_all(0..64, settings_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 1, cut: 1 });
     for seed in 0..64 {
         let Scene { recipe: text, deck, .. } = settings_scene(seed);
         let mesh = recipe(&text);
@@ -271,7 +283,7 @@ fn contact_gives_no_energy_with_other_settings() {
 /// A rigid body answers to contact with six unknowns, held or driven or free. Motions that no rigid body can do end a run.
 #[test]
 fn contact_with_rigid_bodies_gives_no_energy() {
-    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 6 });
+    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 3, cut: 3 });
 }
 
 /// Beside a joint contact sees masses that are not those of its nodes alone; the accounts close as they do for what is tied alone.
@@ -298,13 +310,13 @@ fn contact_with_tied_blocks_gives_no_energy() {
 
 #[test]
 fn contact_of_shells_gives_no_energy() {
-    try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0 });
+    try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]
 fn contact_of_triangles_gives_no_energy() {
     // Found: 1, whose ends crumple within four elements.
-    try_all(0..60, triangle_scene, Allowed { crushed: 1, dipping: 0, deep: usize::MAX, sunk: 0 });
+    try_all(0..60, triangle_scene, Allowed { crushed: 1, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]
@@ -312,7 +324,7 @@ fn contact_of_triangles_gives_no_energy() {
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
     // Found: 8, seven folds whose nodes are pinched between leaves and a stack with half the room; 9 more whose edges dip into
     // bulges, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 9, deep: usize::MAX, sunk: 0 });
+    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 9, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]
@@ -320,5 +332,5 @@ fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
     // Deep: 4289, whose corners have turned inside out, and 2345, of one pass, in which 571 of 578 steps run out (3.1
     // motions; one more than before nodes went on from face to face along sharp edges). Sunk: 61 folds and a notch, 3028.
-    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 2, sunk: 62 });
+    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 2, sunk: 62, cut: 0 });
 }
