@@ -5,7 +5,7 @@
 
 use crate::support::between;
 use crate::support::meshes::recipe;
-use crate::support::penetration::{Skin, deepest};
+use crate::support::penetration::{Inside, Skin, deepest};
 use crate::support::run::run;
 
 /// The jaws of a clamp, of the thickness `jaw`, whose rim is flush with the plate between them.
@@ -29,12 +29,17 @@ fn closing(velocity: f64, until: f64, end: f64, materials: &str) -> String {
     )
 }
 
+/// Deepest points of a body in elements of others, by where they are.
+type Measure = (&'static str, fn(&Skin, &[[f64; 3]]) -> Vec<Inside>);
+
+const NODES: Measure = ("node", Skin::inside);
+const EDGES: Measure = ("point of an edge", Skin::edges_inside);
+
 /// Asserts that nothing is deeper inside anything than edges may be, and that the balance closes.
-fn nothing_comes_through(case: &str, deck: &str, mesh: &str) {
+fn nothing_comes_through(case: &str, (deck, mesh): (&str, &str), measures: &[Measure]) {
     let mesh = recipe(mesh);
     let (run, skin) = (run(deck, &mesh), Skin::new(&mesh));
-    for (what, inside) in [("node", Skin::inside as fn(&Skin, &_) -> Vec<_>), ("point of an edge", Skin::edges_inside)]
-    {
+    for (what, inside) in measures {
         let of_states = run.states.iter().filter_map(|state| deepest(inside(&skin, &state.positions(&mesh))));
         let part = of_states.map(|one| one.part).fold(0.0, f64::max);
         between(case, &format!("deepest {what}, of a face"), part, 0.0, 0.01);
@@ -50,15 +55,24 @@ fn what_is_pressed_over_a_flush_rim_is_held_by_its_edges() {
                      HARDENING MODULUS = 30.E9\nBETA = 1.\nEND\nMATERIAL, 2, ELASTIC, 659.\nYOUNGS MODULUS = 4.66E9\n\
                      POISSONS RATIO = 0.45\nEND\n";
     let plate = "BOX, 2, 0.27, 0., 0.153, 0.65, 0.3, 0.0033, 4, 2, 1\n";
-    nothing_comes_through("rim", &closing(318.0, 1.11e-5, 3.7e-5, materials), &clamp(0.153, 4, 0.0064, plate));
+    nothing_comes_through(
+        "rim",
+        (&closing(318.0, 1.11e-5, 3.7e-5, materials), &clamp(0.153, 4, 0.0064, plate)),
+        &[NODES, EDGES],
+    );
 }
 
 /// A soft block slides into the corner between web and lower jaw: behind the web by what passes leave of an overlap, its lower nodes
-/// are beyond the border of the jaw by as much, and its upper edge crosses the web's beyond an end before other contacts are counted.
+/// are beyond the border of the jaw by as much. Its upper edge is lost later: the motion without contact takes it past the end of the
+/// web's (docs/decisions.md, "A little beyond a border").
 #[test]
 fn what_slides_into_a_corner_is_held_by_both_sides() {
     let materials = "MATERIAL, 1, ELASTIC, 1478.\nYOUNGS MODULUS = 1.71E11\nPOISSONS RATIO = 0.\nEND\nMATERIAL, 2, ELASTIC, 57.8\n\
                      YOUNGS MODULUS = 2.85E8\nPOISSONS RATIO = 0.\nEND\n";
     let block = "BOX, 2, 0.3533333333333333, 0., 0.1431, 0.5666666666666667, 0.3, 0.077, 1, 2, 1\n";
-    nothing_comes_through("corner", &closing(27.0, 5.55e-4, 1.85e-3, materials), &clamp(0.1431, 3, 0.0797, block));
+    nothing_comes_through(
+        "corner",
+        (&closing(27.0, 5.55e-4, 1.85e-3, materials), &clamp(0.1431, 3, 0.0797, block)),
+        &[NODES],
+    );
 }

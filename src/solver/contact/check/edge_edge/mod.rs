@@ -29,6 +29,9 @@ const SAME_SIDE: f64 = 0.5;
 /// A pair that has parted by less than this part of an edge is still watched.
 const KEEP: f64 = 0.01;
 
+/// Pairs that overlap by more than this part of an edge near an end are not held by a node there.
+const CLEARLY: f64 = 1e-3;
+
 /// Pairs that overlap by more than this part of an edge did not come through each other.
 const DEEP: f64 = 0.25;
 
@@ -225,7 +228,7 @@ impl EdgeCheck<'_> {
         let between = if of_surface {
             end.within(depth, self.parts(pair[1], half))
         } else {
-            self.is_between_ends(pair, &end, [depth, hold(past, &end)], |point| self.motion.end(point))
+            self.is_between_ends(pair, &end, depth, |point| self.motion.end(point))
         };
         if !between || gap > KEEP * reach || gap < -deepest {
             return None;
@@ -233,16 +236,10 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
     }
 
-    /// Whether edges of solids cross between their ends, or beyond one by no more than `beyond`. Nearer to an end than they are deep, if
-    /// that is more, a node or another edge is in the way before them, unless that end is outside the other body: what has slid
-    /// over its rim.
-    fn is_between_ends(
-        &self,
-        pair: [u32; 2],
-        crossing: &Crossing,
-        [depth, beyond]: [f64; 2],
-        at: impl Fn(u32) -> [f64; 3],
-    ) -> bool {
+    /// Whether edges of solids cross between their ends. Nearer to an end than they are deep a node or another edge is in the way before
+    /// them, unless that end is outside the other body: what has slid over its rim. That counts where they are clearly deep: else a
+    /// face may hold the end as well.
+    fn is_between_ends(&self, pair: [u32; 2], crossing: &Crossing, depth: f64, at: impl Fn(u32) -> [f64; 3]) -> bool {
         if crossing.within(depth, WHOLE) {
             return true;
         }
@@ -260,7 +257,8 @@ impl EdgeCheck<'_> {
             let far = [place * length > depth, (1.0 - place) * length > depth];
             ends.iter().zip(far).all(|(&point, is_far)| is_far || is_outside(point, pair[1 - i]))
         };
-        crossing.within(-beyond, WHOLE) && (depth <= beyond || ends_are_outside(0) && ends_are_outside(1))
+        let clearly = depth > CLEARLY * crossing.shorter();
+        clearly && crossing.within(0.0, WHOLE) && ends_are_outside(0) && ends_are_outside(1)
     }
 
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
@@ -398,7 +396,7 @@ impl EdgeCheck<'_> {
         let sense = -sense;
         (outwards(sense, start.normal)
             && depth < KEEP * start.shorter()
-            && self.is_between_ends(pair, &start, [depth, 0.0], |point| self.motion.start(point)))
+            && self.is_between_ends(pair, &start, depth, |point| self.motion.start(point)))
         .then_some(touch(sense, -depth))
     }
 
@@ -480,12 +478,6 @@ impl EdgeCheck<'_> {
             origin: Origin::Edges(pair[0], pair[1]),
         }
     }
-}
-
-/// How far beyond an end of one of them two edges may cross, a length: none that meet anew. What has touched is held a little longer, as
-/// nodes are on faces, since other contacts of the step may keep them where they are.
-fn hold(past: Option<&EdgeContact>, crossing: &Crossing) -> f64 {
-    if past.is_some() { KEEP * crossing.shorter() } else { 0.0 }
 }
 
 /// How far around itself an edge looks for others, a length.
