@@ -7,6 +7,7 @@ mod pieces;
 mod restart;
 mod restart_files;
 mod restart_of_eroded;
+mod rigid_blocks;
 
 #[path = "../program/mod.rs"]
 mod program;
