@@ -247,6 +247,6 @@ impl FieldList {
 fn rigid_rotation(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> Option<[f64; 9]> {
     let rigid = solver.domain.rigid.as_ref().filter(|_| block.element.entry().shape == Shape::Hexahedron)?;
     let body = rigid.of_node(group.node(i, 0))?;
-    let [[a, b, c], [d, e, f], [g, h, i]] = rigid.bodies[body as usize].rotation();
+    let [[a, b, c], [d, e, f], [g, h, i]] = rigid.bodies[body as usize].frame;
     Some([a, b, c, d, e, f, g, h, i])
 }

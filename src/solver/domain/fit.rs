@@ -38,8 +38,8 @@ fn without_eight_points(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit
     others.map(unfit).collect()
 }
 
-/// Blocks whose DEATH watches a hourglass energy that their elements do not have.
-pub fn idle_deaths(mesh: &Mesh, model: &Model) -> Vec<i64> {
+/// Blocks whose DEATH watches a hourglass energy that their elements do not have, ascending.
+pub fn idle_deaths(mesh: &Mesh, model: &Model) -> BTreeSet<i64> {
     let hourglass = |death: &&Death| matches!(death.variable, DeathVariable::Field(ElementField::HourglassEnergy, _));
     let has_none = |id: &i64| {
         let block = mesh.blocks.iter().find(|block| block.id == *id);

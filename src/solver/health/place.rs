@@ -5,7 +5,7 @@ use super::watch::Exam;
 use crate::comm::Communicator;
 use crate::solver::body::centroid;
 use crate::solver::elements::{ElementBlock, Group};
-use crate::solver::{Domain, ElementPlace, RigidBodies, Solver};
+use crate::solver::{Domain, ElementPlace, Solver};
 
 impl Solver {
     /// Canonical number of a local place, as a number that ranks can compare.
@@ -15,13 +15,9 @@ impl Solver {
 
     /// What bounds the stable step where no element does.
     pub fn bound_beside_elements(&self) -> Option<&'static str> {
-        let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
-        let of_deck = self.control.longest / self.control.scale;
-        match self.stable_step {
-            step if step == of_deck => Some("TIME STEP MAXIMUM"),
-            step if step == bodies => Some("the spin of a rigid body"),
-            _ => None,
-        }
+        let mut bounds =
+            ["TIME STEP MAXIMUM", "the spin of a rigid body"].into_iter().zip(self.bounds_beside_elements());
+        bounds.find(|(_, step)| *step == self.stable_step).map(|(bound, _)| bound)
     }
 
     /// The element that sets the stable step; of several the first in canonical order. Number 0 where

@@ -104,11 +104,6 @@ impl RigidBody {
         body
     }
 
-    /// Matrix of the rotation since the start.
-    pub fn rotation(&self) -> Matrix {
-        matrix(self.turn)
-    }
-
     /// Gives it the momentum and the angular momentum, about the centre, of the velocities of its nodes.
     pub fn set_off(&mut self, [px, py, pz, lx, ly, lz]: Six) {
         self.velocity = scaled([px, py, pz], 1.0 / self.shape.mass);

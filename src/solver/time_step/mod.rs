@@ -32,7 +32,12 @@ impl Solver {
 
     /// Whether the present, prepared state is the one at the end.
     pub fn is_at_end(&self) -> bool {
-        self.end.is_some_and(|end| end - self.time <= REACHED * self.whole_step)
+        self.ends_within(REACHED * self.whole_step)
+    }
+
+    /// Whether the end is no farther away than this time.
+    fn ends_within(&self, time: f64) -> bool {
+        self.end.is_some_and(|end| end - self.time <= time)
     }
 
     /// Whether the step from the present, prepared state, or one before it, is shorter than it could be, so that the run ends
@@ -45,7 +50,7 @@ impl Solver {
     /// follow.
     pub fn nears_end(&self) -> bool {
         let longest = if self.step == 0 { f64::INFINITY } else { self.control.growth * self.time_step };
-        self.end.is_some_and(|end| end - self.time <= LAST_STEPS * longest)
+        self.ends_within(LAST_STEPS * longest)
     }
 
     /// How often what is left until the end would fit into the step that could be taken, where it is there to be reached.
@@ -85,9 +90,9 @@ impl Solver {
             return Err(if inverted { Stop::Inverted(place) } else { Stop::NotFinite(place) });
         }
         self.estimate(Votes { rest, ratio, height, motion }, comm);
-        let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
         self.stable_step *= self.domain.ties.as_ref().map_or(1.0, |ties| ties.step_part);
-        self.stable_step = self.stable_step.min(bodies).min(self.control.longest / self.control.scale);
+        let [of_deck, of_bodies] = self.bounds_beside_elements();
+        self.stable_step = self.stable_step.min(of_bodies).min(of_deck);
         self.check_step(comm)?;
         let last = self.time_step;
         let wanted = self.control.scale * self.stable_step;
@@ -95,7 +100,7 @@ impl Solver {
         let agreed = Request::from_number(-wish);
         // A run that is stopped before its end goes on with the step that it would have taken.
         self.time_step = if agreed == Request::Continue { self.up_to_the_end(last) } else { self.whole_step };
-        let is_near = self.end.is_some_and(|end| end - self.time <= RECEDES * LAST_STEPS * self.whole_step);
+        let is_near = self.ends_within(RECEDES * LAST_STEPS * self.whole_step);
         self.ending = self.time_step < self.whole_step || self.ending && is_near;
         self.kick = 0.5 * (if self.step == 0 { 0.0 } else { last } + self.time_step);
         Ok(agreed)
@@ -119,6 +124,12 @@ impl Solver {
             // What whole steps bring within reach is of the run without an end, to the bit.
             steps => (left / steps).min(self.whole_step),
         }
+    }
+
+    /// The longest stable steps that TIME STEP MAXIMUM and the spin of rigid bodies allow, whatever elements do.
+    pub(super) fn bounds_beside_elements(&self) -> [f64; 2] {
+        let bodies = self.domain.rigid.as_ref().map_or(f64::INFINITY, RigidBodies::longest_step);
+        [self.control.longest / self.control.scale, bodies]
     }
 
     /// Lets the mesh as a whole bound the step, where the deck asks for it.

@@ -101,8 +101,8 @@ impl Enforcer {
             let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
             let Largest { residual, wanted, deepest, depth, travel, moved, held } = others.largest(own);
+            self.held_anywhere = held;
             if wanted == 0.0 {
-                self.held_anywhere = held;
                 return None;
             }
             momentum.watch(moved);
@@ -116,7 +116,6 @@ impl Enforcer {
                 (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
             outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser, ..outcome };
             if by_looser(1.0) || iterations == limits.iterations {
-                self.held_anywhere = held;
                 return Some(outcome);
             }
         }
