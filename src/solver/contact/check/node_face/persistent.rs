@@ -1,0 +1,174 @@
+//! Nodes that faces have held before: whether they still do, and to which faces around them a node has gone on.
+
+use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
+use crate::common::vector::{dot, subtract};
+use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::search::locate::Candidate;
+
+impl NodeFaceCheck<'_> {
+    /// Faces that held the point before, and those around them to which it may have moved on.
+    pub(super) fn persistent(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
+        let mut left: Option<(u32, f64, Projection)> = None;
+        for past in past.iter().filter(|past| past.face != NONE && is_near(near, past.face)) {
+            let Some(projection) = self.projection_at_end(point, past.face) else { continue };
+            if projection.outside == 0.0 {
+                if self.in_reach(past.face, &projection, past.tolerated) {
+                    contacts.push(self.held(past.face, projection, past.tolerated));
+                }
+            } else if self.is_beside(point, past.face, &projection) {
+                contacts.extend(self.held_around(point, past.face, past.tolerated));
+            } else if left.is_none() {
+                left = Some((past.face, past.tolerated, projection));
+            }
+        }
+        if let Some(left) = left.filter(|_| contacts.is_empty()) {
+            self.moved_on(point, near, past, left, contacts);
+        }
+        self.still_around(point, near, past, contacts);
+        // Of the faces around those that hold the point only those that fold towards it can hold it as well.
+        self.folds(point, near, contacts);
+    }
+
+    /// Whether a point stands beside the end of a surface, whose projection counts its gap from where they touch.
+    fn is_beside(&self, point: u32, face: u32, projection: &Projection) -> bool {
+        let distance = self.faces.distance(point, face);
+        distance > 0.0 && projection.is_beside(projection.gap + distance, self.faces.borders_of(face))
+    }
+
+    /// A point that has left its faces: on to a face around the first of them, or held by that as it was.
+    fn moved_on(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        (old, tolerated, left): (u32, f64, Projection),
+        contacts: &mut Vec<DetectedContact>,
+    ) {
+        let (slightly, normal) = (left.outside <= HOLD * self.faces.size[old as usize], left.normal);
+        let (mut behind, mut rises) = (false, false);
+        let mut next: Option<(u32, Projection, (bool, f64, f64))> = None;
+        let to = |&face: &u32| {
+            self.related(old, face) && past.iter().all(|p| p.face != face) && self.stays_outside(point, old, face)
+        };
+        for face in faces_of(near).filter(to) {
+            // Around a sharp corner the normal must not change before the point has really slid off: it would be a kick.
+            let Some(projection) = self.projection_at_end(point, face) else { continue };
+            let goes_on = self.goes_on(old, face, &left, &projection);
+            if slightly && !goes_on {
+                continue;
+            }
+            if projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs() {
+                behind = true;
+                rises |= self.rises(old, face, normal);
+            }
+            // What slides along a sharp edge of a solid stays as far beyond as on the face that it leaves, before it goes around
+            // the corner. In a plane of symmetry, where faces need not stand upright, feet fall beside them, and the face in the
+            // plane has its gap closed for ever. Surfaces are round at their borders.
+            let is_solid = !self.faces.is_two_sided(old) && !self.faces.is_two_sided(face);
+            let goes_around = is_solid && !goes_on;
+            let beyond = if is_solid && !slightly && goes_on && self.faces.distance(point, face) == 0.0 {
+                HOLD * self.faces.size[face as usize]
+            } else {
+                0.0
+            };
+            let found = (goes_around, projection.outside, projection.gap.abs());
+            if projection.outside <= beyond
+                && self.in_reach(face, &projection, tolerated)
+                && next.is_none_or(|(_, _, best)| found < best)
+            {
+                next = Some((face, projection, found));
+            }
+        }
+        match next {
+            Some((face, projection, _)) => contacts.push(self.held(face, projection, tolerated)),
+            None if slightly && self.in_reach(old, &left, tolerated) => {
+                contacts.push(self.held(old, left, tolerated));
+            }
+            None => {
+                // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
+                // is as well, where it is nearer than they touch.
+                let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
+                let flat = (deep && self.in_reach(old, &left, tolerated)).then(|| self.held(old, left, tolerated));
+                let around = || self.held_around(point, old, tolerated);
+                contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
+            }
+        }
+    }
+
+    /// A point that a surface has held around its border is so as long as it is near the border, whatever else holds it.
+    fn still_around(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
+        for past in past.iter().filter(|past| past.face != NONE && self.faces.is_two_sided(past.face)) {
+            let another = contacts.iter().all(|contact| contact.face != past.face);
+            if another && is_near(near, past.face) {
+                contacts.extend(self.held_around(point, past.face, past.tolerated));
+            }
+        }
+    }
+
+    /// A point that is held around the border of the face that it leaves, or of none.
+    fn held_around(&self, point: u32, old: u32, tolerated: f64) -> Option<DetectedContact> {
+        let end = self.around_border(point, old, true)?;
+        (end.rounded && self.in_reach(old, &end, tolerated)).then(|| self.held(old, end, tolerated))
+    }
+
+    /// Whether a point that leaves one face goes on to another without turning around a sharp corner.
+    fn goes_on(&self, old: u32, face: u32, projection: &Projection, next: &Projection) -> bool {
+        dot(projection.normal, next.normal) > SAME_WAY || self.rises(old, face, projection.normal)
+    }
+
+    /// Whether a face lies in front of another one, of this normal: they make a hollow.
+    fn rises(&self, old: u32, face: u32, normal: [f64; 3]) -> bool {
+        let middle = |face| projection::centre(&self.faces.end(face, self.motion));
+        dot(subtract(middle(face), middle(old)), normal) > 0.0
+    }
+
+    /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
+    fn folds(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
+        let held = contacts.len();
+        for i in 0..held {
+            let old = contacts[i];
+            let middle = projection::centre(&self.faces.end(old.face, self.motion));
+            for face in faces_of(near).filter(|&face| face != old.face && self.faces.adjacent(old.face, face)) {
+                let corners = self.faces.end(face, self.motion);
+                let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
+                if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
+                    continue;
+                }
+                if !self.stays_outside(point, old.face, face) {
+                    continue;
+                }
+                let Some(projection) = self.around_border(point, face, true) else { continue };
+                // In a corner of a solid, what is a little behind the one is a little beyond the border of the other.
+                let is_corner =
+                    !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
+                let beyond = if is_corner { HOLD * self.faces.size[face as usize] } else { 0.0 };
+                if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
+                    contacts.push(self.held(face, projection, 0.0));
+                }
+            }
+        }
+    }
+
+    fn held(&self, face: u32, projection: Projection, tolerated: f64) -> DetectedContact {
+        // What has opened does not close again for nothing.
+        DetectedContact {
+            face,
+            time: -1.0,
+            opposition: 0.0,
+            tolerated: tolerated.max(projection.gap.min(0.0)),
+            projection,
+        }
+    }
+}
