@@ -253,7 +253,7 @@ fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowe
 #[test]
 fn contact_gives_no_energy_in_confined_scenes() {
     // Sunk: folds, whose steps go a tenth of a face.
-    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 8, cut: 10 });
+    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 4, cut: 7 });
 }
 
 /// As they are with another estimate of the step and in single precision; and the same on two and three ranks, to the bit.
@@ -283,7 +283,7 @@ fn contact_gives_no_energy_with_other_settings() {
 /// A rigid body answers to contact with six unknowns, held or driven or free. Motions that no rigid body can do end a run.
 #[test]
 fn contact_with_rigid_bodies_gives_no_energy() {
-    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 4, cut: 4 });
+    try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 1, cut: 2 });
 }
 
 /// Beside a joint contact sees masses that are not those of its nodes alone; the accounts close as they do for what is tied alone.
@@ -330,7 +330,7 @@ fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
-    // Deep: 4289, whose corners have turned inside out, and 2345, of one pass, in which 571 of 578 steps run out (3.1
-    // motions; one more than before nodes went on from face to face along sharp edges). Sunk: 61 folds and a notch, 3028.
-    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 2, sunk: 66, cut: 118 });
+    // Deep: 4289, whose corners have turned inside out, and 1204, a notch whose passes run out in 576 of 579 steps (3.1
+    // motions). Sunk: folds.
+    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 2, sunk: 45, cut: 100 });
 }

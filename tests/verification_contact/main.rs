@@ -11,6 +11,7 @@ mod press_fit;
 mod rigid;
 mod rims;
 mod shells;
+mod sliding;
 mod solids;
 mod tied;
 

@@ -63,6 +63,13 @@ impl Projection {
         Projection { gap: length, normal: scaled(offset, 1.0 / length), outside: 0.0, rounded: true, ..self }
     }
 
+    /// Height of a point above the plane of the triangle in which the foot is, a length; the corners may be those of another time.
+    pub fn height(&self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> f64 {
+        let (middle, [a, b]) = (centre(corners), self.edge().map(|i| corners[i]));
+        let normal = cross(subtract(a, middle), subtract(b, middle));
+        dot(subtract(point, middle), normal) / dot(normal, normal).sqrt()
+    }
+
     /// Corners, by their places in the face, of the edge beyond which the point lies, or which is nearest to its foot.
     pub fn edge(&self) -> [usize; 2] {
         [self.triangle, (self.triangle + 1) % 4]
@@ -191,6 +198,24 @@ fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], 
     let length = dot(sum, sum).sqrt();
     // Triangles that have collapsed or turned over have no say.
     (length > 1.0).then(|| scaled(sum, 1.0 / length))
+}
+
+/// Unit normal of a face at a point of its border that has these shares of its corners: of the triangle at an edge, or the mean of
+/// the two at a corner. It stands upright on the edge, which the mean normal of a warped face does not: along that, what slides on the
+/// edge would sink in or rise.
+pub fn normal_on_border(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
+    let middle = centre(corners);
+    let mut sum = [0.0; 3];
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        let normal = cross(subtract(corners[k], middle), subtract(corners[next], middle));
+        let length = dot(normal, normal).sqrt();
+        if weights[k] + weights[next] > 1.0 - 2.0 * TIE && length > 0.0 {
+            sum = add(sum, scaled(normal, 1.0 / length));
+        }
+    }
+    let length = dot(sum, sum).sqrt();
+    if length > 0.0 { scaled(sum, 1.0 / length) } else { sum }
 }
 
 /// Shares of the corners in the point of a face that is met along a direction: Σ N x_I = point − α direction, in the plane

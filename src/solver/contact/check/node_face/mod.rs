@@ -33,6 +33,9 @@ const HOLD: f64 = 0.01;
 /// A face whose middle is higher than this part of its size above the face beside it folds towards what is in front of that.
 const HOLLOW: f64 = 0.05;
 
+/// A point that begins a step over one face of a ridge is behind the plane of the other from this part of its size on.
+const BEHIND: f64 = 1e-6;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -149,25 +152,21 @@ impl NodeFaceCheck<'_> {
         if contact.projection.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
             return;
         }
-        let corners = self.faces.corners[contact.face as usize];
-        let unit = |face: u32| {
-            let normal = projection::area_normal(&self.faces.end(face, self.motion));
-            scaled(normal, 1.0 / dot(normal, normal).sqrt())
-        };
-        let shared = |face: u32| -> f64 {
-            let other = self.faces.corners[face as usize];
-            corners
-                .iter()
-                .zip(contact.projection.weights)
-                .filter(|(corner, _)| other.contains(corner))
-                .map(|(_, w)| w)
-                .sum()
+        let own = self.faces.corners[contact.face as usize];
+        let weights = contact.projection.weights;
+        // What the foot has of its weights at the corners of this face that another one shares, or at one of them.
+        let shared = |corners: &[u32]| -> f64 {
+            own.iter().zip(weights).filter(|(corner, _)| corners.contains(corner)).map(|(_, weight)| weight).sum()
         };
         let mut sum = [0.0; 3];
-        for face in faces_of(near).filter(|&face| shared(face) > 1.0 - projection::TIE) {
-            let normal = unit(face);
-            if dot(normal, contact.projection.normal) > SAME_WAY {
-                sum = add(sum, normal);
+        for face in faces_of(near) {
+            let corners = self.faces.corners[face as usize];
+            if shared(&corners) > 1.0 - projection::TIE {
+                let weights = corners.map(|corner| shared(&[corner]));
+                let normal = projection::normal_on_border(&self.faces.end(face, self.motion), &weights);
+                if dot(normal, contact.projection.normal) > SAME_WAY {
+                    sum = add(sum, normal);
+                }
             }
         }
         let length = dot(sum, sum).sqrt();

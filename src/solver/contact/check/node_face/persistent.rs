@@ -1,9 +1,30 @@
 //! Nodes that faces have held before: whether they still do, and to which faces around them a node has gone on.
 
-use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
+use super::{BEHIND, DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
 use crate::common::vector::{dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
+
+/// A point that has left a face, and where it may have gone.
+struct NextFaces<'a> {
+    near: &'a [Candidate],
+    past: &'a [FaceContact; MAX_FACES],
+    /// The face that it has left, the overlap that is tolerated there, a length, and where it is beyond the border of that.
+    old: u32,
+    tolerated: f64,
+    left: Projection,
+    /// Whether that is hardly beyond.
+    slightly: bool,
+}
+
+/// Where it has gone.
+struct Next {
+    /// The face on which it is now.
+    face: Option<(u32, Projection)>,
+    /// Whether it is behind any of the faces around, or near that, and whether one of those rises in front of the old one.
+    behind: bool,
+    rises: bool,
+}
 
 impl NodeFaceCheck<'_> {
     /// Faces that held the point before, and those around them to which it may have moved on.
@@ -50,9 +71,38 @@ impl NodeFaceCheck<'_> {
         (old, tolerated, left): (u32, f64, Projection),
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let (slightly, normal) = (left.outside <= HOLD * self.faces.size[old as usize], left.normal);
-        let (mut behind, mut rises) = (false, false);
-        let mut next: Option<(u32, Projection, (bool, f64, f64))> = None;
+        let around = NextFaces {
+            near,
+            past,
+            old,
+            tolerated,
+            left,
+            slightly: left.outside <= HOLD * self.faces.size[old as usize],
+        };
+        let Next { face, behind, rises } = self.next_face(point, &around);
+        // The other side of a ridge has its turn in the next step: the point has not been behind its plane, but before the ridge, and
+        // counted from that plane it would be kept as deep as it was before.
+        let waits =
+            |(face, end): &(u32, Projection)| self.begins_over(point, old) && self.begins_behind(point, *face, end);
+        let is_held = || (around.slightly || face.is_some()) && self.in_reach(old, &left, tolerated);
+        match face.filter(|next| !waits(next)) {
+            Some((face, projection)) => contacts.push(self.held(face, projection, tolerated)),
+            None if is_held() => contacts.push(self.held(old, left, tolerated)),
+            None => {
+                // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
+                // is as well, where it is nearer than they touch.
+                let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
+                let flat = (deep && self.in_reach(old, &left, tolerated)).then(|| self.held(old, left, tolerated));
+                let around = || self.held_around(point, old, tolerated);
+                contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
+            }
+        }
+    }
+
+    /// The face around one that a point has left to which it has gone on, if any.
+    fn next_face(&self, point: u32, &NextFaces { near, past, old, tolerated, left, slightly }: &NextFaces) -> Next {
+        let mut next = Next { face: None, behind: false, rises: false };
+        let mut best = (true, f64::INFINITY, f64::INFINITY);
         let to = |&face: &u32| {
             self.related(old, face) && past.iter().all(|p| p.face != face) && self.stays_outside(point, old, face)
         };
@@ -64,8 +114,8 @@ impl NodeFaceCheck<'_> {
                 continue;
             }
             if projection.gap < 0.0 && projection.outside <= 2.0 * projection.gap.abs() {
-                behind = true;
-                rises |= self.rises(old, face, normal);
+                next.behind = true;
+                next.rises |= self.rises(old, face, left.normal);
             }
             // What slides along a sharp edge of a solid stays as far beyond as on the face that it leaves, before it goes around
             // the corner. In a plane of symmetry, where faces need not stand upright, feet fall beside them, and the face in the
@@ -78,27 +128,23 @@ impl NodeFaceCheck<'_> {
                 0.0
             };
             let found = (goes_around, projection.outside, projection.gap.abs());
-            if projection.outside <= beyond
-                && self.in_reach(face, &projection, tolerated)
-                && next.is_none_or(|(_, _, best)| found < best)
-            {
-                next = Some((face, projection, found));
+            if projection.outside <= beyond && self.in_reach(face, &projection, tolerated) && found < best {
+                (next.face, best) = (Some((face, projection)), found);
             }
         }
-        match next {
-            Some((face, projection, _)) => contacts.push(self.held(face, projection, tolerated)),
-            None if slightly && self.in_reach(old, &left, tolerated) => {
-                contacts.push(self.held(old, left, tolerated));
-            }
-            None => {
-                // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
-                // is as well, where it is nearer than they touch.
-                let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
-                let flat = (deep && self.in_reach(old, &left, tolerated)).then(|| self.held(old, left, tolerated));
-                let around = || self.held_around(point, old, tolerated);
-                contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
-            }
-        }
+        next
+    }
+
+    /// Whether a point begins the step over a face, or hardly beyond its border.
+    fn begins_over(&self, point: u32, face: u32) -> bool {
+        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
+        start.is_some_and(|start| start.outside <= HOLD * self.faces.size[face as usize])
+    }
+
+    /// Whether a point begins the step behind the plane of that part of a face over which it ends.
+    fn begins_behind(&self, point: u32, face: u32, end: &Projection) -> bool {
+        let height = end.height(&self.faces.start(face, self.motion), self.motion.start(point));
+        height - self.faces.distance(point, face) < -BEHIND * self.faces.size[face as usize]
     }
 
     /// A point that a surface has held around its border is so as long as it is near the border, whatever else holds it.

@@ -1,0 +1,88 @@
+//! What is pressed and slides stays on the surface: along an edge between warped faces, and over ridges.
+//!
+//! A rigid base is held, and a cube that stands on one of its corners is driven over it; base and corner are in the plane y = 0, where
+//! the height of the surface is known.
+
+use crate::support::between;
+use crate::support::meshes::{nodes_where, recipe};
+use crate::support::run::run;
+use urto::mesh::Mesh;
+
+/// Cells of the base along x, each as long as 1.
+const CELLS: f64 = 4.0;
+
+/// Where the corner begins.
+const BEGIN: f64 = 0.3;
+
+/// A base whose upper nodes are lifted by `height` of x and y, and a cube on the lowest of its corners.
+fn corner_on_base(height: impl Fn(f64, f64) -> f64) -> Mesh {
+    let mut mesh = recipe(
+        "TITLE\n corner on base\nBOX, 1, 0., -1., -1., 4., 2., 1., 4, 2, 1\nBOX, 2, -0.25, -0.25, -0.25, 0.5, 0.5, 0.5, 1, 1, 1\n\
+         ROTATE, 2, X, 45.\nROTATE, 2, Y, 35.2643897\nNODE SET BLOCK, 1, 1\nNODE SET BLOCK, 2, 2\n",
+    );
+    let lifted = nodes_where(&mesh, |[_, _, z]| z == 0.0);
+    let cube = mesh.node_set(2).expect("a node set").nodes.clone();
+    let lowest = *cube
+        .iter()
+        .min_by(|a, b| mesh.coordinates[**a as usize][2].total_cmp(&mesh.coordinates[**b as usize][2]))
+        .expect("a corner");
+    for &node in lifted.iter().filter(|node| !cube.contains(node)) {
+        let [x, y, z] = &mut mesh.coordinates[node as usize];
+        *z = height(*x, *y);
+    }
+    let from = mesh.coordinates[lowest as usize];
+    let to = [BEGIN, 0.0, height_at(&height, BEGIN)];
+    for &node in &cube {
+        for (axis, x) in mesh.coordinates[node as usize].iter_mut().enumerate() {
+            *x += to[axis] - from[axis];
+        }
+    }
+    mesh
+}
+
+/// Height of the base at y = 0.
+fn height_at(height: &impl Fn(f64, f64) -> f64, x: f64) -> f64 {
+    let cell = x.floor().min(CELLS - 1.0);
+    height(cell, 0.0) + (x - cell) * (height(cell + 1.0, 0.0) - height(cell, 0.0))
+}
+
+/// Least and largest height of the corner above the surface while it goes at a velocity from one end of the base to the other.
+fn heights(height: impl Fn(f64, f64) -> f64, (velocity, gravity): (f64, f64)) -> [f64; 2] {
+    let mesh = corner_on_base(&height);
+    let end = 3.4 / velocity;
+    let deck = format!(
+        "TITLE\n corner on base\nTERMINATION TIME, {end}\nOUTPUT TIME, {0}\nPLOT TIME, {1}\nRIGID BODY, 1\n\
+         MATERIAL, 1, ELASTIC, 7800.\nYOUNGS MODULUS = 2.E11\nPOISSONS RATIO = 0.3\nEND\n\
+         MATERIAL, 2, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E9\nPOISSONS RATIO = 0.3\nEND\n\
+         CONTACT MATERIAL\nCONTACT EDGES, OFF\nCONTACT DATA, 1, 2, 0., 1.\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\n\
+         NO DISPLACEMENT, Z, 1\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nPRESCRIBED VELOCITY, X, 2, 1, {velocity}\nGRAVITY, 0., 0., -{gravity}\n",
+        end / 10.0,
+        end / 500.0
+    );
+    let run = run(&deck, &mesh);
+    let corner = nodes_where(&mesh, |[x, y, _]| (x - BEGIN).abs() < 1e-9 && y.abs() < 1e-9);
+    let node = *corner.first().expect("the corner") as usize;
+    let above = run.states.iter().map(|state| {
+        let [x, _, z] = state.positions(&mesh)[node];
+        z - height_at(&height, x)
+    });
+    above.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], h| [least.min(h), most.max(h)])
+}
+
+/// The faces on both sides of the straight edge y = 0 are warped, each the other way than the one before. Along the mean of their mean
+/// normals, which leans by a tenth along the edge, the corner would sink and rise by 8 and 4 % of a face.
+#[test]
+fn what_slides_along_an_edge_of_warped_faces_keeps_its_height() {
+    let warped = |x: f64, y: f64| if x.rem_euclid(2.0) == 0.0 { 0.1 * y.abs() } else { -0.1 * y.abs() };
+    let [least, most] = heights(warped, (170.0, 3e4));
+    between("along an edge", "least height over a face", least, -1e-6, 0.0);
+    between("along an edge", "largest height over a face", most, 0.0, 1e-6);
+}
+
+/// Over ridges that the surface turns away at, by 0.1 each. Were the far side of a ridge taken as soon as the corner ends a step over
+/// it, the corner would be kept as deep behind its plane as it was before the ridge: 0.14 % of a face here, with every ridge anew.
+#[test]
+fn what_slides_over_ridges_does_not_sink() {
+    let [least, _] = heights(|x, _| -0.05 * (x - 2.0) * (x - 2.0), (170.0, 3e5));
+    between("over ridges", "least height over a face", least, -1e-5, 0.0);
+}
