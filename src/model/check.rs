@@ -26,7 +26,10 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
             return found;
         }
     }
-    problem.deck.cards.iter().filter(|card| card.complete).for_each(|card| unused_factors(card, mesh, &mut found));
+    for card in problem.deck.cards.iter().filter(|card| card.complete) {
+        unused_factors(card, mesh, &mut found);
+        sides_without_faces(card, mesh, &mut found);
+    }
     blocks_without_material(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
         conflicts(problem, mesh, axis, &mut found);
@@ -224,6 +227,32 @@ fn unused_factors(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
             );
         }
     }
+}
+
+/// Reports side sets of which sides are edges or ends of elements, where only faces have something to do: an error where none is a face.
+fn sides_without_faces(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let field = match card.name.as_str() {
+        "PRESSURE" | "SILENT BC" => "side_set",
+        "TIED CONTACT" => "second",
+        _ => return,
+    };
+    let Some(set) = card.maybe_integer(field).and_then(|id| mesh.side_set(id)) else { return };
+    let shapes = mesh.shaped().map(|(shape, _)| shape).collect::<Vec<_>>();
+    let is_face = |&&(element, side): &&(u32, u8)| {
+        shapes.get(element as usize).is_some_and(|shape| usize::from(side) < shape.faces().len())
+    };
+    let (id, count, faces) = (set.id, set.sides.len(), set.sides.iter().filter(is_face).count());
+    if faces == count {
+        return;
+    }
+    let which = if faces == 0 { format!("all {count}") } else { format!("{} of the {count}", count - faces) };
+    let message = format!("{}: {which} sides of side set {id} are edges or ends of elements", card.name);
+    let report = if faces == 0 { Diagnostic::error(message) } else { Diagnostic::warning(message) };
+    found.push(
+        report
+            .at(card.place(field), "this acts on faces, and not on these")
+            .help("sides 1 and 2 of a shell are its faces; PRESCRIBED FORCE loads the nodes of an edge"),
+    );
 }
 
 /// Warns of a rigid surface that does not have its body in front of it.

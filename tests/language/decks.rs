@@ -326,6 +326,29 @@ fn distribution_factors_are_told_to_be_unused_where_they_would_matter() {
 }
 
 #[test]
+fn a_pressure_on_edges_of_shells_is_told_to_do_nothing() {
+    let triangles =
+        "TITLE\n t\nSHEET, 1, 0., 0., 0., 1., 1., 0., 1, 1\nTRIANGLES, 1\nSIDE SET NORMAL, 100, 0., 0., 1.\n";
+    let deck = "TITLE\n t\nTERMINATION TIME, 1.\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nSHELL THICKNESS, 1, 0.1\nPRESSURE, 100, 1\n\
+                MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n";
+    let with_sides = |sides: [u8; 2]| {
+        let mut mesh = urto::mesher::make(triangles, "t.mesh", 1).expect("a mesh");
+        mesh.side_sets[0].sides.iter_mut().zip(sides).for_each(|((_, side), given)| *side = given);
+        match examine(Source::new("t.i", deck.to_owned()), Some(&mesh)) {
+            Ok(problem) => {
+                Ok(problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>())
+            }
+            Err(messages) => Err(messages.to_string()),
+        }
+    };
+    assert_eq!(with_sides([0, 0]), Ok(Vec::new()));
+    let told = "PRESSURE: 1 of the 2 sides of side set 100 are edges or ends of elements";
+    assert_eq!(with_sides([0, 4]), Ok(vec![told.to_owned()]));
+    let refused = with_sides([2, 3]).expect_err("nothing is pressed");
+    assert!(refused.contains("all 2 sides of side set 100 are edges"), "{refused}");
+}
+
+#[test]
 fn all_stands_for_every_block_of_contact() {
     let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
     let contact = |text: &str| problem(&format!("{LEAST}{blocks}{text}")).model.contact;

@@ -65,6 +65,9 @@ impl Projection {
 
     /// Height of a point above the plane of the triangle in which the foot is, a length; the corners may be those of another time.
     pub fn height(&self, corners: &[[f64; 3]; 4], point: [f64; 3]) -> f64 {
+        if let Some(ends) = strip::of(corners) {
+            return strip::project(ends, point).map_or(f64::NAN, |projection| projection.gap);
+        }
         let (middle, [a, b]) = (centre(corners), self.edge().map(|i| corners[i]));
         let normal = cross(subtract(a, middle), subtract(b, middle));
         dot(subtract(point, middle), normal) / dot(normal, normal).sqrt()
@@ -204,6 +207,10 @@ fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], 
 /// the two at a corner. It stands upright on the edge, which the mean normal of a warped face does not: along that, what slides on the
 /// edge would sink in or rise.
 pub fn normal_on_border(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
+    if let Some(ends) = strip::of(corners) {
+        let normal = strip::area_normal(ends);
+        return scaled(normal, 1.0 / dot(normal, normal).sqrt());
+    }
     let middle = centre(corners);
     let mut sum = [0.0; 3];
     for k in 0..4 {
@@ -295,6 +302,32 @@ mod tests {
         assert!((s.gap + 0.1).abs() < 1e-15 && s.outside == 0.0 && s.normal == [0.0, 0.0, 1.0]);
         assert!(subtract(foot, [0.3, 0.6, 0.0]).iter().all(|d| d.abs() < 1e-15), "{foot:?}");
         assert!((s.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn normals_on_the_border_stand_upright_on_it() {
+        // Warped: its mean normal leans along the first edge.
+        let warped = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.3], [0.0, 1.0, -0.3]];
+        let mean = area_normal(&warped);
+        let on_edge = normal_on_border(&warped, &[0.4, 0.6, 0.0, 0.0]);
+        assert!(mean[0].abs() > 0.1 && on_edge[0].abs() < 1e-15, "{mean:?} {on_edge:?}");
+        // At a corner between both edges that end there; of a strip its own.
+        let (along, at) =
+            (normal_on_border(&warped, &[0.0, 0.5, 0.5, 0.0]), normal_on_border(&warped, &[0.0, 1.0, 0.0, 0.0]));
+        let sum = add(on_edge, along);
+        assert!(subtract(at, scaled(sum, 1.0 / dot(sum, sum).sqrt())).iter().all(|x| x.abs() < 1e-15), "{at:?}");
+        let strip = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+        assert_eq!(normal_on_border(&strip, &[1.0, 0.0, 0.0, 0.0]), [0.0, -1.0, 0.0]);
+    }
+
+    #[test]
+    fn heights_over_the_part_of_a_face_where_the_foot_is() {
+        let s = project(&SQUARE, [0.5, 0.1, 0.2]).expect("a face");
+        let lifted = SQUARE.map(|[x, y, z]| [x, y, z + 1.0 + 0.5 * y]);
+        assert!((s.height(&lifted, [0.7, -3.0, 0.0]) * 1.25f64.sqrt() - 0.5).abs() < 1e-15);
+        let strip = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+        let s = project(&strip, [0.5, -0.1, 0.0]).expect("a strip");
+        assert_eq!(s.height(&strip, [5.0, -0.3, 0.0]), 0.3);
     }
 
     proptest! {

@@ -6,7 +6,7 @@ use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
 
 /// A point that has left a face, and where it may have gone.
-struct NextFaces<'a> {
+struct Departure<'a> {
     near: &'a [Candidate],
     past: &'a [FaceContact; MAX_FACES],
     /// The face that it has left, the overlap that is tolerated there, a length, and where it is beyond the border of that.
@@ -18,7 +18,7 @@ struct NextFaces<'a> {
 }
 
 /// Where it has gone.
-struct Next {
+struct NextFace {
     /// The face on which it is now.
     face: Option<(u32, Projection)>,
     /// Whether it is behind any of the faces around, or near that, and whether one of those rises in front of the old one.
@@ -71,7 +71,7 @@ impl NodeFaceCheck<'_> {
         (old, tolerated, left): (u32, f64, Projection),
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let around = NextFaces {
+        let around = Departure {
             near,
             past,
             old,
@@ -79,7 +79,7 @@ impl NodeFaceCheck<'_> {
             left,
             slightly: left.outside <= HOLD * self.faces.size[old as usize],
         };
-        let Next { face, behind, rises } = self.next_face(point, &around);
+        let NextFace { face, behind, rises } = self.next_face(point, &around);
         // The other side of a ridge has its turn in the next step: the point has not been behind its plane, but before the ridge, and
         // counted from that plane it would be kept as deep as it was before.
         let waits =
@@ -100,8 +100,8 @@ impl NodeFaceCheck<'_> {
     }
 
     /// The face around one that a point has left to which it has gone on, if any.
-    fn next_face(&self, point: u32, &NextFaces { near, past, old, tolerated, left, slightly }: &NextFaces) -> Next {
-        let mut next = Next { face: None, behind: false, rises: false };
+    fn next_face(&self, point: u32, &Departure { near, past, old, tolerated, left, slightly }: &Departure) -> NextFace {
+        let mut next = NextFace { face: None, behind: false, rises: false };
         let mut best = (true, f64::INFINITY, f64::INFINITY);
         let to = |&face: &u32| {
             self.related(old, face) && past.iter().all(|p| p.face != face) && self.stays_outside(point, old, face)
