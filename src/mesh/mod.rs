@@ -166,7 +166,17 @@ impl Mesh {
         self.blocks.iter().flat_map(|block| block.elements().map(move |nodes| (block.shape, nodes)))
     }
 
-    /// The same as a list in which each element is found by its place.
+    /// Shape of the element at a place, counted from 0 in file order, if there is one.
+    pub fn shape_of(&self, element: u32) -> Option<Shape> {
+        let mut end = 0;
+        let is_in = |block: &&Block| {
+            end += block.len();
+            (element as usize) < end
+        };
+        self.blocks.iter().find(is_in).map(|block| block.shape)
+    }
+
+    /// All shapes and nodes as a list in which each element is found by its place.
     pub fn connectivity(&self) -> Connectivity {
         let mut all = Connectivity::with_room_for(self.blocks.iter().map(|block| block.nodes.len()).sum());
         self.shaped().for_each(|(shape, nodes)| all.push(shape, nodes.iter().copied()));

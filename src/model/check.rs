@@ -237,10 +237,7 @@ fn sides_without_faces(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
         _ => return,
     };
     let Some(set) = card.maybe_integer(field).and_then(|id| mesh.side_set(id)) else { return };
-    let shapes = mesh.shaped().map(|(shape, _)| shape).collect::<Vec<_>>();
-    let is_face = |&&(element, side): &&(u32, u8)| {
-        shapes.get(element as usize).is_some_and(|shape| usize::from(side) < shape.faces().len())
-    };
+    let is_face = |&&(element, side): &&(u32, u8)| mesh.shape_of(element).is_some_and(|shape| shape.is_face(side));
     let (id, count, faces) = (set.id, set.sides.len(), set.sides.iter().filter(is_face).count());
     if faces == count {
         return;

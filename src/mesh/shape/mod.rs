@@ -120,6 +120,11 @@ impl Shape {
         &self.sides()[..faces]
     }
 
+    /// Whether a side, counted from 0, is a face; elements of shells and bars have edges and ends as sides as well.
+    pub fn is_face(self, side: u8) -> bool {
+        usize::from(side) < self.faces().len()
+    }
+
     /// Local nodes at the ends of each edge.
     pub fn edges(self) -> &'static [[usize; 2]] {
         match self {

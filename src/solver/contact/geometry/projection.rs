@@ -7,7 +7,7 @@
 use super::crossing::{self, Path};
 use super::motion::Four;
 use super::strip;
-use crate::common::vector::{add, cross, dot, scaled, subtract};
+use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
 /// round-off decides which corner is inside; without the margin each may be beyond the other's border, and they pass
@@ -204,25 +204,22 @@ fn between_triangles(arms: &[[f64; 3]; 4], triangle: usize, [b1, b2]: [f64; 2], 
 }
 
 /// Unit normal of a face at a point of its border that has these shares of its corners: of the triangle at an edge, or the mean of
-/// the two at a corner. It stands upright on the edge, which the mean normal of a warped face does not: along that, what slides on the
-/// edge would sink in or rise.
+/// the two at a corner; zero where the face has no area there. It stands upright on the edge, which the mean normal of a warped face
+/// does not: along that, what slides on the edge would sink in or rise.
 pub fn normal_on_border(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
     if let Some(ends) = strip::of(corners) {
-        let normal = strip::area_normal(ends);
-        return scaled(normal, 1.0 / dot(normal, normal).sqrt());
+        return normalized(strip::area_normal(ends)).unwrap_or_default();
     }
     let middle = centre(corners);
     let mut sum = [0.0; 3];
     for k in 0..4 {
         let next = (k + 1) % 4;
-        let normal = cross(subtract(corners[k], middle), subtract(corners[next], middle));
-        let length = dot(normal, normal).sqrt();
-        if weights[k] + weights[next] > 1.0 - 2.0 * TIE && length > 0.0 {
-            sum = add(sum, scaled(normal, 1.0 / length));
+        if weights[k] + weights[next] > 1.0 - 2.0 * TIE {
+            let normal = normalized(cross(subtract(corners[k], middle), subtract(corners[next], middle)));
+            sum = add(sum, normal.unwrap_or_default());
         }
     }
-    let length = dot(sum, sum).sqrt();
-    if length > 0.0 { scaled(sum, 1.0 / length) } else { sum }
+    normalized(sum).unwrap_or_default()
 }
 
 /// Shares of the corners in the point of a face that is met along a direction: Σ N x_I = point − α direction, in the plane

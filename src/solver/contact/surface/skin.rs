@@ -261,8 +261,7 @@ fn side_set_faces(mesh: &Mesh, contact: &Contact, body: &Body) -> Vec<Vec<u32>> 
     let list = |id: i64| {
         let sides = mesh.side_set(id).map_or(&[][..], |set| &set.sides);
         // Edges of surfaces are sides as well, but no faces.
-        let is_face =
-            |element: u32, side: u8| usize::from(side) < body.element_nodes.shape(element as usize).faces().len();
+        let is_face = |element: u32, side: u8| body.element_nodes.shape(element as usize).is_face(side);
         let sides = sides.iter().map(|&(element, side)| (canonical[element as usize], side));
         let sides = sides.filter(|&(element, side)| is_face(element, side));
         let mut faces: Vec<u32> = sides.map(|(element, side)| 6 * element + u32::from(side)).collect();

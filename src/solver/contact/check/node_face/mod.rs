@@ -33,9 +33,6 @@ const HOLD: f64 = 0.01;
 /// A face whose middle is higher than this part of its size above the face beside it folds towards what is in front of that.
 const HOLLOW: f64 = 0.05;
 
-/// A point that begins a step over one face of a ridge is behind the plane of the other from this part of its size on.
-const BEHIND: f64 = 1e-6;
-
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 

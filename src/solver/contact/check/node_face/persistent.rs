@@ -1,11 +1,14 @@
 //! Nodes that faces have held before: whether they still do, and to which faces around them a node has gone on.
 
-use super::{BEHIND, DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
+use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
 use crate::common::vector::{dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
 
-/// A point that has left a face, and where it may have gone.
+/// A point that begins a step over one face of a ridge is behind the plane of the other from this part of its size on.
+const BEHIND: f64 = 1e-6;
+
+/// A point that has left a face, and what it may have gone on to.
 struct Departure<'a> {
     near: &'a [Candidate],
     past: &'a [FaceContact; MAX_FACES],
@@ -13,8 +16,6 @@ struct Departure<'a> {
     old: u32,
     tolerated: f64,
     left: Projection,
-    /// Whether that is hardly beyond.
-    slightly: bool,
 }
 
 /// Where it has gone.
@@ -35,21 +36,23 @@ impl NodeFaceCheck<'_> {
         past: &[FaceContact; MAX_FACES],
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let mut left: Option<(u32, f64, Projection)> = None;
-        for past in past.iter().filter(|past| past.face != NONE && is_near(near, past.face)) {
-            let Some(projection) = self.projection_at_end(point, past.face) else { continue };
+        let mut departure: Option<Departure> = None;
+        for &FaceContact { face: old, tolerated, .. } in
+            past.iter().filter(|past| past.face != NONE && is_near(near, past.face))
+        {
+            let Some(projection) = self.projection_at_end(point, old) else { continue };
             if projection.outside == 0.0 {
-                if self.in_reach(past.face, &projection, past.tolerated) {
-                    contacts.push(self.held(past.face, projection, past.tolerated));
+                if self.in_reach(old, &projection, tolerated) {
+                    contacts.push(self.held(old, projection, tolerated));
                 }
-            } else if self.is_beside(point, past.face, &projection) {
-                contacts.extend(self.held_around(point, past.face, past.tolerated));
-            } else if left.is_none() {
-                left = Some((past.face, past.tolerated, projection));
+            } else if self.is_beside(point, old, &projection) {
+                contacts.extend(self.held_around(point, old, tolerated));
+            } else if departure.is_none() {
+                departure = Some(Departure { near, past, old, tolerated, left: projection });
             }
         }
-        if let Some(left) = left.filter(|_| contacts.is_empty()) {
-            self.moved_on(point, near, past, left, contacts);
+        if let Some(departure) = departure.filter(|_| contacts.is_empty()) {
+            contacts.extend(self.moved_on(point, &departure));
         }
         self.still_around(point, near, past, contacts);
         // Of the faces around those that hold the point only those that fold towards it can hold it as well.
@@ -62,45 +65,32 @@ impl NodeFaceCheck<'_> {
         distance > 0.0 && projection.is_beside(projection.gap + distance, self.faces.borders_of(face))
     }
 
-    /// A point that has left its faces: on to a face around the first of them, or held by that as it was.
-    fn moved_on(
-        &self,
-        point: u32,
-        near: &[Candidate],
-        past: &[FaceContact; MAX_FACES],
-        (old, tolerated, left): (u32, f64, Projection),
-        contacts: &mut Vec<DetectedContact>,
-    ) {
-        let around = Departure {
-            near,
-            past,
-            old,
-            tolerated,
-            left,
-            slightly: left.outside <= HOLD * self.faces.size[old as usize],
-        };
-        let NextFace { face, behind, rises } = self.next_face(point, &around);
+    /// A point that has left its faces: on to a face around the first of them, or held by that as it was, or by none.
+    fn moved_on(&self, point: u32, departure: &Departure) -> Option<DetectedContact> {
+        let &Departure { old, tolerated, left, .. } = departure;
+        let NextFace { face, behind, rises } = self.next_face(point, departure);
         // The other side of a ridge has its turn in the next step: the point has not been behind its plane, but before the ridge, and
         // counted from that plane it would be kept as deep as it was before.
         let waits =
             |(face, end): &(u32, Projection)| self.begins_over(point, old) && self.begins_behind(point, *face, end);
-        let is_held = || (around.slightly || face.is_some()) && self.in_reach(old, &left, tolerated);
-        match face.filter(|next| !waits(next)) {
-            Some((face, projection)) => contacts.push(self.held(face, projection, tolerated)),
-            None if is_held() => contacts.push(self.held(old, left, tolerated)),
-            None => {
-                // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
-                // is as well, where it is nearer than they touch.
-                let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
-                let flat = (deep && self.in_reach(old, &left, tolerated)).then(|| self.held(old, left, tolerated));
-                let around = || self.held_around(point, old, tolerated);
-                contacts.extend(if rises { flat.or_else(around) } else { around().or(flat) });
-            }
+        if let Some((face, projection)) = face.filter(|next| !waits(next)) {
+            return Some(self.held(face, projection, tolerated));
         }
+        let as_it_was = self.in_reach(old, &left, tolerated).then(|| self.held(old, left, tolerated));
+        if let Some(held) = as_it_was.filter(|_| face.is_some() || self.is_hardly_beyond(old, &left)) {
+            return Some(held);
+        }
+        // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
+        // is as well, where it is nearer than they touch.
+        let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
+        let flat = as_it_was.filter(|_| deep);
+        let around = || self.held_around(point, old, tolerated);
+        if rises { flat.or_else(around) } else { around().or(flat) }
     }
 
     /// The face around one that a point has left to which it has gone on, if any.
-    fn next_face(&self, point: u32, &Departure { near, past, old, tolerated, left, slightly }: &Departure) -> NextFace {
+    fn next_face(&self, point: u32, &Departure { near, past, old, tolerated, left }: &Departure) -> NextFace {
+        let slightly = self.is_hardly_beyond(old, &left);
         let mut next = NextFace { face: None, behind: false, rises: false };
         let mut best = (true, f64::INFINITY, f64::INFINITY);
         let to = |&face: &u32| {
@@ -135,10 +125,15 @@ impl NodeFaceCheck<'_> {
         next
     }
 
+    /// Whether a foot is on a face or hardly beyond its border.
+    fn is_hardly_beyond(&self, face: u32, projection: &Projection) -> bool {
+        projection.outside <= HOLD * self.faces.size[face as usize]
+    }
+
     /// Whether a point begins the step over a face, or hardly beyond its border.
     fn begins_over(&self, point: u32, face: u32) -> bool {
         let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
-        start.is_some_and(|start| start.outside <= HOLD * self.faces.size[face as usize])
+        start.is_some_and(|start| self.is_hardly_beyond(face, &start))
     }
 
     /// Whether a point begins the step behind the plane of that part of a face over which it ends.
