@@ -8,7 +8,7 @@
 mod newcomer;
 mod persistent;
 
-use crate::common::vector::{add, dot, scaled, subtract};
+use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
 use crate::solver::contact::geometry::faces::Faces;
@@ -160,7 +160,13 @@ impl NodeFaceCheck<'_> {
             let corners = self.faces.corners[face as usize];
             if shared(&corners) > 1.0 - projection::TIE {
                 let weights = corners.map(|corner| shared(&[corner]));
-                let normal = projection::normal_on_border(&self.faces.end(face, self.motion), &weights);
+                let end = self.faces.end(face, self.motion);
+                // Folds of surfaces are pinched sooner along upright normals (docs/decisions.md, "What slides on a solid").
+                let normal = if self.faces.is_two_sided(face) {
+                    normalized(projection::area_normal(&end)).unwrap_or_default()
+                } else {
+                    projection::normal_on_border(&end, &weights)
+                };
                 if dot(normal, contact.projection.normal) > SAME_WAY {
                     sum = add(sum, normal);
                 }

@@ -70,9 +70,10 @@ impl NodeFaceCheck<'_> {
         let &Departure { old, tolerated, left, .. } = departure;
         let NextFace { face, behind, rises } = self.next_face(point, departure);
         // The other side of a ridge has its turn in the next step: the point has not been behind its plane, but before the ridge, and
-        // counted from that plane it would be kept as deep as it was before.
-        let waits =
-            |(face, end): &(u32, Projection)| self.begins_over(point, old) && self.begins_behind(point, *face, end);
+        // counted from that plane it would be kept as deep as it was before. Surfaces are round there.
+        let waits = |(face, end): &(u32, Projection)| {
+            !self.faces.is_two_sided(old) && self.begins_over(point, old) && self.begins_behind(point, *face, end)
+        };
         if let Some((face, projection)) = face.filter(|next| !waits(next)) {
             return Some(self.held(face, projection, tolerated));
         }
