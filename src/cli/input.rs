@@ -134,12 +134,18 @@ impl Given {
         Inputs::default().with("the deck", self.problem.deck.source.files()).with(mesh, &self.mesh_files)
     }
 
-    /// Warnings that the user should see.
+    /// Warnings that the user should see, those of the deck with the lines that they are about.
     pub fn warnings(&self) -> Option<String> {
         let found = &self.problem.diagnostics;
         let deck = found.warnings().next().is_some().then(|| render(found));
-        let warnings: Vec<String> = deck.into_iter().chain(self.idle()).collect();
+        let idle = self.idle().map(|warning| format!("warning: {warning}"));
+        let warnings: Vec<String> = deck.into_iter().chain(idle).collect();
         (!warnings.is_empty()).then(|| warnings.join("\n"))
+    }
+
+    /// The same, a sentence each.
+    pub fn warning_messages(&self) -> impl Iterator<Item = String> {
+        self.problem.diagnostics.warnings().map(|warning| warning.message.clone()).chain(self.idle())
     }
 
     /// A warning about nodes that belong to no element: they have no mass and take no part.
@@ -150,7 +156,7 @@ impl Given {
         let more = if idle.len() > first.len() { ", ..." } else { "" };
         (!idle.is_empty()).then(|| {
             format!(
-                "warning: {}: {} nodes belong to no element and take no part: {}{more}",
+                "{}: {} nodes belong to no element and take no part: {}{more}",
                 self.mesh_path.display(),
                 idle.len(),
                 first.join(", ")
@@ -161,7 +167,7 @@ impl Given {
 
 impl Given {
     /// Warnings about what is in deck or mesh and has no effect.
-    pub fn idle(&self) -> impl Iterator<Item = String> {
+    fn idle(&self) -> impl Iterator<Item = String> {
         [self.idle_nodes(), self.idle_rotations(), self.idle_deaths()].into_iter().flatten()
     }
 
@@ -170,10 +176,7 @@ impl Given {
         let blocks = idle_deaths(&self.mesh, &self.problem.model);
         let blocks: Vec<String> = blocks.iter().map(|block| block.to_string()).collect();
         (!blocks.is_empty()).then(|| {
-            format!(
-                "warning: DEATH watches HGENERGY of blocks {}, whose elements have no hourglass energy",
-                blocks.join(", ")
-            )
+            format!("DEATH watches HGENERGY of blocks {}, whose elements have no hourglass energy", blocks.join(", "))
         })
     }
 
@@ -183,7 +186,7 @@ impl Given {
             idle_rotations(&self.mesh, &self.problem.model).iter().map(|set| set.to_string()).collect();
         (!sets.is_empty()).then(|| {
             format!(
-                "warning: rotations of node sets {} are held, driven or loaded, but none of their nodes belongs to a shell or beam",
+                "rotations of node sets {} are held, driven or loaded, but none of their nodes belongs to a shell or beam",
                 sets.join(", ")
             )
         })

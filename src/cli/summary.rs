@@ -209,9 +209,7 @@ fn warnings(prepared: &Prepared, outcome: Result<&Ended, &RunError>) -> Vec<Warn
         Err(RunError::Stopped { findings, .. }) => findings,
         Err(_) => &[],
     };
-    let of_deck = prepared.given.problem.diagnostics.warnings().map(|warning| warning.message.clone());
-    let read = of_deck.chain(prepared.given.idle());
-    let read = read.map(|label| Warning { label, step: None, time: None, words: None });
+    let read = prepared.given.warning_messages().map(|label| Warning { label, step: None, time: None, words: None });
     let of_run = findings.iter().map(|finding| Warning {
         label: finding.label(),
         step: Some(finding.step),

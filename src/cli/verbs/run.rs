@@ -152,9 +152,7 @@ fn with_job<T>(
 ) -> T {
     let problem = &prepared.given.problem;
     let assumed: Vec<String> = problem.diagnostics.notes().map(|note| note.message.clone()).collect();
-    let told = problem.diagnostics.warnings().map(|warning| warning.message.clone());
-    let idle = prepared.given.idle().map(|warning| warning.trim_start_matches("warning: ").to_string());
-    let warnings: Vec<String> = told.chain(idle).collect();
+    let warnings: Vec<String> = prepared.given.warning_messages().collect();
     work(&Job {
         mesh: &prepared.given.mesh,
         model: &problem.model,
