@@ -67,3 +67,42 @@ pub fn tied_scene(seed: u64) -> Scene {
     b.line(&format!("INITIAL VELOCITY MATERIAL, 3, {:?}, 0., {:?}", 0.3 * speed, -speed));
     b.finish("tied blocks that are hit", friction, 1500.0)
 }
+
+/// Two tied blocks whose meshes do not match, thrown with the rim of their joint against a wall: a rigid plane, a held rigid block, a
+/// heavy free one, or a plane and contact beside it.
+pub fn struck_joint_scene(seed: u64) -> Scene {
+    let mut b = builder(seed);
+    let dice = &mut b.dice;
+    let [below, above, across] = [dice.count(1, 6), dice.count(1, 8), dice.count(1, 5)];
+    let (stiffness, density) = (dice.magnitude(1e-2, 1e2), dice.magnitude(0.1, 10.0));
+    let (speed, tilt, lift) = (dice.magnitude(1.0, 50.0), dice.one_of(&[0.0, 0.0, 10.0]), dice.one_of(&[0.0, 0.01]));
+    let kind = dice.count(0, 3);
+    let high = dice.between(0.3, 1.2);
+    b.boxed(1, [0.0; 3], [1.0, 1.0, 1.0], [below, across, below]);
+    b.boxed(2, [0.0, 0.0, 1.0], [1.0, 1.0, high], [above, above, above]);
+    b.mesh_line("SIDE SET FACE, 100, 1, TOP");
+    b.mesh_line("SIDE SET FACE, 200, 2, BOTTOM");
+    b.mesh_line("SIDE SET PLANE, 400, X, 0.");
+    b.material(1, 1.0, 1.0);
+    b.material(2, stiffness, density);
+    let has_wall = kind == 1 || kind == 2;
+    if has_wall {
+        b.boxed(3, [-0.6 - lift, -0.5, -0.5], [0.6, 2.0, 3.0], [2, 5, 7]);
+        b.mesh_line("NODE SET BLOCK, 9, 3");
+        b.material(3, 100.0, if kind == 1 { 1.0 } else { 300.0 });
+    }
+    let friction = kind != 0 && b.contact(if has_wall { 3 } else { 2 });
+    if kind == 1 {
+        b.line("RIGID BODY, 3");
+        ["X", "Y", "Z"].iter().for_each(|axis| b.line(&format!("NO DISPLACEMENT, {axis}, 9")));
+    }
+    if !has_wall {
+        let slope = f64::to_radians(tilt);
+        b.line(&format!("RIGID SURFACE, 400, {:?}, 0., 0., {:?}, 0., {:?}", -lift, slope.cos(), slope.sin()));
+    }
+    let sets = b.dice.one_of(&[[100, 200], [200, 100]]);
+    b.line(&format!("TIED CONTACT, {}, {}", sets[0], sets[1]));
+    b.line(&format!("INITIAL VELOCITY MATERIAL, 1, {:?}", -speed));
+    b.line(&format!("INITIAL VELOCITY MATERIAL, 2, {:?}", -speed));
+    b.finish("tied blocks thrown against a wall", friction, 1000.0)
+}

@@ -4,13 +4,14 @@
 //! `URTO_SCENES=0..5000 cargo test --release --test verification_contact energy:: -- --include-ignored --nocapture` runs others; with
 //! `URTO_SCENES_TO=folder` each is written there as a recipe and a deck.
 
-use crate::support::joined_scenes::{rigid_scene, settings_scene, tied_scene};
+use crate::support::joined_scenes::{rigid_scene, settings_scene, struck_joint_scene, tied_scene};
 use crate::support::meshes::recipe;
 use crate::support::penetration::Skin;
 use crate::support::run::model;
 use crate::support::scenes::{Scene, scene};
 use crate::support::shell_scenes::{shell_scene, triangle_scene};
 use crate::support::surfaces::Surfaces;
+use std::ops::Range;
 use urto::comm::{Communicator, ExactSum, run_threads};
 use urto::mesh::{Mesh, Shape};
 use urto::model::Model;
@@ -206,14 +207,19 @@ struct Allowed {
     cut: usize,
 }
 
-/// Runs the scenes of some seeds.
-fn try_all(seeds: std::ops::Range<u64>, scene: fn(u64) -> Scene, allowed: Allowed) {
+/// The seeds that `URTO_SCENES` asks for, or else these; and whether it asks.
+fn asked_for(seeds: Range<u64>) -> (Range<u64>, bool) {
     let asked = std::env::var("URTO_SCENES").ok().and_then(|text| {
         let (from, to) = text.split_once("..")?;
         Some(from.parse().ok()?..to.parse().ok()?)
     });
-    let print = asked.is_some();
-    let seeds = asked.unwrap_or(seeds);
+    let is_asked = asked.is_some();
+    (asked.unwrap_or(seeds), is_asked)
+}
+
+/// Runs the scenes of some seeds.
+fn try_all(seeds: Range<u64>, scene: fn(u64) -> Scene, allowed: Allowed) {
+    let (seeds, print) = asked_for(seeds);
     let [mut giving, mut crushed, mut dipping, mut deep, mut sunk, mut cut] = [const { Vec::new() }; 6];
     let mut anyhow = 0;
     for seed in seeds.clone() {
@@ -286,14 +292,24 @@ fn contact_with_rigid_bodies_gives_no_energy() {
     try_all(0..150, rigid_scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 1, cut: 2 });
 }
 
-/// Beside a joint contact sees masses that are not those of its nodes alone; the accounts close as they do for what is tied alone.
+/// What TIED CONTACT joins answers to contact as one: several followers push the same leaders. The accounts close as they do for what is
+/// tied alone.
 #[test]
 fn contact_with_tied_blocks_gives_no_energy() {
-    let asked = std::env::var("URTO_SCENES").is_ok();
-    let mut wrong = Vec::new();
-    let (mut refused, seeds) = (0, 0..60);
+    try_joints(0..60, tied_scene);
+}
+
+/// The same where all that push are nodes of the joint, and against what cannot move.
+#[test]
+fn joints_thrown_against_walls_give_no_energy() {
+    try_joints(0..60, struck_joint_scene);
+}
+
+fn try_joints(seeds: Range<u64>, scene: fn(u64) -> Scene) {
+    let (seeds, print) = asked_for(seeds);
+    let (mut refused, mut wrong) = (0, Vec::new());
     for seed in seeds {
-        match try_seed(tied_scene(seed), seed, asked) {
+        match try_seed(scene(seed), seed, print) {
             Ok(found) if found.refusal.is_some() => refused += 1,
             Ok(found) if found.gap > 0.01 || found.stop.is_some() => {
                 wrong.push(format!("seed {seed}: the accounts miss {:.2e}; {:?}", found.gap, found.stop));

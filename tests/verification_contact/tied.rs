@@ -147,6 +147,49 @@ fn a_wave_goes_through_a_joint() {
     between("wave through a joint", "worst balance", run.worst_balance(), 0.0, 1e-3);
 }
 
+/// Two blocks fall flat on a wall with the rim of their joint, where several followers push the same leaders: on a rigid plane, and on a
+/// held rigid block, which is the same wall. What lies on it stops at once, which takes the kinetic energy of half an element's layer of each
+/// block, and a little more, as followers beside the wall hand a part of their masses to leaders on it.
+#[test]
+fn the_rim_of_a_joint_strikes_a_wall() {
+    for [fine, coarse] in [[2, 1], [8, 2], [4, 1], [5, 3]] {
+        let blocks = format!(
+            "TITLE\n JOINT\nBOX, 1, 0., 0., 0., 0.03, 0.03, 0.03, {fine}, {fine}, {fine}\n\
+             BOX, 2, 0., 0., -0.03, 0.03, 0.03, 0.03, {coarse}, {coarse}, {coarse}\n\
+             SIDE SET FACE, 100, 1, BOTTOM\nSIDE SET FACE, 200, 2, TOP\n"
+        );
+        let mesh_of_plane = recipe(&format!("{blocks}SIDE SET PLANE, 400, X, 0.\n"));
+        let block = recipe(&format!(
+            "{blocks}BOX, 3, -0.02, -0.015, -0.045, 0.02, 0.06, 0.09, 3, 9, 13\nNODE SET BLOCK, 9, 3\n"
+        ));
+        let deck = format!(
+            "TERMINATION TIME, 4.E-5\nOUTPUT TIME, 1.E-7\nPLOT TIME, 4.E-5\nTIED CONTACT, 100, 200\n\
+             INITIAL VELOCITY MATERIAL, 1, -5.\nINITIAL VELOCITY MATERIAL, 2, -5.\n{LAWS}"
+        );
+        let third = "MATERIAL, 3, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\nRIGID BODY, 3\n\
+            NO DISPLACEMENT, X, 9\nNO DISPLACEMENT, Y, 9\nNO DISPLACEMENT, Z, 9\nCONTACT MATERIAL\n";
+        let on_the_plane = format!("RIGID SURFACE, 400, 0., 0., 0., 1., 0., 0.\n{deck}");
+        let on_plane = run(&on_the_plane, &mesh_of_plane);
+        let on_block = run(&format!("{third}{deck}"), &block);
+        let case = format!("joint of {fine} on {coarse} on a wall");
+        let layer = |cells: i32| 0.5 * 7850.0 * 0.03f64.powi(3) / (2.0 * f64::from(cells)) * 25.0;
+        let expected = layer(fine) + layer(coarse);
+        for (wall, run) in [("plane", &on_plane), ("block", &on_block)] {
+            let most = run.lines.iter().map(|line| line.totals.contact).fold(0.0, f64::max);
+            between(&case, &format!("work of contact on the {wall}, largest"), most / expected, 0.0, 1e-12);
+            let made = run.last().totals.contact_gain / expected;
+            between(&case, &format!("made on the {wall}"), made, 0.0, 1e-12);
+            let loss = -run.last().totals.contact / expected;
+            between(&case, &format!("taken by the {wall} over that of the layers"), loss, 1.0, 1.3);
+        }
+        let [plane, block] = [&on_plane, &on_block].map(|run| run.last().totals.contact);
+        close(&case, "work on the block, J", block, plane, 2e-4 * plane.abs());
+        // Joints make planes of different ranks one problem, also of ranks without any node on the wall.
+        let shared = run_on(4, &on_the_plane, &mesh_of_plane);
+        assert_eq!(shared.last().totals, on_plane.last().totals, "{case}: other bits on four ranks");
+    }
+}
+
 /// Two tied blocks fly, spin and vibrate.
 #[test]
 fn tied_blocks_fly_freely() {

@@ -238,3 +238,18 @@ fn v15_taylor_bar_with_the_step_of_the_mesh() {
     let length = |run: &Run| run.end().positions(&mesh).iter().fold(0.0f64, |most, p| most.max(p[2]));
     close("V-15, global", "length over that with elements' steps", length(&global) / length(&own), 1.0, 0.003);
 }
+
+/// A step that follows every vibration is in phase with the stiffness of what rings, and feeds it. It falls when it has to, rises where that is
+/// worth it, and else stays: 2.2 % of the energy were made here by one that followed, and the step was another in most steps.
+#[test]
+fn the_step_does_not_swing_with_the_elements() {
+    let mesh = recipe("TITLE\n CUBE\nBOX, 1, 0., 0., 0., 0.05, 0.05, 0.05, 5, 5, 5\nPERTURB, 0.25\nNODE SET FACE, 5, 1, TOP\n");
+    let deck = "TERMINATION TIME, 1.E-3\nOUTPUT TIME, 1.E-6\nPLOT TIME, 1.E-3\nTIME STEP ESTIMATE, GLOBAL\n\
+        INITIAL VELOCITY NODESET, 5, 0., 0., 50.\nMATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+    let run = run(deck, &mesh);
+    between("ringing cube", "worst balance", run.worst_balance(), 0.0, 5e-3);
+    let steps: Vec<f64> = run.lines.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+    let whole = &steps[..steps.len() - 21];
+    let changes = whole.windows(2).filter(|pair| (pair[1] / pair[0] - 1.0).abs() > 1e-6).count();
+    between("ringing cube", "changes of the step", changes as f64, 0.0, 12.0);
+}

@@ -31,6 +31,10 @@ impl Tolerance {
         if a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()) {
             return true;
         }
+        // What is no number, or infinite, equals nothing else, however large the floor.
+        if !(a.is_finite() && b.is_finite()) {
+            return false;
+        }
         let largest = a.abs().max(b.abs());
         *self != Tolerance::EXACT && (largest <= self.floor || (a - b).abs() <= self.relative * largest)
     }
@@ -85,10 +89,15 @@ impl Place {
         (self.values[0] - self.values[1]).abs()
     }
 
-    /// |a − b| / max(|a|, |b|), zero if both are zero.
+    /// |a − b| / max(|a|, |b|), zero if both are zero and infinite where one is no finite number.
     pub fn relative(&self) -> f64 {
-        let largest = self.values[0].abs().max(self.values[1].abs());
-        if largest == 0.0 { 0.0 } else { self.absolute() / largest }
+        let [a, b] = self.values;
+        let largest = a.abs().max(b.abs());
+        match largest {
+            _ if !(a.is_finite() && b.is_finite()) => f64::INFINITY,
+            0.0 => 0.0,
+            _ => self.absolute() / largest,
+        }
     }
 }
 

@@ -30,6 +30,7 @@ use enforcement::accounts::certificate::Bank;
 use enforcement::accounts::gain::Gain;
 use enforcement::accounts::resultants::Resultants;
 use enforcement::iterations::{Limits, Outcome};
+use enforcement::joints::Joints;
 use enforcement::mobility::BodyMobility;
 use enforcement::other_ranks::{Elsewhere, NoOtherRanks};
 use geometry::paths::PathRange;
@@ -42,6 +43,7 @@ use search::locate::Reach;
 use search::surroundings::Surroundings;
 use search::{Search, neighbourhood};
 use std::borrow::Cow;
+use std::sync::Arc;
 use surface::construction::alone;
 use surface::layout::{ABSENT, Layout};
 use surface::pairings::Pairings;
@@ -83,6 +85,8 @@ pub struct Contact {
     mean_size: f64,
     /// All nodes that may meet planes.
     plane_nodes: Vec<PlaneNode>,
+    /// What TIED CONTACT joins, where it may be touched.
+    joints: Option<Arc<Joints>>,
     limits: Limits,
     /// How overlaps of the mesh are pushed apart, if they are.
     press_fit: Option<PressFit>,
@@ -184,9 +188,13 @@ impl Contact {
             self.contact_nodes.belong(|node| rigid.of_node(node), nodes);
         }
         self.contact_nodes.turn(rigid.bodies.iter().map(RigidBody::last_angle));
-        if is_known {
-            return;
+        if !is_known {
+            self.tell_who_answers(comm);
         }
+    }
+
+    /// Tells the local problem of planes alone on many ranks for which nodes this one answers.
+    fn tell_who_answers(&mut self, comm: &dyn Communicator) {
         if self.remote.is_none() && comm.size() > 1 {
             self.problem.answers = self.contact_nodes.list.iter().map(|contact_node| contact_node.owned).collect();
         }
@@ -307,7 +315,7 @@ impl Contact {
     }
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
-        let coupled = comm.size() > 1 && !self.problem.motion.mobility.bodies.is_empty();
+        let coupled = comm.size() > 1 && self.problem.motion.mobility.is_coupled();
         let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, seen, .. } = self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);

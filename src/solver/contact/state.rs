@@ -68,6 +68,7 @@ impl Contact {
             thicknesses: _,
             reach: _,
             planes: _,
+            joints: _,
             mean_size: _,
             limits: _,
             press_fit: _,

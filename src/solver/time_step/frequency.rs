@@ -12,8 +12,11 @@
 //! none is to be had for less than a factorisation. It is kept small enough for a run to be estimated a million times,
 //! every estimate begins with numbers of its own, and the step never falls below the elements' own bound, which is proved.
 //!
-//! Between estimates Δt is multiplied by the least ratio of the elements' own steps now and then, where that is below one,
-//! and by that of their heights ([`Heights`]): squeezing and shocks are answered at once.
+//! Between estimates this limit is multiplied by the least ratio so far of the elements' own steps now and then, where that is below one,
+//! and by that of their heights ([`Heights`]): squeezing and shocks are answered at once. The step itself stays as it is while it is below
+//! the limit. One that followed every vibration would be short whenever elements are pressed and long whenever they are pulled, in phase
+//! with their stiffness; near the limit that feeds the highest frequencies as a swing is fed, and a cube whose corners ring gained three
+//! quarters of its energy. So it falls with something to spare, and becomes longer at estimates only, where that is worth it.
 
 use super::heights::Heights;
 use crate::comm::{Communicator, ExactSum};
@@ -41,12 +44,22 @@ const WORTH: f64 = 1.03;
 /// Ratio of elements' steps below which the estimate is made again.
 const CHANGED: f64 = 0.9;
 
+/// Part of the limit that is taken when the step has to change: what rings by less changes it no more.
+const SPARE: f64 = 0.98;
+
+/// A step becomes longer only by this factor at least.
+const LONGER: f64 = 1.02;
+
 /// The stable step of the mesh, and when it was found.
 pub struct GlobalStep {
     /// Which blocks take part; of the others the elements' own steps hold.
     takes_part: Vec<bool>,
     /// Stable step of these blocks when it was found last; 0 while it is not known.
     found: f64,
+    /// Least ratio of the elements' steps and heights since then; at most 1.
+    shrunk: f64,
+    /// The step that is taken, below their product.
+    taken: f64,
     /// Step at which it was found.
     at: u64,
     /// Steps until it is found again.
@@ -81,6 +94,8 @@ impl GlobalStep {
         GlobalStep {
             takes_part: domain.blocks.iter().map(|block| !block.rigid && block.element.vibrates(&block.law)).collect(),
             found: 0.0,
+            shrunk: 1.0,
+            taken: 0.0,
             at: 0,
             interval: 0,
             stale: true,
@@ -123,17 +138,21 @@ impl GlobalStep {
     pub fn is_due(&mut self, step: u64, votes: Votes) -> bool {
         let since = step - self.at;
         self.heights.learn(votes.height);
-        let wanted = self.stale || since >= self.interval || votes.ratio.min(self.heights.ratio()) < CHANGED;
+        self.shrunk = self.shrunk.min(votes.ratio).min(self.heights.ratio());
+        let wanted = self.stale || since >= self.interval || self.shrunk < CHANGED;
         self.estimates == 0 || (wanted && since >= SHORTEST_INTERVAL.min(self.interval))
     }
 
     /// The stable step, by what all ranks have agreed on and the elements' own bound.
-    pub fn step(&self, own: f64, votes: Votes) -> f64 {
+    pub fn step(&mut self, own: f64, votes: Votes) -> f64 {
         if self.stale {
             return own;
         }
-        let ratio = votes.ratio.min(self.heights.ratio());
-        own.max((self.found * ratio).min(votes.rest)).min(votes.motion)
+        let limit = self.found * self.shrunk;
+        if self.taken > limit {
+            self.taken = SPARE * limit;
+        }
+        own.max(self.taken.min(votes.rest)).min(votes.motion)
     }
 
     /// Finds the stable step anew. All ranks call it, when the elements have had their pass.
@@ -147,7 +166,10 @@ impl GlobalStep {
     ) {
         let mut operator = Operator::new(domain, &self.takes_part, settings, comm);
         self.found = operator.stable_step(step, comm);
-        (self.at, self.stale) = (step, false);
+        if SPARE * self.found > LONGER * self.taken {
+            self.taken = SPARE * self.found;
+        }
+        (self.shrunk, self.at, self.stale) = (1.0, step, false);
         self.estimates += 1;
         self.heights.begin(domain, &self.takes_part);
         let gains = self.found > WORTH * own;
@@ -162,9 +184,11 @@ impl GlobalStep {
 
     /// Visits what the next steps need.
     pub(in crate::solver) fn visit_state(&mut self, archive: &mut dyn Archive, domain: &Domain) {
-        let GlobalStep { takes_part: _, found, at, interval, stale, then, heights, estimates } = self;
+        let GlobalStep { takes_part: _, found, shrunk, taken, at, interval, stale, then, heights, estimates } = self;
         heights.visit_state(archive, domain);
         archive.number("GLOBALSTEP", found);
+        archive.number("GLOBALSHRUNK", shrunk);
+        archive.number("GLOBALTAKEN", taken);
         archive.count("GLOBALAT", at);
         archive.count("GLOBALEVERY", interval);
         archive.count("GLOBALCOUNT", estimates);

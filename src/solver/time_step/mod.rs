@@ -133,13 +133,12 @@ impl Solver {
     }
 
     /// Lets the mesh as a whole bound the step, where the deck asks for it.
-    fn estimate(&mut self, mut votes: Votes, comm: &mut dyn Communicator) {
+    fn estimate(&mut self, votes: Votes, comm: &mut dyn Communicator) {
         let Some(global) = &mut self.global_step else { return };
         self.clock.start();
         let own = self.stable_step;
         if global.is_due(self.step, votes) {
             global.estimate(&mut self.domain, self.step, own, &self.pass, comm);
-            votes.ratio = 1.0;
         }
         self.stable_step = global.step(own, votes);
         self.clock.stop(Section::Elements);

@@ -21,6 +21,7 @@ use super::carried::Carried;
 use super::constraint::{Constraint, ConstraintState, Response};
 use super::iterates::Iterates;
 use super::iterations::{Limits, Outcome, Times};
+use super::joints::JointSums;
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
 use super::sweep;
@@ -57,6 +58,8 @@ pub struct Enforcer {
     pub(super) states: Vec<ConstraintState>,
     /// Forces in the course of the iterations.
     pub(super) iterates: Iterates,
+    /// What pushes the leaders of joints.
+    joints: JointSums,
     /// Rays of single points, where the ledger is theirs.
     rays: Vec<Terms>,
     /// Points of the constraints, ascending.
@@ -102,6 +105,9 @@ impl Enforcer {
         self.list_members(constraints);
         self.iterates.begin(constraints, &self.states);
         self.held_anywhere = self.held.0;
+        if motion.mobility.joints.are_there() {
+            self.joints.begin(&self.iterates, motion, others);
+        }
         // Where nothing overlaps there is nothing to do. One iteration is made for the smallest overlap:
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
@@ -292,6 +298,10 @@ impl Enforcer {
             let mut bodies = BodySums::of(&self.iterates, motion);
             others.merge(bodies.sums());
             bodies.answer(&self.members, motion, times.kick, &mut self.responses);
+        }
+        if motion.mobility.joints.are_there() {
+            let pushing = (&self.members[..], &self.iterates);
+            self.joints.answer(pushing, motion, times.kick, &mut self.responses, others);
         }
         others.share(&mut self.responses);
     }

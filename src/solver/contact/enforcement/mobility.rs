@@ -1,4 +1,4 @@
-//! How points of contact answer to forces: by their own masses, or with all of a rigid body.
+//! How points of contact answer to forces: by their own masses, with all of a rigid body, or with what TIED CONTACT joins.
 //!
 //! A body is to the enforcement what a node is: forces on all of its points move it, and the constraints on it share its mass.
 //! The operator that turns forces into velocities is then no longer diagonal over points, but it is still symmetric and
@@ -6,11 +6,13 @@
 
 use super::constraint::{Constraint, MEMBERS, Response};
 use super::iterates::Iterates;
+use super::joints::Joints;
 use crate::comm::ExactSum;
 use crate::common::vector::{add, cross, subtract};
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::surface::layout::ABSENT;
 use crate::solver::rigid::{Compliance, Six, applied, product};
+use std::sync::Arc;
 
 /// Sums over the points of a body: force, moment, load.
 const SUMS: usize = 7;
@@ -18,10 +20,14 @@ const SUMS: usize = 7;
 /// Which points belong to rigid bodies, and how these answer to forces.
 #[derive(Debug, Clone, Default)]
 pub struct Mobility {
-    /// Body of each point, or [`u32::MAX`]; empty where there are no bodies.
+    /// Body of each point, or [`ABSENT`]; empty where there are no bodies.
     pub body: Vec<u32>,
     /// The bodies in this step.
     pub bodies: Vec<BodyMobility>,
+    /// Place of each point among the nodes of joints, or [`ABSENT`]; empty where contact meets no joint.
+    pub joint: Vec<u32>,
+    /// The joints.
+    pub joints: Arc<Joints>,
 }
 
 /// A rigid body in a step.
@@ -40,6 +46,17 @@ impl Mobility {
     #[inline]
     pub fn of(&self, point: usize) -> Option<usize> {
         self.body.get(point).copied().filter(|body| *body != ABSENT).map(|body| body as usize)
+    }
+
+    /// Place of a point among the nodes of joints.
+    #[inline]
+    pub fn joint(&self, point: usize) -> Option<u32> {
+        self.joint.get(point).copied().filter(|place| *place != ABSENT)
+    }
+
+    /// Whether points move with each other beside the constraints.
+    pub fn is_coupled(&self) -> bool {
+        !self.bodies.is_empty() || self.joints.are_there()
     }
 }
 

@@ -7,6 +7,7 @@ pub mod enforcer;
 pub mod friction;
 pub mod iterates;
 pub mod iterations;
+pub mod joints;
 pub mod mobility;
 pub mod other_ranks;
 mod sweep;

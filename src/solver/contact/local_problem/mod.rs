@@ -257,7 +257,7 @@ impl LocalProblem {
             self.check(setting, step.drift, met);
             self.check_edges(setting.pairings, setting.lines, met);
         }
-        // With rigid bodies alone, no force of a step can push a node in that is farther away than a face is large.
+        // With rigid bodies or joints alone, no force of a step can push a node in that is farther away than a face is large.
         let reach = match (self.rules.is_empty(), self.are_coupled()) {
             (false, _) => f64::INFINITY,
             (true, true) => setting.mean_size,
@@ -306,7 +306,7 @@ impl LocalProblem {
 
     /// Whether constraints of different points act on each other.
     fn are_coupled(&self) -> bool {
-        !self.rules.is_empty() || !self.motion.mobility.bodies.is_empty()
+        !self.rules.is_empty() || self.motion.mobility.is_coupled()
     }
 
     /// Origins tell the order of constraints to all ranks: they are in numbers of the layout.

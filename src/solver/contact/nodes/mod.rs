@@ -5,6 +5,7 @@ pub mod sparse;
 
 use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
+use crate::solver::contact::enforcement::joints::Joints;
 use crate::solver::contact::geometry::motion::{NodeMotion, larger, smaller};
 use crate::solver::contact::geometry::paths::PathRange;
 use crate::solver::contact::geometry::swept_box::SweptBox;
@@ -12,6 +13,7 @@ use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::layout::{ABSENT, inverse};
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
 use result::NodeResult;
+use std::sync::Arc;
 
 /// A contact node that is a node of this rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,6 +106,19 @@ impl ContactNodes {
             if let Some(body_mobility) = self.motion.mobility.bodies.get(body as usize) {
                 let arm = subtract(nodes.position(contact_node.node), body_mobility.centre);
                 self.arms[body as usize] = self.arms[body as usize].max(dot(arm, arm).sqrt());
+            }
+        }
+    }
+
+    /// Learns which of them TIED CONTACT joins, and how these answer to a force alone.
+    pub fn join(&mut self, joints: &Arc<Joints>, nodes: &Nodes) {
+        let mobility = &mut self.motion.mobility;
+        let place = |contact_node: &ContactNode| joints.place(nodes.file[contact_node.node as usize]);
+        mobility.joint = self.list.iter().map(place).collect();
+        mobility.joints = joints.clone();
+        for (inverse, &place) in self.motion.inverse_mass.iter_mut().zip(&mobility.joint) {
+            if place != ABSENT {
+                *inverse = joints.inverse_mass(place);
             }
         }
     }

@@ -275,6 +275,18 @@ impl Remote {
             |(_, problem), point, mass| problem.motion.inverse_mass[point as usize] = mass,
             comm,
         );
+        if contact_nodes.motion.mobility.joints.are_there() {
+            problem.motion.mobility.joints.clone_from(&contact_nodes.motion.mobility.joints);
+            problem.motion.mobility.joint = vec![ABSENT; problem.motion.len()];
+            self.motion.exchange(
+                &mut (contact_nodes, &mut *problem),
+                |(contact_nodes, _), contact_node| {
+                    [f64::from(contact_nodes.motion.mobility.joint[contact_node as usize])]
+                },
+                |(_, problem), point, [place]| problem.motion.mobility.joint[point as usize] = place as u32,
+                comm,
+            );
+        }
         if contact_nodes.motion.mobility.bodies.is_empty() {
             return;
         }

@@ -10,6 +10,7 @@ use crate::solver::contact::enforcement::accounts::certificate::Bank;
 use crate::solver::contact::enforcement::accounts::gain::Gain;
 use crate::solver::contact::enforcement::accounts::resultants::{Resultants, Subject};
 use crate::solver::contact::enforcement::iterations::Limits;
+use crate::solver::contact::enforcement::joints::Joints;
 use crate::solver::contact::local_problem::{LocalProblem, Numbering};
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::observations::arcs::Arcs;
@@ -23,6 +24,7 @@ use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::contact::{Contact, Seen, Tally};
 use crate::solver::nodes::Nodes;
+use std::sync::Arc;
 
 /// The surfaces that a model lets touch; `None` when it has neither contact nor rigid surfaces.
 pub fn skin(mesh: &Mesh, model: &Model, body: &Body) -> Option<Skin> {
@@ -52,6 +54,7 @@ impl Contact {
         let skin = skin?;
         let plane_node_sets = plane_node_sets(mesh, model);
         let layout = skin.layout();
+        let joints = Joints::of(mesh, model, body, &layout.nodes).map(Arc::new);
         let mut contact = Contact {
             contact_nodes: ContactNodes::default(),
             problem: LocalProblem::default(),
@@ -63,7 +66,8 @@ impl Contact {
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
             plane_nodes: plane_points(&plane_node_sets, model, body, &layout),
-            limits: limits(model, &plane_node_sets),
+            limits: limits(model, &plane_node_sets, joints.is_some()),
+            joints,
             press_fit: PressFit::of(mesh, model, body),
             lost_work: Vec::new(),
             bank: Bank::default(),
@@ -114,6 +118,9 @@ impl Contact {
         self.thicknesses.shrink_to_fit();
         let here = |point: u32| local(layout.nodes[point as usize]);
         self.contact_nodes = ContactNodes::new((layout.nodes.len(), layout.origin), here, held, nodes);
+        if let Some(joints) = &self.joints {
+            self.contact_nodes.join(joints, nodes);
+        }
         if layout.interfaces.is_empty() {
             // Planes alone need nobody else's nodes. Where there was more before, their forces were known at owner ranks only.
             if let (Some(_), Some(history)) = (self.remote.take(), &mut self.carried) {
@@ -123,6 +130,9 @@ impl Contact {
             self.problem = alone(layout, &self.contact_nodes, &self.plane_nodes, Default::default(), 0.0);
             // Nor a search, which would put history back.
             self.problem.restore(self.carried.take().unwrap_or_default());
+            if self.joints.is_some() {
+                self.tell_who_answers(comm);
+            }
         } else if comm.size() > 1 {
             let is_here = |face: u32| elements.binary_search(&(face / 6)).is_ok();
             self.remote = Some(Remote::new((layout, &self.contact_nodes), self.decomposition, is_here, comm));
@@ -185,9 +195,9 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
 
 /// How far the iterations go. All ranks must make the same number of them. With surfaces every rank sees all constraints and
 /// stops at the same iteration; planes alone are each rank's own, and get as many iterations as they can need.
-fn limits(model: &Model, plane_node_sets: &[Vec<u32>]) -> Limits {
+fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limits {
     let control = &model.contact.control;
-    if model.contact.is_some() || !model.rigid_bodies.is_empty() {
+    if model.contact.is_some() || !model.rigid_bodies.is_empty() || are_joined {
         return Limits { iterations: control.passes, tolerance: control.tolerance };
     }
     let mut nodes = plane_node_sets.concat();
