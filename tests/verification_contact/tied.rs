@@ -172,7 +172,7 @@ fn the_rim_of_a_joint_strikes_a_wall() {
         let on_plane = run(&on_the_plane, &mesh_of_plane);
         let on_block = run(&format!("{third}{deck}"), &block);
         let case = format!("joint of {fine} on {coarse} on a wall");
-        let layer = |cells: i32| 0.5 * 7850.0 * 0.03f64.powi(3) / (2.0 * f64::from(cells)) * 25.0;
+        let layer = |cells: i32| 0.5 * 1000.0 * 0.03f64.powi(3) / (2.0 * f64::from(cells)) * 25.0;
         let expected = layer(fine) + layer(coarse);
         for (wall, run) in [("plane", &on_plane), ("block", &on_block)] {
             let most = run.lines.iter().map(|line| line.totals.contact).fold(0.0, f64::max);

@@ -243,7 +243,9 @@ fn v15_taylor_bar_with_the_step_of_the_mesh() {
 /// worth it, and else stays: 2.2 % of the energy were made here by one that followed, and the step was another in most steps.
 #[test]
 fn the_step_does_not_swing_with_the_elements() {
-    let mesh = recipe("TITLE\n CUBE\nBOX, 1, 0., 0., 0., 0.05, 0.05, 0.05, 5, 5, 5\nPERTURB, 0.25\nNODE SET FACE, 5, 1, TOP\n");
+    let mesh = recipe(
+        "TITLE\n CUBE\nBOX, 1, 0., 0., 0., 0.05, 0.05, 0.05, 5, 5, 5\nPERTURB, 0.25\nNODE SET FACE, 5, 1, TOP\n",
+    );
     let deck = "TERMINATION TIME, 1.E-3\nOUTPUT TIME, 1.E-6\nPLOT TIME, 1.E-3\nTIME STEP ESTIMATE, GLOBAL\n\
         INITIAL VELOCITY NODESET, 5, 0., 0., 50.\nMATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
     let run = run(deck, &mesh);

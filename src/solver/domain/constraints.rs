@@ -68,10 +68,9 @@ impl Constraint {
         nodes.forces[n].0[i] = force;
     }
 
-    /// Books half the step's work with the present velocity; a node held still does none.
+    /// Books half the step's work with the present velocity. At a node that is held still it is none, unless a run goes on with a
+    /// constraint that is new.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        if self.motion.is_some() {
-            self.work += half_step * self.reaction * nodes.velocity(self.node)[self.axis];
-        }
+        self.work += half_step * self.reaction * nodes.velocity(self.node)[self.axis];
     }
 }

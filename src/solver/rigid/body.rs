@@ -263,7 +263,7 @@ impl RigidBody {
         let [velocity, spin] = self.motion(after);
         self.weight_work += half_step * self.shape.mass * dot(self.gravity, velocity);
         let frame = self.frame;
-        for hold in self.holds.iter_mut().filter(|hold| hold.motion.is_some()) {
+        for hold in self.holds.iter_mut().filter(|hold| hold.motion.is_some() || hold.begins) {
             let row = hold.row(times(&frame, hold.arm));
             let [u, v, w] = velocity;
             let [x, y, z] = spin;

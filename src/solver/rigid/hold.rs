@@ -27,8 +27,10 @@ pub struct Hold {
     pub motion: Option<Motion>,
     /// What the command that asks for it holds or drives, along which axis, and how.
     pub asked: (Unknown, usize, Option<MotionKind>),
-    /// Coordinate at the start.
+    /// Coordinate at the start; of what begins to be held when a run goes on, where it is then.
     pub start: f64,
+    /// Whether it begins to be held in the coming step: that stops what moves, which is work.
+    pub begins: bool,
     /// Velocity over the last step.
     pub speed: f64,
     /// Angle so far.
@@ -91,6 +93,7 @@ impl Hold {
 
     /// Remembers a step.
     pub fn go(&mut self, gone: f64, turn: Quaternion, drift: f64) {
+        self.begins = false;
         self.strayed = match self.motion.map(|motion| motion.kind) {
             None | Some(MotionKind::Displacement) => self.missing,
             Some(MotionKind::Velocity | MotionKind::Acceleration) => self.strayed + self.missing,
@@ -167,6 +170,7 @@ pub fn holds(mesh: &Mesh, model: &Model, (nodes, centre): (&[u32], [f64; 3]), po
         motion: if of == alike.of { alike.motion } else { None },
         asked: (alike.of, alike.axis, alike.motion.map(|motion| motion.kind)),
         start: mesh.coordinates[node as usize][axis],
+        begins: false,
         speed: 0.0,
         turned: 0.0,
         strayed: 0.0,

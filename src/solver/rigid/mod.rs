@@ -366,10 +366,10 @@ impl RigidBodies {
     }
 }
 
-/// Numbers of a hold in files: node, axis, whether about it, and what it carries.
-const HOLD: usize = 7;
+/// Numbers of a hold in files: node, axis, whether about it, whether it holds still, and what it carries.
+const HOLD: usize = 9;
 
-/// A deck may hold other nodes when a run is continued; the work of those that are no more stays with the weight.
+/// A deck may hold other nodes when a run is continued, where they are then; the work of those that are no more stays with the weight.
 fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
     let key =
         |hold: &hold::Hold| [f64::from(hold.node), hold.axis as f64, f64::from(u8::from(hold.of == Unknown::Rotation))];
@@ -377,17 +377,28 @@ fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
     if archive.comm().rank() == 0 && !archive.loading() {
         for hold in &body.holds {
             rows.extend(key(hold));
-            rows.extend([hold.speed, hold.turned, hold.work, hold.strayed]);
+            rows.push(f64::from(u8::from(hold.motion.is_none())));
+            rows.extend([hold.start, hold.speed, hold.turned, hold.work, hold.strayed]);
         }
     }
     archive.list(name, HOLD, &mut rows);
     if !archive.loading() {
         return;
     }
+    let frame = turn::matrix(body.turn);
+    let places: Vec<[f64; 3]> = body.holds.iter().map(|hold| add(body.centre, turn::times(&frame, hold.arm))).collect();
+    for (hold, place) in body.holds.iter_mut().zip(places).filter(|(hold, _)| hold.motion.is_none()) {
+        (hold.begins, hold.start) = (true, place[hold.axis]);
+    }
     for row in rows.chunks_exact(HOLD) {
         match body.holds.iter_mut().find(|hold| key(hold)[..] == row[..3]) {
-            Some(hold) => [hold.speed, hold.turned, hold.work, hold.strayed] = [row[3], row[4], row[5], row[6]],
-            None => body.weight_work += row[5],
+            Some(hold) => {
+                if hold.motion.is_none() && row[3] != 0.0 {
+                    (hold.begins, hold.start) = (false, row[4]);
+                }
+                [hold.speed, hold.turned, hold.work, hold.strayed] = [row[5], row[6], row[7], row[8]];
+            }
+            None => body.weight_work += row[7],
         }
     }
 }
