@@ -99,7 +99,7 @@ fn written() -> String {
 const CLOSING: &str = r#".SH FILES
 All files of a run have one base name: the deck's, or that of
 .BR \-\-output .
-No verb writes over a file that it reads, by whatever name or link; old results are replaced.
+No verb writes over a file that it reads, by whatever name or link; old results are replaced, pieces and those of runs that went on with them.
 .TP
 .B BASE.i
 The deck, see

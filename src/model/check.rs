@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::{Mesh, locate::locate},
+    mesh::{Mesh, Shape, locate::locate},
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -49,22 +49,32 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
-    for card in problem.deck.cards_of("CONTACT THICKNESS").filter(|card| card.complete) {
-        thickness_of_solids(card, mesh, &mut found);
+    for card in problem.deck.cards.iter().filter(|card| card.complete) {
+        sections_of_others(card, mesh, &mut found);
     }
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
 }
 
-/// Warns of a CONTACT THICKNESS for a block whose elements have none.
-fn thickness_of_solids(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
-    let block = mesh.block_index(card.integer("block")).map(|place| &mesh.blocks[place]);
-    if block.is_some_and(|block| block.shape.is_solid()) {
+/// Warns of the section of a block whose elements have none of this kind.
+fn sections_of_others(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let (fits, kinds): (fn(Shape) -> bool, &str) = match card.name.as_str() {
+        "CONTACT THICKNESS" => (|shape| !shape.is_solid(), "shells, trusses and beams"),
+        "SHELL THICKNESS" | "THICKNESS SCALE" | "INTEGRATION POINTS" => (Shape::is_surface, "shells"),
+        "TRUSS AREA" => (|shape| shape == Shape::Bar, "trusses"),
+        "BEAM SECTION" => (|shape| shape == Shape::Bar, "beams"),
+        _ => return,
+    };
+    let block = card.maybe_integer("block").and_then(|id| mesh.block_index(id)).map(|place| &mesh.blocks[place]);
+    if let Some(block) = block.filter(|block| !fits(block.shape)) {
+        let [_, shapes] = block.shape.names();
         found.push(
-            Diagnostic::warning("CONTACT THICKNESS: the block is of solids, so that nothing follows from this")
-                .at(card.record, "solids touch at their faces")
-                .help("it is for shells, trusses and beams"),
+            Diagnostic::warning(format!(
+                "{}: block {} is of {shapes}, so that nothing follows from this",
+                card.name, block.id
+            ))
+            .at(card.record, format!("this is for {kinds}")),
         );
     }
 }
@@ -318,6 +328,8 @@ fn reference(card: &Card, what: &str, item: &Item, mesh: &Mesh, found: &mut Diag
     };
     match there.iter().find(|(there, _)| *there == id) {
         Some((_, 1..)) => (),
+        // An empty block needs a material as any other does.
+        Some(_) if card.name == "MATERIAL" => (),
         Some(_) => found.push(
             Diagnostic::warning(format!("{}: {what} {id} of the mesh is empty", card.name))
                 .at(span, "this command does nothing"),

@@ -6,7 +6,7 @@
 
 /// How a line begins that names variables by the first letters of their names.
 const NAMES: &str = "$ MEANS OVER INTERVALS: ";
-/// How a line begins that tells the time of the last state before the first of the file.
+/// How a line begins that tells the time of the last state before the first of the file; in plot files that at which the run goes on.
 const SINCE: &str = "$ MEANS SINCE: ";
 
 /// What is told.
@@ -38,6 +38,11 @@ impl Means {
             told.since = since.filter(|time: &f64| time.is_finite()).or(told.since);
         }
         told
+    }
+
+    /// All lines but these.
+    pub fn without(lines: Vec<String>) -> Vec<String> {
+        lines.into_iter().filter(|line| !line.starts_with(NAMES) && !line.starts_with(SINCE)).collect()
     }
 
     /// Whether each value of a variable is the mean since the state before.

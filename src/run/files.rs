@@ -2,7 +2,7 @@
 
 use super::restart::states_beside;
 use crate::exodus::names_in_writing;
-use crate::exodus::pieces::{any_pieces_of, piece_path};
+use crate::exodus::pieces::{all_pieces_of, any_pieces_of, piece_path};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -51,6 +51,19 @@ impl Files {
         results.chain([self.print.clone(), self.shutdown.clone()]).collect()
     }
 
+    /// Results of earlier runs of this name that a run which begins anew on so many ranks would leave beside its own, where they would
+    /// be taken for its: what runs that went on have written, and the whole beside pieces or pieces beside the whole.
+    pub fn stale(&self, pieces: usize) -> Vec<PathBuf> {
+        let parts = [&self.plot, &self.history].into_iter().flat_map(|first| {
+            let later = (2..=9999).map(move |number| part_of(first, number));
+            later.map(with_pieces).take_while(|files| !files.is_empty()).flatten()
+        });
+        let own: Vec<PathBuf> = (0..pieces).map(|rank| piece_path(&self.plot, pieces, rank)).collect();
+        let other_pieces = all_pieces_of(&self.plot).into_iter().filter(|path| !own.contains(path));
+        let whole = (pieces > 0 && self.plot.is_file()).then(|| self.plot.clone());
+        parts.chain(other_pieces).chain(whole).collect()
+    }
+
     /// The same of restart states: the newest, the one that is being written, and older ones.
     pub fn restarts_written(&self) -> Vec<PathBuf> {
         let unfinished = names_in_writing(&with_suffix(&self.restart, ".new"));
@@ -61,15 +74,32 @@ impl Files {
     /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
     pub fn continuing(base: &Path) -> Files {
         let first = Files::of(base);
-        let part = |number: u32| if number == 1 { String::new() } else { format!("-s{number:04}") };
         let named = |number: u32| Files {
-            plot: with_suffix(&first.plot, &part(number)),
-            history: with_suffix(&first.history, &part(number)),
+            plot: part_of(&first.plot, number),
+            history: part_of(&first.history, number),
             ..first.clone()
         };
         let free = |files: &Files| !files.plot.exists() && !files.history.exists() && !any_pieces_of(&files.plot);
         (1..=9999).map(named).find(free).unwrap_or_else(|| first.clone())
     }
+}
+
+/// The name of what the `number`-th start of the program writes into: `run.e`, `run.e-s0002`, ...
+pub fn part_of(first: &Path, number: u32) -> PathBuf {
+    if number == 1 { first.to_owned() } else { with_suffix(first, &format!("-s{number:04}")) }
+}
+
+/// The last of them that is there, whole; `first` where none follows.
+pub fn last_part_of(first: &Path) -> PathBuf {
+    let parts = (2..=9999).map(|number| part_of(first, number)).take_while(|path| path.is_file());
+    parts.last().unwrap_or_else(|| first.to_owned())
+}
+
+/// A file and its pieces, those that are there.
+fn with_pieces(path: PathBuf) -> Vec<PathBuf> {
+    let mut all = all_pieces_of(&path);
+    all.extend(path.is_file().then_some(path));
+    all
 }
 
 /// Keeps an old print file: `run.o` becomes `run.o.1`, or the next free number.

@@ -34,6 +34,11 @@ impl Continuation {
         Continuation { path, step, time: snapshot.time(), state: RwLock::new(Some(snapshot)) }
     }
 
+    /// The time of the state.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Puts a rank's solver into the state; all ranks call it once.
     pub(super) fn restore(&self, solver: &mut Solver, comm: &mut dyn Communicator) -> Result<(), RunError> {
         let outcome = match self.state.read().as_deref() {

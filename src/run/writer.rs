@@ -2,7 +2,7 @@
 
 use super::memory;
 use super::plots::Plots;
-use super::restart::RestartFiles;
+use super::restart::{Continuation, RestartFiles};
 use super::table;
 use super::{Display, Ended, Files, Job, RunError, same_qa, together};
 use crate::comm::{Communicator, Counted};
@@ -13,6 +13,7 @@ use crate::output::print::{self, Echo, Ending, PrintLog, StepLine};
 use crate::output::{FieldList, HistoryPlan, block_energy_names, global_names};
 use crate::partition::Share;
 use crate::postprocess::depiction::{Depiction, RigidPlane};
+use crate::postprocess::means::Means;
 use crate::restart::Snapshot;
 use crate::solver::contact::Contact;
 use crate::solver::elements::{Element, Touch};
@@ -108,6 +109,8 @@ impl<'a> Writer<'a> {
     /// Opens the files and prints the front part of the log on rank 0; all ranks learn whether it worked.
     pub(super) fn start(&mut self, job: &Job, body: &Body, comm: &mut dyn Communicator) -> Result<(), RunError> {
         let [nodal, element, global] = self.names.clone();
+        // From when on this file replaces what the part before went on to.
+        let since = Means { beginnings: Vec::new(), since: job.continuation.map(Continuation::time) };
         let header = ResultsHeader {
             mesh: job.mesh,
             title: job.model.title.clone(),
@@ -115,7 +118,7 @@ impl<'a> Writer<'a> {
             nodal,
             element,
             qa: same_qa(&job.qa, comm),
-            info: job.deck.lines().map(String::from).chain(depiction(job, body).lines()).collect(),
+            info: job.deck.lines().map(String::from).chain(depiction(job, body).lines()).chain(since.lines()).collect(),
         };
         let opened = self.plots.open(&self.files.plot, &header, comm.rank());
         let outcome = opened.and_then(|()| if comm.rank() == 0 { self.open(job, body, &header) } else { Ok(()) });
@@ -353,7 +356,7 @@ impl<'a> Writer<'a> {
         let initial_energy = solver.initial_energy;
         let warnings = print::labels(self.told_before, solver.findings());
         let ending = Ending {
-            outcome: &(in_words(&outcome, step, time, time_step) + &print::with_warnings(&warnings).to_uppercase()),
+            outcome: &in_words(&outcome, (step, time, time_step), &print::with_warnings(&warnings).to_uppercase()),
             findings: solver.findings(),
             steps: step,
             states,
@@ -393,18 +396,21 @@ impl<'a> Writer<'a> {
 }
 
 /// How a run ended, for the log.
-fn in_words(outcome: &Result<Request, RunError>, step: u64, time: f64, time_step: f64) -> String {
-    match outcome {
-        Ok(Request::Continue) => "THE RUN IS COMPLETE".to_string(),
+fn in_words(outcome: &Result<Request, RunError>, (step, time, time_step): (u64, f64, f64), warnings: &str) -> String {
+    let (ended, advice) = match outcome {
+        Ok(Request::Continue) => ("THE RUN IS COMPLETE".to_string(), Vec::new()),
         Ok(by) => {
-            format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by))
+            let words = format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by));
+            (words, Vec::new())
         }
-        Err(RunError::Stopped { stop, .. }) => format!(
-            "***** ERROR: AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}: {stop}\n  advice: {}",
-            stop.advice().join("\n  advice: ")
-        ),
-        Err(error) => format!("***** ERROR: {error}"),
-    }
+        Err(RunError::Stopped { stop, .. }) => {
+            let when = format!("AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}");
+            (format!("***** ERROR: {when}: {stop}"), stop.advice())
+        }
+        Err(error) => (format!("***** ERROR: {error}"), Vec::new()),
+    };
+    let advice: String = advice.iter().map(|advice| format!("\n  advice: {advice}")).collect();
+    format!("{ended}{warnings}{advice}")
 }
 
 fn reason(by: Request) -> &'static str {

@@ -5,7 +5,7 @@ use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure};
 use crate::output::print::scientific;
-use crate::postprocess::plot::{self, Class, Curve, Drawn, Log, PlotOptions, Range};
+use crate::postprocess::plot::{self, Class, Curve, Drawn, Log, PlotError, PlotOptions, Range};
 use std::path::{Path, PathBuf};
 
 /// Draws, or writes numbers, and says what the curves reach.
@@ -26,12 +26,20 @@ pub fn plot(options: &options::Plot) -> Result<u8, Failure> {
         true => plot::tabulate(&output, &wanted),
         false => plot::draw(&output, &wanted),
     };
-    let drawn = drawn.map_err(Failure::input_error)?;
+    let drawn = drawn.map_err(not_drawn)?;
     for warning in &drawn.warnings {
         complain(format_args!("warning: {warning}"));
     }
     say(told(&output, &drawn));
     Ok(DONE)
+}
+
+/// A picture or a table that cannot be written is no fault of the input.
+fn not_drawn(error: PlotError) -> Failure {
+    match error {
+        PlotError::Write { .. } => Failure::run(format_args!("error: {error}")),
+        _ => Failure::input_error(error),
+    }
 }
 
 /// Where it goes: the suffix must fit what is asked for.

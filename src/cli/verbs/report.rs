@@ -2,7 +2,7 @@
 
 use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::{complain, say};
-use crate::cli::{DONE, Failure, options, verbs::view};
+use crate::cli::{DONE, Failure, WRONG_INPUT, options, verbs::view};
 use crate::postprocess::plot::Class;
 use crate::postprocess::report::{self, ReportError, ReportOptions};
 use crate::postprocess::view::ViewOptions;
@@ -49,5 +49,7 @@ pub fn report(options: &options::Report) -> Result<u8, Failure> {
         complain(format_args!("warning: not shown: {reason}"));
     }
     say(format_args!("{}: {} pictures, {} plots", output.display(), done.pictures, done.plots));
-    Ok(DONE)
+    // A page without the pictures that were asked for is not what was wanted.
+    let asked = options.variable.is_some() || options.states.is_some() || !options.hide.is_empty();
+    Ok(if asked && done.pictures == 0 && !done.missing.is_empty() { WRONG_INPUT } else { DONE })
 }

@@ -33,6 +33,8 @@ pub(in crate::cli) struct Prepared {
     pub(in crate::cli) given: Given,
     pub(in crate::cli) ranks: usize,
     pub(in crate::cli) files: Files,
+    /// Old results that go.
+    stale: Vec<PathBuf>,
     split: bool,
     continuation: Option<Continuation>,
     banner: Vec<String>,
@@ -55,9 +57,11 @@ impl Prepared {
         let found = restart::find(options, &given, &body, &base)?;
         let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
         let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
-        let written = files.written(if options.split { ranks } else { 0 });
+        let pieces = if options.split { ranks } else { 0 };
+        let stale = if continuation.is_none() { files.stale(pieces) } else { Vec::new() };
+        let written = files.written(pieces);
         let restart = continuation.iter().map(|continuation| &continuation.path);
-        given.inputs().spare(written.iter().chain(&files.restarts_written()), ANOTHER_BASE)?;
+        given.inputs().spare(written.iter().chain(&files.restarts_written()).chain(&stale), ANOTHER_BASE)?;
         given.inputs().spare(&options.summary, "name another file with --summary")?;
         if let Some(summary) = options.summary.as_ref().filter(|summary| written.contains(summary)) {
             return Err(Failure::input(format_args!(
@@ -85,10 +89,10 @@ impl Prepared {
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
         let split = options.split;
-        Ok((Prepared { given, ranks, files, split, continuation, banner, qa, clock }, body))
+        Ok((Prepared { given, ranks, files, stale, split, continuation, banner, qa, clock }, body))
     }
 
-    /// Makes room for the results: their folder, and the old print log out of the way.
+    /// Makes room for the results: their folder, the old print log out of the way, and old results that the new ones do not replace.
     fn make_room(&self) -> Result<(), Failure> {
         let folder = self.files.print.parent().unwrap_or(Path::new(""));
         if !folder.as_os_str().is_empty() {
@@ -96,6 +100,11 @@ impl Prepared {
                 .map_err(|e| Failure::run(format_args!("error: cannot make the folder {}: {e}", folder.display())))?;
         }
         writable(folder)?;
+        for path in &self.stale {
+            std::fs::remove_file(path).map_err(|e| {
+                Failure::run(format_args!("error: cannot remove the old results {}: {e}", path.display()))
+            })?;
+        }
         run::keep_old_print_files(&self.files.print)
             .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))
     }

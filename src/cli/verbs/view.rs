@@ -2,9 +2,10 @@
 
 use crate::cli::options::{self, MapName};
 use crate::cli::outputs::{ANOTHER_NAME, Inputs};
-use crate::cli::terminal::say;
+use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure};
 use crate::postprocess::view::{self, Direction, MapChoice, StateChoice, ViewError, ViewOptions};
+use crate::run::last_part_of;
 use std::path::PathBuf;
 
 /// `urto view`
@@ -27,6 +28,14 @@ pub fn view(options: &options::View) -> Result<u8, Failure> {
     }
     let wanted = view_options(options)?;
     Inputs::default().with("the file to draw", [&options.results]).spare([&output], ANOTHER_NAME)?;
+    let last = last_part_of(&options.results);
+    if last != options.results {
+        complain(format_args!(
+            "note: {} goes on in {}, which is a file of its own to draw",
+            options.results.display(),
+            last.display()
+        ));
+    }
     if options.animate {
         let frames =
             view::draw_many(&options.results, &output, std::num::NonZeroUsize::MIN, &wanted).map_err(not_drawn)?;

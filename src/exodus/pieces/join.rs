@@ -120,6 +120,12 @@ pub fn any_pieces_of(whole: &Path) -> bool {
     !numbers_of_ranks(whole).is_empty()
 }
 
+/// All pieces of `whole` that are there, on whatever numbers of ranks.
+pub fn all_pieces_of(whole: &Path) -> Vec<PathBuf> {
+    let of_ranks = |ranks: usize| (0..ranks).map(move |rank| piece_path(whole, ranks, rank));
+    numbers_of_ranks(whole).into_iter().flat_map(of_ranks).filter(|path| path.is_file()).collect()
+}
+
 /// The number of ranks whose pieces stand beside the whole.
 fn ranks_beside(whole: &Path) -> Result<usize, JoinError> {
     let ranks = numbers_of_ranks(whole);

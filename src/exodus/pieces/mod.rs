@@ -10,7 +10,7 @@ mod join;
 mod read;
 mod write;
 
-pub use join::{JoinError, Joined, any_pieces_of, join, pieces_of};
+pub use join::{JoinError, Joined, all_pieces_of, any_pieces_of, join, pieces_of};
 
 use crate::mesh::{Mesh, Part};
 use std::ffi::OsString;

@@ -50,11 +50,18 @@ fn contact_surface(card: &Card, draft: &mut Draft) {
         let side_sets = tied::sides(card).map(|side| card.integer(side));
         return draft.model.ties.push(Tie { side_sets, tolerance: tied::default_tolerance() });
     }
-    draft.model.contact.surfaces.push(ContactSurface {
+    let surface = ContactSurface {
         side_sets: [card.integer("first"), card.integer("second")],
         friction: friction(card),
         partition: card.number("partition"),
-    });
+    };
+    let [first, second] = surface.side_sets;
+    let pairs = |other: &&ContactSurface| other.side_sets == [first, second] || other.side_sets == [second, first];
+    if draft.model.contact.surfaces.iter().find(pairs).is_some_and(|before| *before != surface) {
+        let message = format!("CONTACT SURFACE: side sets {first} and {second} have been paired before in another way");
+        draft.report(Diagnostic::warning(message).at(card.record, "the first one holds"));
+    }
+    draft.model.contact.surfaces.push(surface);
 }
 
 /// Whether CONTACT MATERIAL lets all blocks touch.

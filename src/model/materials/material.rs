@@ -196,7 +196,14 @@ fn model(card: &Card, draft: &mut Draft) -> Option<&'static Entry> {
     let planned = planned.flat_map(|e| e.spellings().map(|s| (s, None)));
     let words: Vec<Field> = name.split(' ').map(|word| Field::word(word, card.place("model"))).collect();
     let place = card.place("model");
-    match spelling::recognise_all(&words, built.clone().chain(planned)) {
+    // What can be computed is meant before what cannot, and by its own name before another's.
+    let own = MATERIALS.iter().map(|entry| (entry.name, Some(entry.name)));
+    let by_name = spelling::recognise_all(&words, own);
+    let found = match by_name {
+        Spelled::Nothing => spelling::recognise_all(&words, built.clone().chain(planned)),
+        found => found,
+    };
+    match found {
         Spelled::As { what: Some(law), agreement, .. } => {
             if agreement == Agreement::Abbreviated || law != name {
                 draft.report(Diagnostic::note(format!("assumed material {law} for `{name}`")).at(place, ""));
@@ -207,7 +214,17 @@ fn model(card: &Card, draft: &mut Draft) -> Option<&'static Entry> {
             draft.report(not_built(card, &name, place));
             None
         }
-        _ => {
+        Spelled::Several(names) => {
+            let message = format!(
+                "MATERIAL {}: {} may stand for {}",
+                card.integer("block"),
+                spelling::cut(name),
+                spelling::either(&names)
+            );
+            draft.report(Diagnostic::error(message).at(place, "this abbreviation is not clear; write more of it"));
+            None
+        }
+        Spelled::Nothing => {
             let near = spelling::nearest(name, built.map(|(name, _)| name));
             let names: Vec<&str> = MATERIALS.iter().map(|entry| entry.name).collect();
             draft.report(

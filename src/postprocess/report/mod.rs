@@ -16,9 +16,10 @@ pub use error::ReportError;
 
 use crate::exodus::Results;
 use crate::postprocess::depiction::Depiction;
+use crate::postprocess::means::Means;
 use crate::postprocess::plot::Class;
 use crate::postprocess::view::ViewOptions;
-use crate::run::Files;
+use crate::run::{Files, last_part_of};
 use std::path::{Path, PathBuf};
 
 /// What a report shows.
@@ -73,20 +74,22 @@ struct Material {
 /// # Errors
 /// When the results cannot be read, or the page cannot be written. A picture that cannot be drawn is left out and told.
 pub fn report(files: &Files, output: &Path, options: &ReportOptions) -> Result<Reported, ReportError> {
-    let results = Results::open(&files.plot)?;
+    // Of a run that went on the last part has its end; curves and extremes of the whole are read from all parts or told by theirs.
+    let last = last_part_of(&files.plot);
+    let results = Results::open(&last)?;
     if results.times().is_empty() {
-        return Err(ReportError::NoStates(files.plot.clone()));
+        return Err(ReportError::NoStates(last));
     }
     let mut missing = Vec::new();
     let material = Material {
         title: results.title().trim().to_owned(),
         files: files.clone(),
-        deck: Depiction::without(results.info()),
+        deck: Means::without(Depiction::without(results.info())),
         made_by: results.qa(),
         times: results.times().to_vec(),
         log: log::Log::read(&files.print),
         extremes: extremes::find(&results)?,
-        pictures: pictures::draw(&results, &files.plot, options, &mut missing),
+        pictures: pictures::draw(&results, &last, options, &mut missing),
         curves: curves::draw(files, options, &mut missing),
         missing,
     };

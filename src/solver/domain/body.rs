@@ -270,7 +270,11 @@ impl Body {
     /// Adds the masses that the deck gives nodes. One that belongs to no element has no part in the motion, with or without.
     fn add_point_masses(&mut self, mesh: &Mesh, model: &Model) {
         for point in &model.point_masses {
-            for &node in mesh.node_set(point.node_set).map_or(&[][..], |set| &set.nodes) {
+            // A node that its set names twice has the mass once.
+            let mut nodes = mesh.node_set(point.node_set).map_or(Vec::new(), |set| set.nodes.clone());
+            nodes.sort_unstable();
+            nodes.dedup();
+            for node in nodes {
                 if self.node_mass[node as usize] > 0.0 {
                     self.node_mass[node as usize] += point.mass;
                 }

@@ -17,6 +17,7 @@ use crate::lanes::Row;
 use crate::mesh::{Connectivity, Mesh, UNIT_CUBE};
 use crate::model::{Death, DeathVariable, Model, Precision};
 use delete::Deletions;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Edge of the cube that stands in for what is gone, in units of the body's size; in single precision products of its mass and
@@ -49,6 +50,8 @@ pub struct Erosion {
     pub energy: Vec<f64>,
     /// Number of elements of the whole body that are gone.
     pub gone: u64,
+    /// Blocks that rules watch, ascending, each with its elements on this rank that rules have taken away at the present state.
+    pub taken: Vec<(i64, u64)>,
 }
 
 impl Erosion {
@@ -88,6 +91,7 @@ impl Erosion {
             edge,
             energy: Vec::new(),
             gone: 0,
+            taken: watched_blocks(model),
         })
     }
 
@@ -109,6 +113,7 @@ impl Erosion {
     ) -> Option<Vec<u32>> {
         let deleted = self.deletions.due(time, steps.time_step);
         let mut dead: Vec<u32> = Vec::new();
+        self.taken.iter_mut().for_each(|(_, count)| *count = 0);
         for block in blocks {
             let rules: Vec<&Death> = self.rules.iter().filter(|rule| rule.block == block.id).collect();
             let stand_in = self.stand_in(block);
@@ -121,7 +126,10 @@ impl Erosion {
                 let failed = if deleted.contains(&block.id) {
                     (0..group.len()).filter(|&i| group.is_alive(i)).collect()
                 } else {
-                    self.failing(&rules, block, group, nodes, lost)
+                    let failed = self.failing(&rules, block, group, nodes, lost);
+                    let taken = self.taken.iter_mut().find(|(id, _)| *id == block.id);
+                    taken.into_iter().for_each(|(_, count)| *count += failed.len() as u64);
+                    failed
                 };
                 let ElementBlock { border: at_border, interior, element, law, .. } = block;
                 let group = if border { at_border } else { interior };
@@ -194,6 +202,12 @@ impl StandIn {
     fn take_over(&self, group: &mut Group, i: usize) {
         group.retire(i, &self.nodes, self.mass, &self.numbers);
     }
+}
+
+/// Blocks that rules watch, ascending, of which nothing has been taken away.
+fn watched_blocks(model: &Model) -> Vec<(i64, u64)> {
+    let blocks: BTreeSet<i64> = model.deaths.iter().map(|rule| rule.block).collect();
+    blocks.into_iter().map(|block| (block, 0)).collect()
 }
 
 fn deletions(mesh: &Mesh, model: &Model, body: &Body) -> Deletions {

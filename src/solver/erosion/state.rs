@@ -20,6 +20,7 @@ impl Erosion {
         let Erosion {
             energy,
             gone,
+            taken: _,
             element_order,
             deletions,
             keeps,

@@ -3,6 +3,7 @@
 mod brief;
 pub mod contact;
 mod corners;
+mod dead_at_start;
 mod debris;
 mod given_back;
 pub mod hourglass;
@@ -38,7 +39,8 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 14] = [
+pub static SYMPTOMS: [Symptom; 15] = [
+    dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
     gain::SYMPTOM,
