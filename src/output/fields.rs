@@ -12,7 +12,10 @@ use crate::solver::{Solver, Totals};
 
 /// Global variables of the plot file with their meaning.
 pub const GLOBAL_VARIABLES: [(&str, &str); 17] = [
-    ("KE", "kinetic energy"),
+    (
+        "KE",
+        "kinetic energy: m v v of the velocities before and after the state, over 2; below zero where what is fast turns between them",
+    ),
     ("IE", "internal energy since the start: work of stresses, without INITIAL ENERGY of materials"),
     ("HGE", "hourglass energy"),
     ("BVE", "energy dissipated by bulk viscosity"),

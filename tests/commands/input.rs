@@ -100,6 +100,30 @@ fn no_output_is_written_over_an_input() {
     desk.urto(&["join", "bar.e"]).with(0);
 }
 
+/// A run that begins anew leaves nothing of older runs beside its results that would be taken for a part of them.
+#[test]
+fn results_of_old_runs_do_not_stay_beside_new_ones() {
+    let desk = Desk::new();
+    let there = |name: &str| desk.path(name).exists();
+    put_bar(&desk, SOON, "WRITE RESTART, 5.E-6\n");
+    desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(0);
+    desk.put("bar.i", &bar_deck(2.0 * SOON, "WRITE RESTART, 5.E-6\nREAD RESTART\n"));
+    desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(0);
+    assert!(there("bar.e") && there("bar.e-s0002"));
+    // Pictures of the first part say that another follows; a report has the end of the last.
+    desk.urto(&["view", "bar.e"]).with(0).says(&["bar.e goes on in bar.e-s0002"]);
+    desk.urto(&["report", "bar"]).with(0);
+    let end = format!("{:.4e}", 2.0 * SOON);
+    assert!(desk.text("bar.html").contains(&end), "the report ends at {end}");
+    desk.put("bar.i", &bar_deck(SOON, ""));
+    desk.urto(&["bar.i", "-q", "--ranks", "2", "--split"]).with(0);
+    assert!(!there("bar.e") && !there("bar.e-s0002") && there("bar.e.2.0"));
+    desk.urto(&["bar.i", "-q", "--ranks", "3", "--split"]).with(0);
+    assert!(!there("bar.e.2.0") && there("bar.e.3.0"));
+    desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(0);
+    assert!(there("bar.e") && !there("bar.e.3.0"));
+}
+
 #[test]
 fn a_restart_file_is_not_written_over_by_results() {
     let desk = Desk::new();

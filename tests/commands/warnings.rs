@@ -110,7 +110,7 @@ fn dust() -> Desk {
     desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 0.1, 3, 3, 1\n")
 }
 
-fn scenes() -> [Scene; 8] {
+fn scenes() -> [Scene; 9] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -150,6 +150,11 @@ fn scenes() -> [Scene; 8] {
         ),
         scene(
             dust(),
+            "elements of block 1 that are gone from the start",
+            &["DEATH takes 9 elements of block 1 away at the first state"],
+        ),
+        scene(
+            dust(),
             "debris carries energy",
             &["32 free nodes", "carry a kinetic energy of", "100 % of the largest", "at node"],
         ),
@@ -159,6 +164,20 @@ fn scenes() -> [Scene; 8] {
 /// Lines of a text that begin like this, which differ on no number of ranks.
 fn lines<'a>(text: &'a str, with: &str) -> Vec<&'a str> {
     text.lines().filter(|line| line.contains(with)).collect()
+}
+
+/// A rule that watches what solids do not have, or the wrong way round, takes all elements at once: nothing moves, and nothing else tells.
+#[test]
+fn elements_that_are_gone_from_the_start_are_told() {
+    for rule in ["THICKNESS, MIN, 0.1", "EQPS, MIN, 0.5", "VOLUME, MIN, 2."] {
+        let deck = format!(
+            "TERMINATION TIME, 1.E-5\nDEATH, 1, {rule}\nMATERIAL, 1, ELASTIC PLASTIC, 7800.\nYOUNGS MODULUS = 200.E9\n\
+             POISSONS RATIO = 0.3\nYIELD STRESS = 1.E9\nHARDENING MODULUS = 0.\nBETA = 1.\nEND\n"
+        );
+        let desk = desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 1., 2, 2, 2\n");
+        let told = ["DEATH takes 8 elements of block 1 away at the first state", "MIN and MAX"];
+        desk.urto(&["case.i", "-q", "--strict"]).with(1).says(&told);
+    }
 }
 
 /// What no force can keep apart overlaps in the log as well, and nothing is said of a first force.

@@ -156,3 +156,23 @@ fn histories_without_a_mesh_are_compared() {
     let with_mesh = written(folder.path(), "a.e", 1, |_, _| ());
     assert!(matches!(compare(&a, &with_mesh, &Tolerance::EXACT), Err(ResultsError::DifferentMeshes { .. })));
 }
+
+#[test]
+fn what_is_no_finite_number_equals_nothing_else() {
+    let tolerance = Tolerance { relative: 1e-2, floor: 1e300 };
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (comparison, text) = compared(tolerance, 3, |number, (_, _, nodal, _)| {
+            if number == 1 {
+                nodal[0][2] = value;
+            }
+        });
+        assert!(!comparison.is_same() && text.contains("relative inf"), "{text}");
+    }
+    // But itself.
+    let folder = tempfile::tempdir().unwrap();
+    for value in [f64::NAN, f64::INFINITY] {
+        let [a, b] =
+            ["a.e", "b.e"].map(|name| written(folder.path(), name, 1, |_, (_, _, nodal, _)| nodal[0][2] = value));
+        assert!(compare(&a, &b, &tolerance).unwrap().is_same());
+    }
+}

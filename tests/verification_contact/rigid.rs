@@ -512,3 +512,33 @@ fn at_rest_again() {
     // was 1 without.
     between("driven", "worst energy balance", stopped.worst_balance(), 0.0, 1e-7);
 }
+
+/// What begins to be held when a run goes on is held where it is then, and what stops it is work: of a rigid body as of one that deforms.
+#[test]
+fn what_a_run_holds_anew_stays_where_it_is() {
+    let mesh = || {
+        recipe(
+            "TITLE\n TWO\nBOX, 1, 0., 0., 0., 0.1, 0.1, 0.1, 2, 2, 2\nBOX, 2, 0., 0., 0.3, 0.1, 0.1, 0.1, 2, 2, 2\n\
+             NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 2, 2\n",
+        )
+    };
+    let deck = "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 5.E-6\nRIGID BODY, 1\nINITIAL VELOCITY MATERIAL, 1, 10.\nINITIAL VELOCITY MATERIAL, 2, 10.\n\
+        MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n\
+        MATERIAL, 2, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+    let whole = Case::new(deck, mesh()).part(1, None, 100);
+    let flown = whole.end.number("RIGID1.X").expect("a rigid body");
+    for set in [1, 2] {
+        let held = Case::new(&format!("NO DISPLACEMENT, X, {set}\n{deck}"), mesh());
+        let after = held.part(1, Some(&whole.end), 50);
+        let again = held.part(1, Some(&held.part(1, Some(&whole.end), 20).end), 30);
+        assert_same("held anew, and continued", &after, &again);
+        let x = after.end.number("RIGID1.X").expect("a rigid body");
+        let further = if set == 1 { 0.0 } else { 10.0 * (after.end.time() - whole.end.time()) };
+        between("held anew", &format!("set {set}: place of the rigid body, m"), x - flown - further, -1e-12, 1e-12);
+        // Half of the kinetic energy is gone, and the work that took it stands among that of the loads.
+        let [kinetic, external] = [0, 6].map(|place| f64::from_bits(after.way[49][2 + place]));
+        let half = 0.5 * 7.85 * 100.0;
+        close("held anew", &format!("set {set}: kinetic energy, J"), kinetic, half, 1e-9);
+        close("held anew", &format!("set {set}: external work, J"), external, -half, 1e-9);
+    }
+}
