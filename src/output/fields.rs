@@ -14,7 +14,7 @@ use crate::solver::{Solver, Totals};
 pub const GLOBAL_VARIABLES: [(&str, &str); 17] = [
     (
         "KE",
-        "kinetic energy: m v v of the velocities before and after the state, over 2; below zero where what is fast turns between them",
+        "kinetic energy, m v v / 2 with the velocities before and after the state; below zero where these are opposed",
     ),
     ("IE", "internal energy since the start: work of stresses, without INITIAL ENERGY of materials"),
     ("HGE", "hourglass energy"),
