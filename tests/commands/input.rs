@@ -113,7 +113,7 @@ fn results_of_old_runs_do_not_stay_beside_new_ones() {
     // Pictures of the first part say that another follows; a report has the end of the last.
     desk.urto(&["view", "bar.e"]).with(0).says(&["bar.e goes on in bar.e-s0002"]);
     desk.urto(&["report", "bar"]).with(0);
-    let end = format!("{:.4e}", 2.0 * SOON);
+    let end = urto::output::print::scientific(2.0 * SOON, 4);
     assert!(desk.text("bar.html").contains(&end), "the report ends at {end}");
     desk.put("bar.i", &bar_deck(SOON, ""));
     desk.urto(&["bar.i", "-q", "--ranks", "2", "--split"]).with(0);

@@ -146,7 +146,7 @@ fn scenes() -> [Scene; 9] {
         scene(
             driven_and_held(),
             "contact between nodes that the deck moves",
-            &["nodes that the deck holds or drives have gone into faces", "% of a face", "the deepest: node"],
+            &["nodes have gone into faces out of which contact cannot move them", "% of a face", "the deepest: node"],
         ),
         scene(
             dust(),

@@ -24,6 +24,7 @@ use super::iterations::{Limits, Outcome, Times};
 use super::joints::JointSums;
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
+use super::pinned;
 use super::sweep;
 use crate::common::vector::{add, dot, scaled};
 use crate::lanes::InstructionSet;
@@ -62,11 +63,13 @@ pub struct Enforcer {
     joints: JointSums,
     /// Rays of single points, where the ledger is theirs.
     rays: Vec<Terms>,
+    /// Of which constraints only the first member can be moved.
+    lone: Vec<bool>,
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
-    /// Deepest penetration before the step between members that nothing can move, as a part of the face's size, with a member; and on any
-    /// rank.
+    /// Deepest penetration before the step between members that nothing can move, or what is missing of the room of a node between faces
+    /// that nothing can move, as a part of the face's size, with a member; and on any rank.
     pub held: (f64, u32),
     pub(super) held_anywhere: f64,
     pub(super) instructions: InstructionSet,
@@ -221,9 +224,10 @@ impl Enforcer {
     /// [`Enforcer::solve`].
     pub fn prepare(&mut self, constraints: &mut [Constraint], motion: &NodeMotion, drift: f64, ledger: &Ledger) {
         self.states.clear();
+        self.lone.clear();
         self.held = (0.0, 0);
         let granted = ledger.granted();
-        for c in constraints {
+        for c in constraints.iter_mut() {
             let Carried { normal_force, tangential_force, .. } = c.carried;
             (c.carried.normal_force, c.carried.tangential_force) =
                 (BEGINNING * normal_force, scaled(tangential_force, BEGINNING));
@@ -243,6 +247,8 @@ impl Enforcer {
             if !motion.mobility.bodies.is_empty() {
                 mobility::weigh(c, motion, &mut state.softness, [&mut inverse, &mut isotropic]);
             }
+            let of_first = c.weights[0].abs() * state.softness[0][0];
+            self.lone.push(of_first > 0.0 && inverse - of_first <= HELD * isotropic);
             let [free, before] = c.velocities(motion);
             (state.free, state.before) = (dot(free, c.normal) - c.growth, dot(before, c.normal) - c.growth);
             state.target = match ledger {
@@ -267,6 +273,10 @@ impl Enforcer {
                 c.carried.tangential_force = [0.0; 3];
             }
             self.states.push(state);
+        }
+        let pinned = pinned::share_room(constraints, &mut self.states, &self.lone);
+        if pinned.0 > self.held.0 {
+            self.held = pinned;
         }
     }
 

@@ -10,4 +10,5 @@ pub mod iterations;
 pub mod joints;
 pub mod mobility;
 pub mod other_ranks;
+mod pinned;
 mod sweep;

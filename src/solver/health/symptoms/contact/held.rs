@@ -1,4 +1,5 @@
-//! Nodes that the deck holds or drives on both sides of a contact go into each other: no force can keep them apart.
+//! Nodes that the deck holds or drives on both sides of a contact go into each other, or leave what is between them too little room: no
+//! force can keep them apart.
 
 use crate::comm::Communicator;
 use crate::solver::health::finding::{Evidence, Spot, percent};
@@ -20,13 +21,14 @@ pub const SYMPTOM: Symptom = Symptom {
     label: |_| "contact between nodes that the deck moves".into(),
     words: |evidence| {
         format!(
-            "nodes that the deck holds or drives have gone into faces whose nodes it holds or drives as well, by {} of a face; contact \
-             can move neither; the deepest: {}",
+            "nodes have gone into faces out of which contact cannot move them, by {} of a face: the deck holds or drives both, or faces \
+             on both sides of them; the deepest: {}",
             percent(evidence.share),
             evidence.places()
         )
     },
-    advice: "let one of the bodies move along the direction in which they meet, or prescribe motions that keep them apart",
+    advice: "let one of the bodies move along the direction in which they meet, or prescribe motions that keep them apart and leave room \
+             for what is between them, a sheet's thickness",
 };
 
 /// The deepest of these nodes.
