@@ -406,3 +406,27 @@ fn extreme_17_all_contact_nodes_on_one_plane() {
         assert!(upper > lower, "they part");
     }
 }
+
+/// A sheet between two driven tools that leave it 0.98 of its thickness: its nodes stay between the tools, short of room on both sides, and the
+/// work of the drive is that of bringing the tools to them, whatever the passes. It had grown with these, from 0.09 with 5 to 233 with 200.
+#[test]
+fn a_sheet_without_room_is_not_pressed_by_more_with_more_passes() {
+    let mesh = recipe(
+        "TITLE\n SHEET\nBOX, 1, 0., 0., -2.6, 10., 10., 2., 1, 1, 1\nSHEET, 2, 3., 3., 0., 4., 4., 0., 1, 1\n\
+         BOX, 3, 0., 0., 0.6, 10., 10., 2., 1, 1, 1\nNODE SET BLOCK, 1, 1\nNODE SET BLOCK, 2, 3\n",
+    );
+    let law = "7.85E-3\nYOUNGS MODULUS = 210.E3\nPOISSONS RATIO = 0.3\nEND\n";
+    let works = [5, 20, 200].map(|passes| {
+        let deck = format!(
+            "TERMINATION TIME, 1.\nOUTPUT TIME, 0.05\nPLOT TIME, 1.\nCONTACT MATERIAL\nCONTACT PASSES, {passes}\nSHELL THICKNESS, 2, 1.\n\
+             NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, X, 2\nNO DISPLACEMENT, Y, 2\n\
+             FUNCTION, 1\n0., 0.\n0.5, -1.\n1., 0.\nEND\nPRESCRIBED DISPLACEMENT, Z, 2, 1, 0.22\n\
+             MATERIAL, 1, ELASTIC, {law}MATERIAL, 2, ELASTIC, {law}MATERIAL, 3, ELASTIC, {law}"
+        );
+        run(&deck, &mesh).last().totals.external
+    });
+    for (passes, work) in [5, 20, 200].iter().zip(works) {
+        between("sheet without room", &format!("work of the tools with {passes} passes"), work, 0.0, 0.03);
+    }
+    close("sheet without room", "work with 200 passes over that with 20", works[2], works[1], 1e-3);
+}
