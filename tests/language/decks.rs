@@ -90,6 +90,20 @@ fn wrong_decks_are_answered_as_written_down() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// A model's own name is meant before another's alias that begins alike, and one that is built before one that is not.
+#[test]
+fn abbreviated_materials_are_those_that_are_meant() {
+    for (word, asks_for) in [
+        ("ELAST", "YOUNGS MODULUS and POISSONS RATIO are missing"),
+        ("VISCO", "YOUNGS MODULUS, POISSONS RATIO, YIELD STRESS and GAMMA are missing"),
+    ] {
+        let deck = format!("TERMINATION TIME, 1.\nMATERIAL, 1, {word}, 1.\nEND\nEXIT\n");
+        let wrong = examine(Source::from_bytes("deck".into(), deck.as_bytes()), Some(&two_blocks())).err();
+        let messages = wrong.map_or(String::new(), |messages| messages.render(false));
+        assert!(messages.contains(asks_for), "{word}: {messages}");
+    }
+}
+
 #[test]
 fn every_command_that_is_built_is_used_by_a_deck() {
     let mut used: Vec<String> = Vec::new();
