@@ -98,7 +98,7 @@ fn abbreviated_materials_are_those_that_are_meant() {
         ("VISCO", "YOUNGS MODULUS, POISSONS RATIO, YIELD STRESS and GAMMA are missing"),
     ] {
         let deck = format!("TERMINATION TIME, 1.\nMATERIAL, 1, {word}, 1.\nEND\nEXIT\n");
-        let wrong = examine(Source::from_bytes("deck".into(), deck.as_bytes()), Some(&two_blocks())).err();
+        let wrong = examine(Source::from_bytes("deck", deck.as_bytes()), Some(&two_blocks())).err();
         let messages = wrong.map_or(String::new(), |messages| messages.render(false));
         assert!(messages.contains(asks_for), "{word}: {messages}");
     }
