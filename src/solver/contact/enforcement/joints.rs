@@ -73,7 +73,7 @@ impl Joints {
         !self.nodes.is_empty()
     }
 
-    /// Place among the nodes of joints of a node of the mesh, or [`ABSENT`].
+    /// Place among the nodes of joints of a node of the mesh, or [`u32::MAX`].
     pub fn place(&self, node: u32) -> u32 {
         self.nodes.binary_search(&node).map_or(ABSENT, |place| place as u32)
     }

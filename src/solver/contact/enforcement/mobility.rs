@@ -20,11 +20,11 @@ const SUMS: usize = 7;
 /// Which points belong to rigid bodies, and how these answer to forces.
 #[derive(Debug, Clone, Default)]
 pub struct Mobility {
-    /// Body of each point, or [`ABSENT`]; empty where there are no bodies.
+    /// Body of each point, or [`u32::MAX`]; empty where there are no bodies.
     pub body: Vec<u32>,
     /// The bodies in this step.
     pub bodies: Vec<BodyMobility>,
-    /// Place of each point among the nodes of joints, or [`ABSENT`]; empty where contact meets no joint.
+    /// Place of each point among the nodes of joints, or [`u32::MAX`]; empty where contact meets no joint.
     pub joint: Vec<u32>,
     /// The joints.
     pub joints: Arc<Joints>,
