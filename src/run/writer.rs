@@ -161,7 +161,8 @@ impl<'a> Writer<'a> {
             global: self.watched.names(),
             nodal: Vec::new(),
             element: Vec::new(),
-            info: [self.watched.records(self.since), of_plot.info.clone()].concat(),
+            // Histories begin their first interval where they were last due, and not where the run goes on.
+            info: [self.watched.records(self.since), Means::without(of_plot.info.clone())].concat(),
             title: of_plot.title.clone(),
             qa: of_plot.qa.clone(),
         };
