@@ -207,6 +207,14 @@ impl Mesh {
         nodes
     }
 
+    /// Nodes of a node set, each once, ascending: files may name one twice. None where there is no such set.
+    pub fn distinct_nodes(&self, set: i64) -> Vec<u32> {
+        let mut nodes = self.node_set(set).map_or(Vec::new(), |set| set.nodes.clone());
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
     /// Position of the block with this number, if there is one.
     pub fn block_index(&self, id: i64) -> Option<usize> {
         self.blocks.iter().position(|b| b.id == id)

@@ -93,10 +93,12 @@ impl Place {
     pub fn relative(&self) -> f64 {
         let [a, b] = self.values;
         let largest = a.abs().max(b.abs());
-        match largest {
-            _ if !(a.is_finite() && b.is_finite()) => f64::INFINITY,
-            0.0 => 0.0,
-            _ => self.absolute() / largest,
+        if !(a.is_finite() && b.is_finite()) {
+            f64::INFINITY
+        } else if largest == 0.0 {
+            0.0
+        } else {
+            self.absolute() / largest
         }
     }
 }

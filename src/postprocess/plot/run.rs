@@ -1,12 +1,12 @@
 //! The files of a run read as one: what restarts wrote one after the other, and the pieces of each.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::PlotError;
 use crate::exodus::Results;
 use crate::exodus::pieces::{any_pieces_of, pieces_of};
 use crate::postprocess::means::Means;
+use crate::run::part_of;
 
 /// Results of a run, all its parts and pieces.
 pub struct Run {
@@ -47,9 +47,7 @@ impl Run {
         let whole = piece.map_or_else(|| path.to_owned(), |(whole, _)| whole);
         let mut parts = vec![Part::open(&whole)?];
         for number in 2..=9999 {
-            let mut name = OsString::from(&whole);
-            name.push(format!("-s{number:04}"));
-            let next = PathBuf::from(name);
+            let next = part_of(&whole, number);
             if !next.exists() && !any_pieces_of(&next) {
                 break;
             }

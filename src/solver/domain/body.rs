@@ -271,10 +271,7 @@ impl Body {
     fn add_point_masses(&mut self, mesh: &Mesh, model: &Model) {
         for point in &model.point_masses {
             // A node that its set names twice has the mass once.
-            let mut nodes = mesh.node_set(point.node_set).map_or(Vec::new(), |set| set.nodes.clone());
-            nodes.sort_unstable();
-            nodes.dedup();
-            for node in nodes {
+            for node in mesh.distinct_nodes(point.node_set) {
                 if self.node_mass[node as usize] > 0.0 {
                     self.node_mass[node as usize] += point.mass;
                 }

@@ -15,6 +15,8 @@ pub struct Constraint {
     pub axis: usize,
     /// What is prescribed; `None` holds the node still.
     pub motion: Option<Motion>,
+    /// Whether its node has not been at rest yet: one that a run holds anew when it goes on may move, and to stop it is work.
+    pub begins: bool,
     /// Force that the constraint adds now.
     pub reaction: f64,
     /// Work done so far.
@@ -68,9 +70,12 @@ impl Constraint {
         nodes.forces[n].0[i] = force;
     }
 
-    /// Books half the step's work with the present velocity. At a node that is held still it is none, unless a run goes on with a
-    /// constraint that is new.
+    /// Books half the step's work with the present velocity; a node held still does none once it has stopped.
     pub fn book(&mut self, nodes: &Nodes, half_step: f64) {
-        self.work += half_step * self.reaction * nodes.velocity(self.node)[self.axis];
+        if self.motion.is_some() || self.begins {
+            let velocity = nodes.velocity(self.node)[self.axis];
+            self.work += half_step * self.reaction * velocity;
+            self.begins &= velocity != 0.0;
+        }
     }
 }

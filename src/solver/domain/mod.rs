@@ -225,7 +225,7 @@ impl Domain {
                 // Sets overlap; a node is held once in each direction, the first command counts.
                 if taken[node as usize][axis] == ABSENT {
                     taken[node as usize][axis] = self.constraints.len() as u32;
-                    self.constraints.push(Constraint { node, axis, motion, reaction: 0.0, work: 0.0 });
+                    self.constraints.push(Constraint { node, axis, motion, begins: true, reaction: 0.0, work: 0.0 });
                 }
             }
         }
@@ -243,7 +243,14 @@ impl Domain {
             let of_mesh = self.nodes.file[node as usize] != ABSENT;
             if of_mesh && *taken == ABSENT && self.nodes.position(node)[0] == 0.0 {
                 *taken = self.constraints.len() as u32;
-                self.constraints.push(Constraint { node, axis: 0, motion: None, reaction: 0.0, work: 0.0 });
+                self.constraints.push(Constraint {
+                    node,
+                    axis: 0,
+                    motion: None,
+                    begins: false,
+                    reaction: 0.0,
+                    work: 0.0,
+                });
             }
         }
     }

@@ -207,14 +207,11 @@ fn held_alike(mesh: &Mesh, model: &Model, nodes: &[u32]) -> Vec<Alike> {
     let mut all: Vec<Alike> = Vec::new();
     for (set, of, direction, motion) in still.chain(moving) {
         let axis = direction.axis();
-        let of_set = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
         let taken = |node: &u32| {
             let mut before = all.iter().filter(|alike| alike.of == of && alike.axis == axis);
             before.any(|alike| alike.nodes.binary_search(node).is_ok())
         };
-        let mut own: Vec<u32> = of_set.to_vec();
-        own.sort_unstable();
-        own.dedup();
+        let mut own = mesh.distinct_nodes(set);
         own.retain(|node| nodes.binary_search(node).is_ok() && (of == Unknown::Rotation || !taken(node)));
         match all.iter_mut().find(|alike| (alike.of, alike.axis, alike.motion) == (of, axis, motion)) {
             Some(alike) => {

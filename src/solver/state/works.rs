@@ -17,7 +17,7 @@ pub(super) fn of_load(archive: &mut dyn Archive, load: &mut dyn Load, places: &P
 /// The same of constraints, by node and axis.
 pub(super) fn of_constraints(archive: &mut dyn Archive, constraints: &mut [Constraint], places: &Places) -> Vec<f64> {
     visit(archive, "MOTIONW", Key::Node(1), places, &mut |take| {
-        for Constraint { node, axis, work, motion: _, reaction: _ } in constraints.iter_mut() {
+        for Constraint { node, axis, work, motion: _, begins: _, reaction: _ } in constraints.iter_mut() {
             take(Account { key: [places.node(*node), *axis as f64, 0.0, 0.0], own: places.owns(*node), work });
         }
     })

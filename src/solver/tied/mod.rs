@@ -98,10 +98,7 @@ impl Tied {
     /// (Gershgorin).
     fn largest_ratio(&self, before: &[f64], after: &[f64]) -> f64 {
         let negative = self.followers.iter().flat_map(|one| &one.leaders).any(|(_, weight)| *weight < 0.0);
-        let mut leaders: Vec<u32> =
-            self.followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node)).collect();
-        leaders.sort_unstable();
-        leaders.dedup();
+        let leaders = self.leaders();
         if !negative || leaders.iter().any(|&node| after[node as usize] <= 0.0) {
             return 1.0;
         }
@@ -131,6 +128,15 @@ impl Tied {
             }
         }
         if ratio > 1.0 + SETTLED { ratio * MARGIN } else { 1.0 }
+    }
+
+    /// Nodes that others follow, by their numbers, ascending.
+    pub fn leaders(&self) -> Vec<u32> {
+        let all = self.followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node));
+        let mut leaders: Vec<u32> = all.collect();
+        leaders.sort_unstable();
+        leaders.dedup();
+        leaders
     }
 
     /// Part of the stable step of the elements at which joints are stable.
@@ -197,20 +203,24 @@ const SETTLED: f64 = 1e-4;
 /// What an iteration from below may have missed.
 const MARGIN: f64 = 1.02;
 
-/// How many of those that follow the deck holds or drives, while not all that they follow are; and the first.
-fn held(mesh: &Mesh, model: &Model, followers: &[Follower]) -> (usize, u32) {
+/// Nodes whose positions the deck holds or drives along each axis, ascending.
+pub fn held_nodes(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
     let still = model.no_displacements.iter().map(|c| (c.of, c.direction, c.node_set));
     let moving = model.prescribed_motions.iter().map(|c| (c.of, c.direction, c.node_set));
-    let of_position = still.chain(moving).filter(|(of, ..)| *of == Unknown::Position);
-    let mut sets: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-    for (_, direction, set) in of_position {
-        let nodes = mesh.node_set(set).map_or(&[][..], |set| &set.nodes);
-        sets.entry(direction.axis()).or_default().extend(nodes);
+    let mut held: [Vec<u32>; 3] = Default::default();
+    for (_, direction, set) in still.chain(moving).filter(|(of, ..)| *of == Unknown::Position) {
+        held[direction.axis()].extend(mesh.node_set(set).map_or(&[][..], |set| &set.nodes));
     }
-    sets.values_mut().for_each(|nodes| nodes.sort_unstable());
+    held.iter_mut().for_each(|nodes| nodes.sort_unstable());
+    held
+}
+
+/// How many of those that follow the deck holds or drives, while not all that they follow are; and the first.
+fn held(mesh: &Mesh, model: &Model, followers: &[Follower]) -> (usize, u32) {
+    let sets = held_nodes(mesh, model);
     let has = |nodes: &[u32], node: u32| nodes.binary_search(&node).is_ok();
     let loose = |one: &&Follower| {
-        sets.values().any(|nodes| has(nodes, one.node) && one.leaders.iter().any(|(leader, _)| !has(nodes, *leader)))
+        sets.iter().any(|nodes| has(nodes, one.node) && one.leaders.iter().any(|(leader, _)| !has(nodes, *leader)))
     };
     let mut all = followers.iter().filter(loose).map(|one| one.node);
     let first = all.next();
@@ -260,9 +270,7 @@ impl Ties {
         if all.is_empty() {
             return None;
         }
-        let mut numbers: Vec<u32> = all.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node)).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
+        let numbers = body.tied.leaders();
         let place = |node: u32| numbers.partition_point(|&other| other < node);
         let follower = |one: &Follower| {
             let leaders = one.leaders.iter().map(|(node, weight)| (place(*node), *weight));

@@ -11,10 +11,11 @@ use super::other_ranks::OtherRanks;
 use crate::comm::ExactSum;
 use crate::common::vector::{add, scaled};
 use crate::mesh::Mesh;
-use crate::model::{Model, Unknown};
+use crate::model::Model;
 use crate::solver::Body;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::surface::layout::ABSENT;
+use crate::solver::tied::held_nodes;
 
 /// Sums over what pushes a leader: force, load.
 const SUMS: usize = 4;
@@ -26,6 +27,8 @@ pub struct Joints {
     nodes: Vec<u32>,
     /// For each of them the leaders that carry it, each with its weight; a leader carries itself.
     carriers: Vec<Vec<(u32, f64)>>,
+    /// For each of them 1/m if nothing held its leaders, as a force on it alone sees it: Σ W²/m.
+    free: Vec<f64>,
     /// What forces do to the leaders.
     leaders: Vec<LeaderMobility>,
 }
@@ -43,10 +46,7 @@ impl Joints {
     /// The joints of a model of which any node is one of some contact nodes, by their numbers in the mesh, ascending.
     pub fn of(mesh: &Mesh, model: &Model, body: &Body, contact_nodes: &[u32]) -> Option<Joints> {
         let followers = &body.tied.followers;
-        let mut leaders: Vec<u32> =
-            followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node)).collect();
-        leaders.sort_unstable();
-        leaders.dedup();
+        let leaders = body.tied.leaders();
         let place = |node: u32| leaders.partition_point(|&other| other < node) as u32;
         let mut all: Vec<(u32, Vec<(u32, f64)>)> = followers
             .iter()
@@ -57,15 +57,18 @@ impl Joints {
         if all.iter().all(|(node, _)| contact_nodes.binary_search(node).is_err()) {
             return None;
         }
-        let held = held(mesh, model);
+        let held = held_nodes(mesh, model);
         let mobility = |&node: &u32| {
             let free = 1.0 / body.node_mass[node as usize];
             let along = |held: &Vec<u32>| if held.binary_search(&node).is_ok() { 0.0 } else { free };
             LeaderMobility { inverse_mass: held.each_ref().map(along), free }
         };
-        let leaders = leaders.iter().map(mobility).collect();
-        let (nodes, carriers) = all.into_iter().unzip();
-        Some(Joints { nodes, carriers, leaders })
+        let leaders: Vec<LeaderMobility> = leaders.iter().map(mobility).collect();
+        let (nodes, carriers): (Vec<u32>, Vec<Vec<(u32, f64)>>) = all.into_iter().unzip();
+        let alone = |carriers: &Vec<(u32, f64)>| {
+            carriers.iter().map(|&(leader, w)| w * w * leaders[leader as usize].free).sum()
+        };
+        Some(Joints { nodes, free: carriers.iter().map(alone).collect(), carriers, leaders })
     }
 
     /// Whether there are any, also where none of their nodes is a point of this rank.
@@ -83,18 +86,6 @@ impl Joints {
         let parts = self.carriers[place as usize].iter();
         parts.fold([0.0; 3], |sum, &(leader, w)| add(sum, scaled(self.leaders[leader as usize].inverse_mass, w * w)))
     }
-}
-
-/// Nodes whose positions the deck holds or drives along each axis, ascending.
-fn held(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
-    let still = model.no_displacements.iter().map(|c| (c.of, c.direction, c.node_set));
-    let moving = model.prescribed_motions.iter().map(|c| (c.of, c.direction, c.node_set));
-    let mut held = [const { Vec::new() }; 3];
-    for (_, direction, set) in still.chain(moving).filter(|(of, ..)| *of == Unknown::Position) {
-        held[direction.axis()].extend(mesh.node_set(set).map_or(&[][..], |set| &set.nodes));
-    }
-    held.iter_mut().for_each(|nodes: &mut Vec<u32>| nodes.sort_unstable());
-    held
 }
 
 /// Sums of forces and loads at the leaders that a step's constraints push, while these are gone through.
@@ -166,11 +157,10 @@ impl JointSums {
     /// What all forces do to a node of a joint, and the load that constraints of its own would have to share its mass with to be
     /// as soft as with all those that push its leaders.
     fn response(&self, joints: &Joints, place: u32, kick: f64) -> Response {
-        let (mut velocity_change, mut shared, mut alone) = ([0.0; 3], 0.0, 0.0);
+        let (mut velocity_change, mut shared) = ([0.0; 3], 0.0);
         for &(leader, w) in &joints.carriers[place as usize] {
             let LeaderMobility { inverse_mass, free } = joints.leaders[leader as usize];
             let slot = self.slots[leader as usize];
-            alone += w * w * free;
             if slot != ABSENT {
                 let sums = &self.sums[SUMS * slot as usize..][..SUMS];
                 let of = |i: usize| w * (kick * (sums[i].value() * inverse_mass[i]));
@@ -178,6 +168,7 @@ impl JointSums {
                 shared += w.abs() * sums[SUMS - 1].value() * free;
             }
         }
+        let alone = joints.free[place as usize];
         Response { velocity_change, load: if alone > 0.0 { shared / alone } else { 0.0 } }
     }
 }
@@ -205,6 +196,7 @@ mod tests {
         let joints = Joints {
             nodes: vec![3, 4, 7],
             carriers: vec![vec![(0, 1.0)], vec![(0, 0.5)], vec![(0, 0.5)]],
+            free: vec![0.5, 0.125, 0.125],
             leaders: vec![leader],
         };
         let mut sums = JointSums { slots: vec![0], sums: vec![ExactSum::new(); SUMS] };

@@ -16,9 +16,12 @@ pub(super) fn share_room(constraints: &[Constraint], states: &mut [ConstraintSta
     let mut worst = (0.0, 0);
     for i in 0..constraints.len() {
         let Origin::Face(point, _) = constraints[i].origin else { continue };
+        if !lone[i] {
+            continue;
+        }
         let of_point = |j: &usize| matches!(constraints[*j].origin, Origin::Face(other, _) if other == point);
         for j in (i + 1..constraints.len()).take_while(of_point) {
-            if !(lone[i] && lone[j]) || dot(constraints[i].normal, constraints[j].normal) > OPPOSED {
+            if !lone[j] || dot(constraints[i].normal, constraints[j].normal) > OPPOSED {
                 continue;
             }
             let missing = -(states[i].closing + states[j].closing);

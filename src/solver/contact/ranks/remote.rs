@@ -20,6 +20,7 @@ use crate::comm::Communicator;
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
+use crate::solver::contact::enforcement::mobility::Mobility;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::nodes::ContactNodes;
@@ -275,29 +276,33 @@ impl Remote {
             |(_, problem), point, mass| problem.motion.inverse_mass[point as usize] = mass,
             comm,
         );
-        if contact_nodes.motion.mobility.joints.are_there() {
-            problem.motion.mobility.joints.clone_from(&contact_nodes.motion.mobility.joints);
-            problem.motion.mobility.joint = vec![ABSENT; problem.motion.len()];
-            self.motion.exchange(
-                &mut (contact_nodes, &mut *problem),
-                |(contact_nodes, _), contact_node| {
-                    [f64::from(contact_nodes.motion.mobility.joint[contact_node as usize])]
-                },
-                |(_, problem), point, [place]| problem.motion.mobility.joint[point as usize] = place as u32,
-                comm,
-            );
+        let theirs = &contact_nodes.motion.mobility;
+        if theirs.joints.are_there() {
+            problem.motion.mobility.joints.clone_from(&theirs.joints);
+            self.send_places(contact_nodes, problem, (|of| &of.joint, |of| &mut of.joint), comm);
         }
-        if contact_nodes.motion.mobility.bodies.is_empty() {
-            return;
+        if !theirs.bodies.is_empty() {
+            problem.motion.mobility.bodies.clone_from(&theirs.bodies);
+            self.send_places(contact_nodes, problem, (|of| &of.body, |of| &mut of.body), comm);
         }
-        problem.motion.mobility.bodies.clone_from(&contact_nodes.motion.mobility.bodies);
-        problem.motion.mobility.body = vec![ABSENT; problem.motion.len()];
+    }
+
+    /// Brings a number of each contact node, or [`ABSENT`], to the points of the local problem.
+    fn send_places(
+        &mut self,
+        contact_nodes: &ContactNodes,
+        problem: &mut LocalProblem,
+        (from, to): (fn(&Mobility) -> &Vec<u32>, fn(&mut Mobility) -> &mut Vec<u32>),
+        comm: &mut dyn Communicator,
+    ) {
+        let mut places = vec![ABSENT; problem.motion.len()];
         self.motion.exchange(
-            &mut (contact_nodes, problem),
-            |(contact_nodes, _), contact_node| [f64::from(contact_nodes.motion.mobility.body[contact_node as usize])],
-            |(_, problem), point, [body]| problem.motion.mobility.body[point as usize] = body as u32,
+            &mut (from(&contact_nodes.motion.mobility), &mut places),
+            |(from, _), contact_node| [f64::from(from[contact_node as usize])],
+            |(_, places), point, [place]| places[point as usize] = place as u32,
             comm,
         );
+        *to(&mut problem.motion.mobility) = places;
     }
 }
 
