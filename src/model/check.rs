@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::{Mesh, Shape, locate::locate},
+    mesh::{Mesh, locate::locate},
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -29,6 +29,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         unused_factors(card, mesh, &mut found);
         sides_without_faces(card, mesh, &mut found);
+        elements_of_others(card, mesh, &mut found);
     }
     blocks_without_material(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
@@ -49,33 +50,19 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
-    for card in problem.deck.cards.iter().filter(|card| card.complete) {
-        sections_of_others(card, mesh, &mut found);
-    }
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
 }
 
-/// Warns of the section of a block whose elements have none of this kind.
-fn sections_of_others(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
-    let (fits, kinds): (fn(Shape) -> bool, &str) = match card.name.as_str() {
-        "CONTACT THICKNESS" => (|shape| !shape.is_solid(), "shells, trusses and beams"),
-        "SHELL THICKNESS" | "THICKNESS SCALE" | "INTEGRATION POINTS" => (Shape::is_surface, "shells"),
-        "TRUSS AREA" => (|shape| shape == Shape::Bar, "trusses"),
-        "BEAM SECTION" => (|shape| shape == Shape::Bar, "beams"),
-        _ => return,
-    };
+/// Warns of a command about the elements of a block whose shape it says nothing of.
+fn elements_of_others(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let Some((shapes, called)) = language().entry(&card.name).and_then(|entry| entry.shapes.as_ref()) else { return };
     let block = card.maybe_integer("block").and_then(|id| mesh.block_index(id)).map(|place| &mesh.blocks[place]);
-    if let Some(block) = block.filter(|block| !fits(block.shape)) {
-        let [_, shapes] = block.shape.names();
-        found.push(
-            Diagnostic::warning(format!(
-                "{}: block {} is of {shapes}, so that nothing follows from this",
-                card.name, block.id
-            ))
-            .at(card.record, format!("this is for {kinds}")),
-        );
+    if let Some(block) = block.filter(|block| !shapes.iter().any(|shape| shape == block.shape.kind())) {
+        let [_, elements] = block.shape.names();
+        let message = format!("{}: block {} is of {elements}, so that nothing follows from this", card.name, block.id);
+        found.push(Diagnostic::warning(message).at(card.record, format!("this is for {called}")));
     }
 }
 

@@ -4,6 +4,7 @@
 use crate::program::{Desk, Left, bar_deck, box_mesh, project, put_bar};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+use urto::exodus::Results;
 
 const SOON: f64 = 1e-5;
 /// Everything here ends at once; what does not by then never will.
@@ -122,6 +123,28 @@ fn results_of_old_runs_do_not_stay_beside_new_ones() {
     assert!(!there("bar.e.2.0") && there("bar.e.3.0"));
     desk.urto(&["bar.i", "-q", "--ranks", "2"]).with(0);
     assert!(there("bar.e") && !there("bar.e.3.0"));
+}
+
+/// A continued run tells in its histories where their first interval begins, the state that was due last, and in its plot states where it
+/// goes on, which is later: each file its own time, once.
+#[test]
+fn parts_of_a_run_tell_where_they_begin() {
+    let desk = Desk::new();
+    let asks = "WRITE RESTART, 1.E-6\nHISTORY BLOCK, 1\nHISTORY TIME, 3.E-6\nPLOT TIME, 3.E-6\n";
+    put_bar(&desk, SOON, asks);
+    desk.urto(&["bar.i", "-q"]).with(0);
+    desk.put("bar.i", &bar_deck(2.0 * SOON, &format!("{asks}READ RESTART\n")));
+    desk.urto(&["bar.i", "-q"]).with(0);
+    let told = |name: &str| -> f64 {
+        let lines = Results::open(&desk.path(name)).expect("results").info();
+        let since: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("$ MEANS SINCE: ")).collect();
+        assert_eq!(since.len(), 1, "{name}: {since:?}");
+        since[0].trim().parse().expect("a time")
+    };
+    let [history, plot] = ["bar.h-s0002", "bar.e-s0002"].map(told);
+    let due = Results::open(&desk.path("bar.h")).expect("a history").times().to_vec();
+    let last = due.iter().copied().filter(|time| *time <= plot).fold(0.0, f64::max);
+    assert!(history == last && history < plot, "histories since {history}, last due at {last}, goes on at {plot}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use urto::{
     deck::{self, Deck, Source, Status, language},
     material::{self, ElasticPlastic, Law, MATERIALS, Origin, Property, Range},
-    mesh::{Block, Mesh, NodeSet, SideSet},
+    mesh::{Block, Mesh, NodeSet, Shape, SideSet},
     model::{
         self, Direction, ElementField, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli,
         examine,
@@ -102,6 +102,15 @@ fn abbreviated_materials_are_those_that_are_meant() {
         let messages = wrong.map_or(String::new(), |messages| messages.render(false));
         assert!(messages.contains(asks_for), "{word}: {messages}");
     }
+}
+
+/// Shapes that the grammar names are shapes of meshes: a misspelt one would warn of every block.
+#[test]
+fn commands_about_elements_name_shapes_that_there_are() {
+    let kinds = Shape::ALL.map(Shape::kind);
+    let named: Vec<&String> =
+        language().entries.iter().filter_map(|entry| entry.shapes.as_ref()).flat_map(|(shapes, _)| shapes).collect();
+    assert!(named.len() >= 6 && named.iter().all(|shape| kinds.contains(&shape.as_str())), "{named:?}");
 }
 
 #[test]

@@ -17,6 +17,7 @@
 //! once                                      a second one must not differ
 //! plane                                     makes a deck two-dimensional
 //! space     z0, nz                          fields that two-dimensional decks do not have; alone, all of the entry
+//! shapes    surfaces, bars   shells, trusses and beams        shapes of the elements of `block` that it says something of
 //! always                                    takes effect with its defaults when it is not given
 //! note      A sentence for the manual.
 //! example   PRESSURE, 100, 1                one line of an example
@@ -74,6 +75,8 @@ pub struct Entry {
     pub space: Vec<String>,
     /// Whether two-dimensional decks do not have the entry at all.
     pub of_space: bool,
+    /// Shapes of the elements of its block that it says something of, and what these are called; none where it is of all.
+    pub shapes: Option<(Vec<String>, String)>,
     /// Fields that the deck cannot give: they have their defaults.
     pub filled: Vec<FieldRule>,
     /// More for the manual.
@@ -259,6 +262,7 @@ impl Entry {
             plane: false,
             space: Vec::new(),
             of_space: false,
+            shapes: None,
             filled: Vec::new(),
             notes: Vec::new(),
             example: Vec::new(),
@@ -312,10 +316,11 @@ impl Entry {
             "always" => self.always = true,
             "plane" => self.plane = true,
             "space" if text.is_empty() => self.of_space = true,
-            "space" => self.space = text.split(',').map(|name| name.trim().to_string()).collect(),
+            "space" => self.space = listed(text),
+            "shapes" => self.shapes = Some(shapes(text)?),
             "note" => self.notes.push(text.to_string()),
             "example" => self.example.push(text.to_string()),
-            "see" => self.see = text.split(',').map(|name| name.trim().to_string()).collect(),
+            "see" => self.see = listed(text),
             "from" => self.from = origin(text)?,
             "status" => self.status = status(text)?,
             _ => return Err(format!("unknown directive `{word}`")),
@@ -331,6 +336,17 @@ impl Entry {
         choices.push(Choice { name: words.to_string(), meaning: meaning.to_string(), standing, ours });
         Ok(())
     }
+}
+
+/// Names that commas set apart.
+fn listed(text: &str) -> Vec<String> {
+    text.split(',').map(|name| name.trim().to_string()).collect()
+}
+
+/// Shapes of elements, and what elements of these shapes are called.
+fn shapes(text: &str) -> Result<(Vec<String>, String), String> {
+    let [shapes, called] = columns(text)[..] else { return Err("shapes: two columns expected".into()) };
+    Ok((listed(shapes), called.to_string()))
 }
 
 impl FieldRule {

@@ -7,6 +7,7 @@ use annotate_snippets::{
 };
 
 use super::source::{Source, Span};
+use super::spelling;
 
 /// How much a message matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,6 +50,12 @@ impl Diagnostic {
     /// A message that stops the run.
     pub fn error(message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(Level::Error, message)
+    }
+
+    /// A message about words that may stand for several names.
+    pub fn unclear(words: impl fmt::Display, names: &[String], at: Span) -> Diagnostic {
+        let message = format!("{words} may stand for {}", spelling::either(names));
+        Diagnostic::error(message).at(at, "this abbreviation is not clear; write more of it")
     }
 
     /// A message that does not stop the run.

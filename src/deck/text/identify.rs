@@ -41,14 +41,8 @@ impl<'a> Reader<'a> {
                 Some(Found { entry, words, sure: true })
             }
             Spelled::Several(names) => {
-                self.diagnostics.push(
-                    Diagnostic::error(format!(
-                        "{} may stand for {}",
-                        spelling::shown(&fields[..1]),
-                        spelling::either(&names)
-                    ))
-                    .at(fields[0].span, "this abbreviation is not clear; write more of it"),
-                );
+                let words = spelling::shown(&fields[..1]);
+                self.diagnostics.push(Diagnostic::unclear(words, &names, fields[0].span));
                 None
             }
             Spelled::Nothing => self.unknown(fields),

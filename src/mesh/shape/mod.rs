@@ -106,6 +106,15 @@ impl Shape {
         matches!(self, Shape::Hexahedron | Shape::Plane)
     }
 
+    /// What kind of body elements of this shape are, in the words of the language of decks.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Shape::Hexahedron | Shape::Plane => "solids",
+            Shape::Quadrilateral | Shape::Triangle => "surfaces",
+            Shape::Bar => "bars",
+        }
+    }
+
     /// Whether elements of this shape are surfaces in space, which have two faces.
     pub fn is_surface(self) -> bool {
         matches!(self, Shape::Quadrilateral | Shape::Triangle)

@@ -215,13 +215,8 @@ fn model(card: &Card, draft: &mut Draft) -> Option<&'static Entry> {
             None
         }
         Spelled::Several(names) => {
-            let message = format!(
-                "MATERIAL {}: {} may stand for {}",
-                card.integer("block"),
-                spelling::cut(name),
-                spelling::either(&names)
-            );
-            draft.report(Diagnostic::error(message).at(place, "this abbreviation is not clear; write more of it"));
+            let words = format!("MATERIAL {}: {}", card.integer("block"), spelling::cut(name));
+            draft.report(Diagnostic::unclear(words, &names, place));
             None
         }
         Spelled::Nothing => {

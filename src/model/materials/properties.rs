@@ -87,15 +87,8 @@ impl Properties {
                 sound.then_some((what, value))
             }
             Spelled::Several(names) => {
-                draft.report(
-                    Diagnostic::error(format!(
-                        "{}: {} may stand for {}",
-                        self.owner,
-                        row.fields[0].text,
-                        spelling::either(&names)
-                    ))
-                    .at(row.fields[0].span, "this abbreviation is not clear; write more of it"),
-                );
+                let words = format!("{}: {}", self.owner, row.fields[0].text);
+                draft.report(Diagnostic::unclear(words, &names, row.fields[0].span));
                 None
             }
             Spelled::Nothing => {

@@ -247,7 +247,7 @@ impl Domain {
                     node,
                     axis: 0,
                     motion: None,
-                    begins: false,
+                    begins: true,
                     reaction: 0.0,
                     work: 0.0,
                 });
