@@ -20,7 +20,6 @@ use crate::comm::Communicator;
 use crate::model::ContactDecomposition;
 use crate::partition::dynamic::{Parcels, Records};
 use crate::solver::contact::check::planes::PlaneNode;
-use crate::solver::contact::enforcement::mobility::Mobility;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::local_problem::{History, LocalProblem};
 use crate::solver::contact::nodes::ContactNodes;
@@ -276,33 +275,28 @@ impl Remote {
             |(_, problem), point, mass| problem.motion.inverse_mass[point as usize] = mass,
             comm,
         );
-        let theirs = &contact_nodes.motion.mobility;
+        let (theirs, points) = (&contact_nodes.motion.mobility, problem.motion.len());
+        let own = &mut problem.motion.mobility;
         if theirs.joints.are_there() {
-            problem.motion.mobility.joints.clone_from(&theirs.joints);
-            self.send_places(contact_nodes, problem, (|of| &of.joint, |of| &mut of.joint), comm);
+            own.joints.clone_from(&theirs.joints);
+            own.joint = self.of_points(&theirs.joint, points, comm);
         }
         if !theirs.bodies.is_empty() {
-            problem.motion.mobility.bodies.clone_from(&theirs.bodies);
-            self.send_places(contact_nodes, problem, (|of| &of.body, |of| &mut of.body), comm);
+            own.bodies.clone_from(&theirs.bodies);
+            own.body = self.of_points(&theirs.body, points, comm);
         }
     }
 
-    /// Brings a number of each contact node, or [`ABSENT`], to the points of the local problem.
-    fn send_places(
-        &mut self,
-        contact_nodes: &ContactNodes,
-        problem: &mut LocalProblem,
-        (from, to): (fn(&Mobility) -> &Vec<u32>, fn(&mut Mobility) -> &mut Vec<u32>),
-        comm: &mut dyn Communicator,
-    ) {
-        let mut places = vec![ABSENT; problem.motion.len()];
+    /// A number of each contact node, brought to so many points of the local problem.
+    fn of_points(&mut self, of_contact_nodes: &[u32], points: usize, comm: &mut dyn Communicator) -> Vec<u32> {
+        let mut numbers = vec![ABSENT; points];
         self.motion.exchange(
-            &mut (from(&contact_nodes.motion.mobility), &mut places),
-            |(from, _), contact_node| [f64::from(from[contact_node as usize])],
-            |(_, places), point, [place]| places[point as usize] = place as u32,
+            &mut numbers,
+            |_, contact_node| [f64::from(of_contact_nodes[contact_node as usize])],
+            |numbers, point, [number]| numbers[point as usize] = number as u32,
             comm,
         );
-        *to(&mut problem.motion.mobility) = places;
+        numbers
     }
 }
 
