@@ -163,8 +163,10 @@ over; or the run would take more than 1E12 steps. For
 the files cannot be compared.
 .TP
 .BR 130 ", " 143
-Stopped by SIGINT, by SIGTERM, after a last state was written. A second signal of the same kind ends the program at
-once.
+Stopped by SIGINT, by SIGTERM, after a last state was written; by SIGHUP, SIGUSR1, SIGUSR2 or SIGXCPU likewise, with 128 and the
+number of the signal. A second signal of the same kind ends the program at once. SIGHUP is ignored where
+.BR nohup
+says so.
 .SH ENVIRONMENT
 .TP
 .B NO_COLOR

@@ -29,6 +29,11 @@ pub const FAILED: u8 = 1;
 /// Exit code when the input or the command line is wrong.
 pub const WRONG_INPUT: u8 = 2;
 
+/// Exit code of what a signal has stopped in good order, as shells give it to what a signal kills.
+fn stopped_by(signal: u8) -> u8 {
+    signal.saturating_add(128)
+}
+
 /// A reason to leave, with the exit code to leave with.
 #[derive(Debug)]
 pub struct Failure {

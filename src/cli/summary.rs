@@ -4,7 +4,7 @@ use super::verbs::run::Prepared;
 use super::{Failure, options};
 use crate::postprocess::plot::{self, Curve};
 use crate::run::{Ended, Files, RunError};
-use crate::solver::{Finding, Request};
+use crate::solver::Finding;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -182,14 +182,11 @@ pub fn parameters(define: &[String]) -> BTreeMap<String, String> {
 }
 
 fn ending(outcome: Result<&Ended, &RunError>) -> (&'static str, Option<String>) {
-    let stopped = |by: &str| ("stopped", Some(by.to_owned()));
     match outcome {
         Err(error) => ("failed", Some(error.to_string())),
-        Ok(ended) => match ended.by {
-            Request::Continue => ("complete", None),
-            Request::Shutdown => stopped("by the shutdown file"),
-            Request::Interrupt => stopped("by SIGINT"),
-            Request::Terminate => stopped("by SIGTERM"),
+        Ok(ended) => match ended.by.asked_by() {
+            None => ("complete", None),
+            by => ("stopped", by),
         },
     }
 }

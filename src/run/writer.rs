@@ -401,8 +401,8 @@ fn in_words(outcome: &Result<Request, RunError>, (step, time, time_step): (u64, 
     let (ended, advice) = match outcome {
         Ok(Request::Continue) => ("THE RUN IS COMPLETE".to_string(), Vec::new()),
         Ok(by) => {
-            let words = format!("STOPPED {} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN", reason(*by));
-            (words, Vec::new())
+            let by = by.asked_by().unwrap_or_default().to_uppercase();
+            (format!("STOPPED {by} AT STEP {step}, TIME {time:.6e}; THE LAST STATE IS WRITTEN"), Vec::new())
         }
         Err(RunError::Stopped { stop, .. }) => {
             let when = format!("AT STEP {step}, TIME {time:.6e}, TIME STEP {time_step:.6e}");
@@ -412,13 +412,4 @@ fn in_words(outcome: &Result<Request, RunError>, (step, time, time_step): (u64, 
     };
     let advice: String = advice.iter().map(|advice| format!("\n  advice: {advice}")).collect();
     format!("{ended}{warnings}{advice}")
-}
-
-fn reason(by: Request) -> &'static str {
-    match by {
-        Request::Continue => "",
-        Request::Shutdown => "BY THE SHUTDOWN FILE",
-        Request::Interrupt => "BY SIGINT",
-        Request::Terminate => "BY SIGTERM",
-    }
 }

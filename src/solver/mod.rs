@@ -93,10 +93,8 @@ pub enum Request {
     Continue,
     /// Write a last state and leave: a shutdown file was found.
     Shutdown,
-    /// Write a last state and leave: SIGINT.
-    Interrupt,
-    /// Write a last state and leave: SIGTERM.
-    Terminate,
+    /// Write a last state and leave: a signal with this number.
+    Signal(u8),
 }
 
 impl Request {
@@ -104,8 +102,27 @@ impl Request {
         match n as u8 {
             0 => Request::Continue,
             1 => Request::Shutdown,
-            2 => Request::Interrupt,
-            _ => Request::Terminate,
+            n => Request::Signal(n - 2),
+        }
+    }
+
+    fn to_number(self) -> f64 {
+        f64::from(match self {
+            Request::Continue => 0,
+            Request::Shutdown => 1,
+            Request::Signal(n) => n.saturating_add(2),
+        })
+    }
+
+    /// Who asks: "by SIGTERM"; nothing where nobody does.
+    pub fn asked_by(self) -> Option<String> {
+        match self {
+            Request::Continue => None,
+            Request::Shutdown => Some("by the shutdown file".to_string()),
+            Request::Signal(n) => {
+                let name = signal_hook::low_level::signal_name(n.into());
+                Some(name.map_or_else(|| format!("by signal {n}"), |name| format!("by {name}")))
+            }
         }
     }
 }

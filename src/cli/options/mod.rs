@@ -21,7 +21,7 @@ use std::path::PathBuf;
     version,
     override_usage = "urto DECK [OPTIONS OF RUN]\n       urto VERB ...",
     after_help = "Exit codes: 0 done, 1 the run failed or files differ, 2 the input is wrong, 130 and 143 stopped by \
-                  SIGINT and SIGTERM.",
+                  SIGINT and SIGTERM, 128 and its number by another signal.",
     after_long_help = AFTER_HELP
 )]
 pub struct Options {
@@ -41,7 +41,7 @@ Examples:
   urto explain INITIAL VELOCITY MATERIAL    a command of the deck
   mpiexec -n 4 urto decks/taylor_bar.i      the same bits, over MPI
 
-Exit codes: 0 done, 1 the run failed or files differ, 2 the input is wrong, 130 and 143 stopped by SIGINT and SIGTERM.";
+Exit codes: 0 done, 1 the run failed or files differ, 2 the input is wrong, 130 and 143 stopped by SIGINT and SIGTERM,\n128 and its number by another signal.";
 
 /// What can be done. Each verb's own type says what it does, in short and at length.
 #[derive(Debug, Subcommand)]

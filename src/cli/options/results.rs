@@ -15,11 +15,11 @@ pub struct View {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Variable that colours it: a nodal or element variable, or a vector such as VEL
-    #[arg(short, long, value_name = "NAME")]
+    #[arg(short, long, alias = "variables", value_name = "NAME")]
     pub variable: Option<String>,
     /// State: its number from 1, last, t=TIME for the nearest one, or mesh for the mesh before the run; several, with commas
     /// between, side by side in one picture [default: last]
-    #[arg(short, long, value_name = "STATE", conflicts_with = "time")]
+    #[arg(short, long, alias = "states", value_name = "STATE", conflicts_with = "time")]
     pub state: Option<String>,
     /// State nearest to a time
     #[arg(short, long, value_name = "T")]
@@ -102,7 +102,7 @@ pub struct Plot {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Variables, with commas between; * stands for any letters; a vector's stem, such as VEL, for its length
-    #[arg(short, long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(short, long, alias = "variable", value_name = "NAMES", value_delimiter = ',')]
     pub variables: Vec<String>,
     /// Variables that have their axis on the right
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -187,10 +187,10 @@ pub struct Report {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Variable that colours the pictures, as for `view`
-    #[arg(short, long, value_name = "NAME")]
+    #[arg(short, long, alias = "variables", value_name = "NAME")]
     pub variable: Option<String>,
     /// States side by side, with commas between, as for `view`; else four from the first to the last
-    #[arg(short, long, value_name = "STATES")]
+    #[arg(short, long, alias = "state", value_name = "STATES")]
     pub states: Option<String>,
     /// Side to look from, as for `view`
     #[arg(short, long, value_name = "SIDE", default_value = "iso", allow_hyphen_values = true)]

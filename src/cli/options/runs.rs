@@ -8,7 +8,7 @@ use std::path::PathBuf;
 ///
 /// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2
 /// and so on. Results are the same to the bit on any number of ranks. To stop a run in good order, create a file
-/// x.shutdown beside the log or send SIGINT or SIGTERM: it writes a last state and leaves. With WRITE RESTART in the deck
+/// x.shutdown beside the log or send SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 or SIGXCPU: it writes a last state and leaves. With WRITE RESTART in the deck
 /// it also leaves x.rsout, from which --restart or READ RESTART goes on. The run looks at itself: what it has to warn of, such
 /// as contact that makes energy or corners that turn inside out, stands on the terminal, in the log and in the last line.
 #[derive(Debug, Args)]
@@ -49,6 +49,9 @@ pub struct Check {
     /// Where deck and mesh are.
     #[command(flatten)]
     pub input: Input,
+    /// Warnings count as a failure: all is told, but the exit code is 1
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// Runs a deck with all combinations of some values
@@ -82,7 +85,7 @@ pub struct Sweep {
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub jobs: Option<u32>,
     /// Variables of results and histories that the table has, with commas between, as for `plot`
-    #[arg(short, long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(short, long, alias = "variable", value_name = "NAMES", value_delimiter = ',')]
     pub variables: Vec<String>,
     /// Numbers of nodes at which nodal variables are taken
     #[arg(long, value_name = "IDS", value_delimiter = ',')]

@@ -4,7 +4,7 @@ use crate::cli::input::Given;
 use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
 use crate::cli::terminal::{complain, say};
-use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, summary};
+use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, stopped_by, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, sentence, with_warnings};
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Parts, Quiet, RunError};
@@ -362,8 +362,7 @@ fn report(prepared: &Prepared, quiet: bool, strict: bool, ended: Option<&Ended>)
     match ended.by {
         Request::Continue | Request::Shutdown if failed => FAILED,
         Request::Continue | Request::Shutdown => DONE,
-        Request::Interrupt => 130,
-        Request::Terminate => 143,
+        Request::Signal(signal) => stopped_by(signal),
     }
 }
 

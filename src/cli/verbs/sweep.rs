@@ -4,7 +4,7 @@ use crate::cli::input::Given;
 use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
 use crate::cli::terminal::{complain, say};
-use crate::cli::{DONE, FAILED, Failure, options};
+use crate::cli::{DONE, FAILED, Failure, options, stopped_by};
 use crate::output::print::scientific;
 use crate::postprocess::plot::Class;
 use crate::run::Files;
@@ -56,8 +56,7 @@ pub fn sweep(options: &options::Sweep) -> Result<u8, Failure> {
     let failed = rows.iter().filter(|row| !row.record.as_ref().is_some_and(Record::is_complete)).count();
     let unread = rows.iter().filter(|row| row.found.is_err()).count();
     Ok(match stopped {
-        Request::Interrupt => 130,
-        Request::Terminate => 143,
+        Request::Signal(signal) => stopped_by(signal),
         _ if failed + unread > 0 => FAILED,
         _ => DONE,
     })

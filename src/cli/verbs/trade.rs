@@ -5,7 +5,7 @@ use crate::cli::input::Given;
 use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
 use crate::cli::terminal::say;
-use crate::cli::{DONE, Failure, options};
+use crate::cli::{DONE, Failure, options, stopped_by};
 use crate::exodus;
 use crate::mesh::refine::refined;
 use crate::run::Files;
@@ -74,8 +74,7 @@ pub fn trade(options: &options::Trade) -> Result<u8, Failure> {
     let judgement = Judgement::of(&quantities, &rows);
     trial.write(&judgement, &rows, within)?;
     Ok(match wishes.now() {
-        Request::Interrupt => 130,
-        Request::Terminate => 143,
+        Request::Signal(signal) => stopped_by(signal),
         _ => DONE,
     })
 }

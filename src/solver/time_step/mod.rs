@@ -61,15 +61,8 @@ impl Solver {
     /// The step that all ranks take, the wish that all ranks follow, and whether any element has failed.
     pub(super) fn agree(&mut self, request: Request, comm: &mut dyn Communicator) -> Result<Request, Stop> {
         let failed = self.local.failed.map_or(f64::INFINITY, |place| self.canonical(place));
-        let mut votes = [
-            self.local.stable_step,
-            failed,
-            -f64::from(request as u8),
-            f64::INFINITY,
-            1.0,
-            f64::INFINITY,
-            f64::INFINITY,
-        ];
+        let mut votes =
+            [self.local.stable_step, failed, -request.to_number(), f64::INFINITY, 1.0, f64::INFINITY, f64::INFINITY];
         self.clock.start();
         let of_mesh = self.global_step.as_ref().map(|global| global.votes(self.step, &self.domain, &self.local));
         let cast = match of_mesh {
