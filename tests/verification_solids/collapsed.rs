@@ -100,7 +100,7 @@ fn cantilever(cut: Cut, cells: [usize; 3], poisson: f64) -> f64 {
 /// way in which the root is held.
 #[test]
 fn v45_cantilever() {
-    let table = [[0.363, 0.689, 0.208], [0.688, 0.896, 0.682], [0.365, 0.684, 0.161]];
+    let table = [[0.363, 0.689, 0.205], [0.688, 0.896, 0.682], [0.365, 0.684, 0.161]];
     for ((name, cut), ratios) in CUTS.into_iter().zip(table) {
         for ((cells, poisson), ratio) in
             [([10, 2, 2], 0.3), ([20, 4, 4], 0.3), ([10, 2, 2], 0.49)].into_iter().zip(ratios)

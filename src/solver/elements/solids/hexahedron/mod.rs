@@ -4,6 +4,7 @@ mod barrier;
 mod end;
 mod exact;
 mod fluid;
+mod frame;
 pub mod geometry;
 pub mod hourglass;
 pub(super) mod kernel;
@@ -11,7 +12,6 @@ pub mod kinematics;
 pub mod single_precision;
 pub(super) mod vibration;
 
-use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
@@ -25,6 +25,7 @@ use crate::solver::elements::{
     StoredRow, Unfit,
 };
 use crate::solver::nodes::Nodes;
+use frame::own_axes;
 use geometry::{corners, gradient, modes};
 use hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
 use kernel::{Physics, Settings};
@@ -338,37 +339,6 @@ fn over<S: StepKernel<8>>(precision: Precision, pass: Pass, step: &S) -> PassOut
         Precision::Double => pass.over(step),
         Precision::Single => pass.over_single(step),
     }
-}
-
-/// The element's own axes as a unit quaternion: e₁ along ξ, e₂ in the plane of ξ and η. The fixed axes where an
-/// element is too degenerate to have any.
-pub(super) fn own_axes(corners: &[[f64; 3]; 8]) -> [f64; 4] {
-    let along = |minus: [usize; 4], plus: [usize; 4]| {
-        (0..4).fold([0.0; 3], |sum, i| add(sum, subtract(corners[plus[i]], corners[minus[i]])))
-    };
-    let xi = along([0, 3, 4, 7], [1, 2, 5, 6]);
-    let eta = along([0, 1, 4, 5], [3, 2, 7, 6]);
-    let axes = normalized(xi)
-        .and_then(|e1| normalized(subtract(eta, scaled(e1, dot(eta, e1)))).map(|e2| [e1, e2, cross(e1, e2)]));
-    axes.map_or([1.0, 0.0, 0.0, 0.0], |axes| quaternion(&axes))
-}
-
-/// Unit quaternion of the rotation whose matrix has the columns `e` (Shepperd 1978: the largest term is the pivot).
-fn quaternion(e: &[[f64; 3]; 3]) -> [f64; 4] {
-    let (m00, m11, m22) = (e[0][0], e[1][1], e[2][2]);
-    let squares = [1.0 + m00 + m11 + m22, 1.0 + m00 - m11 - m22, 1.0 - m00 + m11 - m22, 1.0 - m00 - m11 + m22];
-    let pivot = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
-    // Columns are axes: component i of axis j is m[i][j].
-    let (x, y, z) = (e[1][2] - e[2][1], e[2][0] - e[0][2], e[0][1] - e[1][0]);
-    let (xy, yz, zx) = (e[0][1] + e[1][0], e[1][2] + e[2][1], e[2][0] + e[0][2]);
-    let q = match pivot {
-        0 => [squares[0], x, y, z],
-        1 => [x, squares[1], xy, zx],
-        2 => [y, xy, squares[2], yz],
-        _ => [z, zx, yz, squares[3]],
-    };
-    let length = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
-    q.map(|c| c / length)
 }
 
 #[cfg(test)]

@@ -228,9 +228,15 @@ fn matrix([c, s]: [f64; 2]) -> Matrix3<f64> {
     [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
 }
 
-/// Cosine and sine of the direction of ξ, the element's own first axis; x where it has none.
+/// Cosine and sine of the rotation nearest to the element's own axes, the polar factor of its mean Jacobian, which no numbering of the
+/// corners chooses; of x where it has none.
 fn own_axis(corners: &Corners) -> [f64; 2] {
-    let [x, y] = [0, 1].map(|i: usize| (corners[1][i] - corners[0][i]) + (corners[2][i] - corners[3][i]));
+    let along = |i: usize| {
+        let (one, other) = (corners[2][i] - corners[0][i], corners[1][i] - corners[3][i]);
+        [one + other, one - other]
+    };
+    let ([xi_x, eta_x], [xi_y, eta_y]) = (along(0), along(1));
+    let (x, y) = (xi_x + eta_y, xi_y - eta_x);
     let length = (x * x + y * y).sqrt();
     if length > 0.0 { [x / length, y / length] } else { [1.0, 0.0] }
 }

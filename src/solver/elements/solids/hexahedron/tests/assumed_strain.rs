@@ -4,14 +4,13 @@ use super::*;
 
 /// Stiffness of a hexahedron's hourglass modes: q̇_iα = γ_αI v̂_iI/8 with the theory's γ, resisted by
 /// Q_ii = μ[(H_jj + H_kk) q_ii + H_ij q_jj + H_ik q_kk], Q_ij = 2μ/(1−ν) [H_ii q_ij + ν H_ij q_ji],
-/// Q_i4 = ⅔ μ (1 + ν) H_ii q_i4, in axes of which the first lies along ξ and the second in the plane of ξ and η.
+/// Q_i4 = ⅔ μ (1 + ν) H_ii q_i4, in axes that are the rotation of the polar factor of those of ξ, η and ζ.
 fn theory(corners: &Corners, mu: f64, nu: f64) -> DMatrix<f64> {
     let s = |n: usize| CUBE[n].map(|c| 2.0 * c - 1.0);
     let x: [Vector3<f64>; 8] = corners.map(Vector3::from);
     let edge = |a: usize| (0..8).map(|n| x[n] * s(n)[a]).sum::<Vector3<f64>>();
-    let e1 = edge(0).normalize();
-    let e2 = (edge(1) - e1 * e1.dot(&edge(1))).normalize();
-    let axes = Matrix3::from_columns(&[e1, e2, e1.cross(&e2)]);
+    let factors = Matrix3::from_columns(&[edge(0), edge(1), edge(2)]).svd(true, true);
+    let axes = factors.u.unwrap() * factors.v_t.unwrap();
     let along: [f64; 3] = [0, 1, 2].map(|i| axes.column(i).dot(&edge(i)));
     let h = |i: usize, j: usize| {
         if i == j { along[(i + 1) % 3] * along[(i + 2) % 3] / along[i] / 3.0 } else { along[3 - i - j] / 3.0 }

@@ -163,9 +163,8 @@ fn degenerate_elements() {
             assert_eq!(found.failed, None);
             let k = stiffness(&corners, elastic(0.3), control, |_| ());
             let eigenvalues = ((&k + k.transpose()) * 0.5).symmetric_eigenvalues();
+            // What the step is to them is asked in `collapsed`: corners that coincide are one node.
             assert!(eigenvalues.min() > -1e-6 * eigenvalues.max(), "{control:?}: {}", eigenvalues.min());
-            let exact = 2.0 / (eigenvalues.max() * 8.0 / (DENSITY * expected)).sqrt();
-            assert!(exact > 0.99 * found.stable_step, "{control:?}: {}", exact / found.stable_step);
         }
     }
 }

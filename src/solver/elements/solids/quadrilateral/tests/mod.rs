@@ -410,3 +410,21 @@ fn triangles_have_no_hourglass_mode() {
         close("axial momentum", along, 0.0, 1e-12 * STEEL.young);
     }
 }
+
+/// The frame is nearest to both axes: turned half as far as one of them is sheared, and no corner is the first.
+#[test]
+fn no_numbering_chooses_the_frame_of_a_skewed_element() {
+    let [shear, height] = [0.4, 1.3];
+    let corners: Corners = [[0.0; 3], [1.0, 0.0, 0.0], [1.0 + shear, height, 0.0], [shear, height, 0.0]];
+    let whole = super::own_axis(&corners);
+    // The rotation of the polar factor has the tangent (J₂₁ − J₁₂)/(J₁₁ + J₂₂).
+    assert!((whole[1] / whole[0] + shear / (1.0 + height)).abs() < 1e-15, "{whole:?}");
+    for first in 1..4 {
+        let mut turned = corners;
+        turned.rotate_left(first);
+        let [c, s] = super::own_axis(&turned);
+        let angle = libm::atan2(s, c) - libm::atan2(whole[1], whole[0]);
+        let quarters = angle / std::f64::consts::FRAC_PI_2;
+        assert!((quarters - quarters.round()).abs() < 1e-14, "{angle}");
+    }
+}
