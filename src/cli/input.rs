@@ -88,7 +88,7 @@ impl Given {
             let told = Diagnostics::new(self.problem.deck.source.clone());
             return Err(refused(&self.problem, told, unfit));
         }
-        if let Some(refusal) = body.tied.refusal(&self.mesh, &body.node_mass) {
+        if let Some(refusal) = body.tied.refusal(&self.mesh, model, &body.node_mass) {
             return Err(Failure::input(refusal));
         }
         match body.overlap.refusal(&self.mesh) {
@@ -180,13 +180,14 @@ impl Given {
         })
     }
 
-    /// A warning about rotations that are held, driven or loaded where nothing can turn.
+    /// A warning about rotations that are held, driven, loaded or given an inertia where nothing can turn.
     fn idle_rotations(&self) -> Option<String> {
         let sets: Vec<String> =
             idle_rotations(&self.mesh, &self.problem.model).iter().map(|set| set.to_string()).collect();
         (!sets.is_empty()).then(|| {
             format!(
-                "rotations of node sets {} are held, driven or loaded, but none of their nodes belongs to a shell or beam",
+                "rotations of node sets {} are held, driven, loaded or given an inertia, but none of their nodes belongs to a shell, a beam \
+                 or a rigid body",
                 sets.join(", ")
             )
         })

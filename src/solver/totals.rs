@@ -114,7 +114,7 @@ pub fn totals(domain: &mut Domain, [kick, last]: [f64; 2], comm: &mut dyn Commun
     let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
     add_nodes(domain, kick, &mut sums);
     if let Some(rigid) = domain.rigid.as_ref().filter(|_| comm.rank() == 0) {
-        rigid.surplus_energies().for_each(|energy| sums[0].add(energy));
+        rigid.surplus_energies(kick > 0.0).for_each(|energy| sums[0].add(energy));
         rigid.works().for_each(|work| sums[5].add(work));
     }
     add_elements(domain, kick - last, &mut sums);
@@ -221,7 +221,7 @@ pub fn initial_kinetic_energy(domain: &Domain, comm: &mut dyn Communicator) -> f
         sum[0].add(0.5 * r[3] * (r[4] * r[4] + r[5] * r[5] + r[6] * r[6]));
     }
     let rigid = domain.rigid.as_ref().filter(|_| comm.rank() == 0);
-    rigid.into_iter().flat_map(|rigid| rigid.surplus_energies()).for_each(|energy| sum[0].add(energy));
+    rigid.into_iter().flat_map(|rigid| rigid.surplus_energies(false)).for_each(|energy| sum[0].add(energy));
     ExactSum::merge_ranks(&mut sum, comm);
     sum[0].value()
 }

@@ -64,7 +64,7 @@ fn run(mesh: &Mesh, model: &Model) -> Found {
 /// Runs a model on some ranks; what one of them found, with the positions of all.
 fn run_on(ranks: usize, mesh: &Mesh, model: &Model) -> Found {
     let body = Body::new(mesh, model).expect("materials");
-    if let Some(refusal) = body.tied.refusal(mesh, &body.node_mass) {
+    if let Some(refusal) = body.tied.refusal(mesh, model, &body.node_mass) {
         return Found { refusal: Some(refusal), ..Found::default() };
     }
     let cut = body.cut(ranks);

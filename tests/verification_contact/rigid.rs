@@ -3,11 +3,15 @@
 //! `cargo test --test verification_contact rigid:: -- --nocapture` prints the numbers of docs/verification.md.
 
 use crate::support::continued::{Case, assert_same};
+use crate::support::flow::alone;
 use crate::support::meshes::{add_node_set, add_side_set, brick, recipe};
-use crate::support::run::{Run, run, run_on};
+use crate::support::run::{Run, model, run, run_on};
 use crate::support::{between, close};
 use std::f64::consts::{FRAC_PI_2, PI};
+use urto::comm::Serial;
 use urto::mesh::Mesh;
+use urto::output::HistoryPlan;
+use urto::solver::{Request, idle_rotations};
 
 const STEEL: &str = "MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
 
@@ -540,5 +544,113 @@ fn what_a_run_holds_anew_stays_where_it_is() {
         let half = 0.5 * 7.85 * 100.0;
         close("held anew", &format!("set {set}: kinetic energy, J"), kinetic, half, 1e-9);
         close("held anew", &format!("set {set}: external work, J"), external, -half, 1e-9);
+    }
+}
+
+/// Beams on a line that begin to turn about it, or about an axis askew: ½ ω·I ω of the rod, m r²/2 about its line and
+/// m (L²/12 + r²/4) across it, and of the inertia at one node. A rod thinner than its stiffened inertia turns as it is told to as well.
+#[test]
+fn a_rigid_rod_begins_to_turn_about_its_line() {
+    let along = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let mesh = recipe(
+        "TITLE\n ROD\nLINE, 1, 0., 0., 0., 1., 2., 2., 6\nNODE SET POINT, 1, 1., 2., 2.\nNODE SET BLOCK, 2, 1\n",
+    );
+    let (length, inertia, rate) = (3.0, 0.5, 10.0);
+    for (radius, axis) in [(0.2, along), (0.2, [0.0, 0.6, 0.8]), (5e-4, along)] {
+        let [x, y, z] = axis;
+        let run = run(
+            &format!(
+                "TERMINATION TIME, 0.01\nOUTPUT TIME, 0.001\nPLOT TIME, 0.001\nPLOT NODAL, ROTATION RATE\nRIGID BODY, 1\n\
+                 TIME STEP MAXIMUM, 1.E-4\nBEAM SECTION, 1, ROD, {radius}\nPOINT MASS, 1, 0., {}\n\
+                 INITIAL VELOCITY ANGULAR, 1, {rate}, 0.5, 1., 1., {x}, {y}, {z}\nMATERIAL, 1, ELASTIC, 1.\n\
+                 YOUNGS MODULUS = 1.E4\nPOISSONS RATIO = 0.3\nEND\n",
+                if radius < 0.1 { 0.0 } else { inertia }
+            ),
+            &mesh,
+        );
+        let first = &run.states[0];
+        for (name, along) in ["ROTVELX", "ROTVELY", "ROTVELZ"].into_iter().zip(axis) {
+            let worst = first.nodal(name).iter().fold(0.0f64, |worst, found| worst.max((found - rate * along).abs()));
+            between("rigid rod", &format!("{name}, error"), worst / rate, 0.0, 1e-9);
+        }
+        if radius < 0.1 {
+            continue;
+        }
+        let mass = PI * radius * radius * length;
+        let cosine: f64 = along.iter().zip(axis).map(|(a, b)| a * b).sum();
+        let (own, across) = (0.5 * mass * radius * radius, mass * (length * length / 12.0 + 0.25 * radius * radius));
+        let turning = own * cosine * cosine + across * (1.0 - cosine * cosine) + inertia;
+        for line in &run.lines {
+            let expected = 0.5 * turning * rate * rate;
+            between("rigid rod", "energy, error", (line.totals.kinetic / expected - 1.0).abs(), 0.0, 1e-12);
+        }
+    }
+}
+
+/// A cube of hexahedra, whose nodes have no rotation: a rotary inertia at a node is one of the body, I = m/6 + J, and moments on nodes
+/// turn it, ω = M t/I, wherever they act.
+#[test]
+fn inertia_and_moments_at_nodes_of_a_rigid_cube() {
+    let mut mesh = brick([2, 2, 2], [1.0, 1.0, 1.0]);
+    add_node_set(&mut mesh, 50, |x| x == [1.0, 1.0, 1.0]);
+    add_node_set(&mut mesh, 51, |x| x[0] == 0.0 && x[1] == 0.0 && x[2] < 0.9);
+    let head = "TERMINATION TIME, 0.1\nOUTPUT TIME, 0.01\nPLOT TIME, 0.01\nTIME STEP MAXIMUM, 1.E-4\n\
+        POINT MASS, 50, 0., 8.\nMATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n";
+    let inertia = 1.0 / 6.0 + 8.0;
+    let spins =
+        run(&format!("{head}RIGID BODY, 1\nINITIAL VELOCITY ANGULAR, 1, 1., 0.5, 0.5, 0.5, 1., 2., 2.\n"), &mesh);
+    for line in &spins.lines {
+        let expected = 0.5 * inertia;
+        between("inertia at a node", "energy, error", (line.totals.kinetic / expected - 1.0).abs(), 0.0, 1e-12);
+    }
+    let moment = "FUNCTION, 1\n0., 1.\n1., 1.\nEND\nPRESCRIBED MOMENT, Z, 51, 1, 10.\n";
+    let turned = run(&format!("{head}RIGID BODY, 1\n{moment}"), &mesh);
+    let last = turned.last();
+    // Two of the three nodes on the edge.
+    let spin = 2.0 * 10.0 * last.time / inertia;
+    close("moment on nodes", "kinetic energy", last.totals.kinetic, 0.5 * inertia * spin * spin, 1e-6);
+    between("moment on nodes", "worst balance", turned.worst_balance(), 0.0, 1e-12);
+    let case = Case::new(&format!("{head}RIGID BODY, 1\n{moment}"), mesh.clone());
+    let whole = case.part(1, None, 200);
+    assert_same("moment on nodes, after a restart", &whole, &case.part(2, Some(&case.part(3, None, 120).end), 80));
+    // What deforms has nodes that cannot turn.
+    let idle = |deck: &str| idle_rotations(&mesh, &model(deck, &mesh));
+    assert_eq!(idle(&format!("{head}RIGID BODY, 1\n{moment}")), Vec::<i64>::new());
+    assert_eq!(idle(&format!("{head}{moment}")), [50, 51]);
+    assert_eq!(idle(&head.replace("0., 8.", "8.")), Vec::<i64>::new());
+}
+
+/// The first state is the initial condition: a cube that is driven, or loaded, begins at rest, or with the spin that it is given.
+#[test]
+fn histories_begin_with_the_initial_spin() {
+    let mut mesh = brick([1, 1, 1], [1.0, 1.0, 1.0]);
+    add_node_set(&mut mesh, 50, |x| x == [1.0, 1.0, 1.0]);
+    let (rate, spin, moment) = (0.7, 2.0, 10.0);
+    let head = "TERMINATION TIME, 0.1\nTIME STEP MAXIMUM, 1.E-3\nHISTORY BLOCK, 1\nRIGID BODY, 1\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+        MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n";
+    let driven = format!("PRESCRIBED ANGULAR VELOCITY, Z, 50, 1, {rate}\n");
+    let loaded = format!("INITIAL VELOCITY ANGULAR, 1, {spin}, 0.5, 0.5, 0.5\nPRESCRIBED MOMENT, Z, 50, 1, {moment}\n");
+    // M/I of a cube with a mass of 1, over a step and half of the first kick.
+    let later = spin + 6.0 * moment * 1e-3;
+    for (more, first, second) in [(driven, 0.0, rate), (loaded, spin, later)] {
+        let model = model(&format!("{head}{more}"), &mesh);
+        let mut solver = alone(&mesh, &model);
+        for expected in [first, second] {
+            solver.prepare(Request::Continue, &mut Serial).expect("a state");
+            let plan = HistoryPlan::new(&mesh, &model, &solver);
+            let values = plan.values(&mut solver, &mut Serial, false).expect("values");
+            let names = plan.names();
+            let of = |name: &str| values[names.iter().position(|other| other == name).expect("a name")];
+            // The angle of a step is prescribed, and its sine is in the momentum.
+            let most = if solver.step == 0 { 1e-14 } else { 1e-6 };
+            between("first state", "spin, error", (of("ROTZ_BLOCK1") - expected).abs(), 0.0, most);
+            // Between the velocities half a step before and after, of which the mean is the spin.
+            let half = if expected == later { 6.0 * moment * 0.5e-3 } else { 0.0 };
+            let energy = (expected * expected - half * half) / 12.0;
+            between("first state", "energy of the block, error", (of("KE_BLOCK1") - energy).abs(), 0.0, most);
+            let whole = solver.totals(&mut Serial).kinetic;
+            between("first state", "energy, error", (whole - energy).abs(), 0.0, most);
+            solver.advance();
+        }
     }
 }

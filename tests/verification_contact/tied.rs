@@ -3,11 +3,11 @@
 //! `cargo test --test verification_contact tied:: -- --nocapture` prints the numbers of docs/verification.md.
 
 use crate::support::continued::{Case, assert_same};
-use crate::support::meshes::{add_node_set, add_side_set, recipe};
+use crate::support::meshes::{add_node_set, add_side_set, nodes_where, recipe};
 use crate::support::run::{model, run, run_on};
 use crate::support::{between, close};
 use urto::comm::Serial;
-use urto::mesh::Mesh;
+use urto::mesh::{Mesh, NodeSet};
 use urto::solver::{Body, Request, Solver};
 
 const LAWS: &str = "MATERIAL, 1, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E9\nPOISSONS RATIO = 0.3\nEND\n\
@@ -261,7 +261,7 @@ fn the_same_bits_on_any_ranks_and_after_a_restart() {
 fn refusal(mesh: &Mesh, ties: &str) -> String {
     let model = model(&format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\n{ties}{LAWS}"), mesh);
     let body = Body::new(mesh, &model).expect("materials");
-    body.tied.refusal(mesh, &body.node_mass).expect("a refusal")
+    body.tied.refusal(mesh, &model, &body.node_mass).expect("a refusal")
 }
 
 #[test]
@@ -276,7 +276,41 @@ fn what_cannot_be_tied_is_told() {
         "TITLE\n PARTLY\nBOX, 1, 0., 0., 0., 1., 1., 0.05, 20, 20, 1\nBOX, 2, 0.55, 0.55, 0.05, 1., 1., 1., 1, 1, 1\n\
          SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
     );
-    assert!(refusal(&partly, "TIED CONTACT, 200, 100\n").contains("would have a mass of -"));
+    let told = refusal(&partly, "TIED CONTACT, 200, 100\n");
+    assert!(told.contains("would have a mass of -") && told.contains("covers only in part"), "{told}");
+}
+
+/// A node of a coarse surface follows some of a finer one with negative weights, and takes that part of its POINT MASS off them.
+#[test]
+fn a_heavy_point_mass_that_follows_is_told() {
+    let mut mesh = recipe(
+        "TITLE\n HEAVY\nBOX, 1, 0., 0., 0., 2., 2., 1., 9, 9, 3\nBOX, 2, 0., 0., 1., 2., 2., 1., 2, 2, 1\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    let of_second = |node: &u32| mesh.blocks[1].nodes.contains(node);
+    let middle = nodes_where(&mesh, |x| x == [1.0, 1.0, 1.0]).into_iter().find(of_second).expect("the middle");
+    mesh.node_sets.push(NodeSet { id: 7, name: String::new(), nodes: vec![middle] });
+    let tied = |ties: &str| {
+        let model = model(&format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\n{ties}{LAWS}"), &mesh);
+        let body = Body::new(&mesh, &model).expect("materials");
+        let refusal = body.tied.refusal(&mesh, &model, &body.node_mass);
+        (body, refusal)
+    };
+    let (light, refusal) = tied("TIED CONTACT, 200, 100\n");
+    assert_eq!(refusal, None);
+    // The mass of the node that can just be is that which takes all of the lightest of those that it follows.
+    let follower = light.tied.followers.iter().find(|one| one.node == middle).expect("a follower");
+    let bearable = |(node, weight): &(u32, f64)| (*weight < 0.0).then(|| -light.node_mass[*node as usize] / weight);
+    let most = follower.leaders.iter().filter_map(bearable).fold(f64::INFINITY, f64::min);
+    let (_, refusal) = tied(&format!("TIED CONTACT, 200, 100\nPOINT MASS, 7, {}\n", 0.999 * most));
+    assert_eq!(refusal, None);
+    let heavy = format!("POINT MASS, 7, {}\n", 1.001 * most);
+    let (_, refusal) = tied(&format!("TIED CONTACT, 200, 100\n{heavy}"));
+    let told = refusal.expect("a refusal");
+    let names = format!("node {} follows it with a weight of -", mesh.node_ids[middle as usize]);
+    assert!(told.contains(&names) && told.contains("POINT MASS is too heavy"), "{told}");
+    // What the help says.
+    assert_eq!(tied(&format!("TIED CONTACT, 100, 200\n{heavy}")).1, None);
 }
 
 /// Nodes of a tied side set that face nothing touch the other block like any others: a block that hangs over the edge of the one it is

@@ -6,10 +6,10 @@
 use super::summed;
 use crate::comm::{Communicator, ExactSum};
 use crate::mesh::{Block, Mesh};
+use crate::solver::Solver;
 use crate::solver::elements::{ElementBlock, Energies, Group, Sample};
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 use crate::solver::rigid::Turning;
-use crate::solver::{RigidBodies, Solver};
 use nalgebra::{Matrix3, Vector3};
 
 /// Sums of a block: mass; mass times displacement, velocity, place, angular momentum; second moments of mass; energies.
@@ -97,7 +97,7 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
         }
     }
     let rigid = solver.domain.rigid.iter().filter(|_| comm.rank() == 0);
-    for (block, turning) in rigid.flat_map(RigidBodies::surplus_of_blocks) {
+    for (block, turning) in rigid.flat_map(|rigid| rigid.surplus_of_blocks(solver.step > 0)) {
         let Ok(place) = blocks.binary_search(&block) else { continue };
         let own = &mut sums[SUMS * place..SUMS * (place + 1)];
         own.iter_mut().zip(surplus(&turning)).for_each(|(sum, part)| sum.add(part));

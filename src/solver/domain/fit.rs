@@ -49,22 +49,21 @@ pub fn idle_deaths(mesh: &Mesh, model: &Model) -> BTreeSet<i64> {
     model.deaths.iter().filter(hourglass).map(|death| death.block).filter(has_none).collect()
 }
 
-/// Node sets of whose rotations the model speaks though none of their nodes can turn, ascending.
+/// Node sets of whose rotations the model speaks, or that it gives a rotary inertia, though none of their nodes can turn, ascending.
 pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
     let turns = |block: &&crate::mesh::Block| {
         elements::Element::of_block(block, model).is_ok_and(|element| element.entry().rotations)
     };
     let turning: BTreeSet<u32> = mesh.blocks.iter().filter(turns).flat_map(|block| &block.nodes).copied().collect();
-    // A rigid body turns with any of its nodes; a moment needs one of its own.
+    // A rigid body turns with any of its nodes.
     let is_rigid = |block: &&crate::mesh::Block| model.rigid_bodies.iter().any(|body| body.contains(&block.id));
     let rigid: BTreeSet<u32> = mesh.blocks.iter().filter(is_rigid).flat_map(|block| &block.nodes).copied().collect();
-    let loads =
-        |set: i64| model.prescribed_forces.iter().any(|force| force.of == Unknown::Rotation && force.node_set == set);
-    let can_turn = |set: i64, node: &u32| turning.contains(node) || (rigid.contains(node) && !loads(set));
-    let idle = |set: &&i64| mesh.node_set(**set).is_some_and(|own| !own.nodes.iter().any(|node| can_turn(**set, node)));
+    let can_turn = |node: &u32| turning.contains(node) || rigid.contains(node);
+    let idle = |set: &&i64| mesh.node_set(**set).is_some_and(|own| !own.nodes.iter().any(can_turn));
     let held = model.no_displacements.iter().map(|held| (held.of, held.node_set));
     let driven = model.prescribed_motions.iter().map(|motion| (motion.of, motion.node_set));
     let loaded = model.prescribed_forces.iter().map(|force| (force.of, force.node_set));
-    let all = held.chain(driven).chain(loaded).filter(|(of, _)| *of == Unknown::Rotation).map(|(_, set)| set);
-    all.collect::<BTreeSet<i64>>().iter().filter(idle).copied().collect()
+    let told = held.chain(driven).chain(loaded).filter(|(of, _)| *of == Unknown::Rotation).map(|(_, set)| set);
+    let inert = model.point_masses.iter().filter(|point| point.inertia > 0.0).map(|point| point.node_set);
+    told.chain(inert).collect::<BTreeSet<i64>>().iter().filter(idle).copied().collect()
 }

@@ -193,6 +193,12 @@ pub trait Formulation: Sized {
         Touch::Outside
     }
 
+    /// How many times the rotary inertia about its line an element with these corners turns with at the start; 1 where it is exact, and
+    /// of elements that have no line.
+    fn inertia_about_line(&self, _corners: &[[f64; 3]]) -> f64 {
+        1.0
+    }
+
     /// Right stretch in the frame of the `i`-th element.
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64>;
 

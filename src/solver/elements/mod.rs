@@ -135,6 +135,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.touch(attributes),)+ }
             }
 
+            /// See [`Formulation::inertia_about_line`].
+            pub fn inertia_about_line(&self, corners: &[[f64; 3]]) -> f64 {
+                match self { $(Element::$element(own) => own.inertia_about_line(corners),)+ }
+            }
+
             /// See [`Formulation::stretch`].
             pub fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
                 match self { $(Element::$element(own) => own.stretch(group, i, nodes),)+ }

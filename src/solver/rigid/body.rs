@@ -50,8 +50,8 @@ pub struct RigidBody {
     pub turn: Quaternion,
     /// What holds or drives it.
     pub holds: Vec<Hold>,
-    /// Work of its weight.
-    pub weight_work: f64,
+    /// Work of its weight, and of the moment on it.
+    pub load_work: f64,
     /// Of the step: its matrix of rotation and its inertia in space.
     pub frame: Matrix,
     inertia: Matrix,
@@ -69,6 +69,8 @@ pub struct RigidBody {
     load: Six,
     /// Acceleration of gravity in the step.
     pub gravity: [f64; 3],
+    /// Moment of the step that is prescribed for nodes without a rotation of their own.
+    pub moment: [f64; 3],
     /// Velocity and angular momentum over the coming step.
     next: ([f64; 3], [f64; 3]),
     /// The last step taken: its rotation and its length.
@@ -84,7 +86,7 @@ impl RigidBody {
             momentum: [0.0; 3],
             turn: STRAIGHT,
             holds,
-            weight_work: 0.0,
+            load_work: 0.0,
             frame: matrix(STRAIGHT),
             inertia: shape.inertia,
             compliance: [[0.0; 6]; 6],
@@ -94,6 +96,7 @@ impl RigidBody {
             resistance: Vec::new(),
             load: [0.0; 6],
             gravity: [0.0; 3],
+            moment: [0.0; 3],
             next: ([0.0; 3], [0.0; 3]),
             last: None,
             shape,
@@ -104,10 +107,10 @@ impl RigidBody {
         body
     }
 
-    /// Gives it the momentum and the angular momentum, about the centre, of the velocities of its nodes.
+    /// Gives it the momentum and the angular momentum, about the centre, of the velocities and rotation rates of its nodes.
     pub fn set_off(&mut self, [px, py, pz, lx, ly, lz]: Six) {
         self.velocity = scaled([px, py, pz], 1.0 / self.shape.mass);
-        // Nodes turn as they were told to; the inertia is that of the volume.
+        // Nodes go and turn as they were told to; the inertia is that of the volume.
         self.momentum = times(&self.shape.inertia, solved(&self.shape.of_nodes, [lx, ly, lz]));
         self.begin();
         // What is held still takes up what it does not allow.
@@ -186,28 +189,30 @@ impl RigidBody {
         [velocity, self.spin(momentum)]
     }
 
-    /// Kinetic energy at the present state that is not in the rows of its nodes.
-    pub fn surplus_energy(&self) -> f64 {
-        self.turning(&self.shape.surplus).energy
+    /// Kinetic energy at the present state that is not in the rows of its nodes; see `RigidBody::turning`.
+    pub fn surplus_energy(&self, kicked: bool) -> f64 {
+        self.turning(&self.shape.surplus, kicked).energy
     }
 
     /// What each of its blocks, by its position in the mesh, has at the present state that is not in the rows of its nodes.
-    pub fn surplus_of_blocks(&self) -> impl Iterator<Item = (usize, Turning)> + '_ {
-        self.shape.surplus_of.iter().map(|(block, inertia)| (*block, self.turning(inertia)))
+    pub fn surplus_of_blocks(&self, kicked: bool) -> impl Iterator<Item = (usize, Turning)> + '_ {
+        self.shape.surplus_of.iter().map(move |(block, inertia)| (*block, self.turning(inertia, kicked)))
     }
 
-    /// What an inertia at the start has from turning with the body, at the present state.
-    fn turning(&self, at_start: &Matrix) -> Turning {
-        let [[_, before], [_, after]] = [self.motion(false), self.motion(true)];
+    /// What an inertia at the start has from turning with the body, at the present state: between the velocities before the kick and
+    /// after it, or by those before alone where it is the initial condition and not yet `kicked`.
+    fn turning(&self, at_start: &Matrix, kicked: bool) -> Turning {
+        let [[_, before], [_, after]] = [self.motion(false), self.motion(kicked)];
         let inertia = turned(&self.frame, at_start);
         let energy = 0.5 * dot(before, times(&inertia, after));
         Turning { inertia, momentum: times(&inertia, scaled(add(before, after), 0.5)), energy }
     }
 
-    /// Finds the velocities of the coming step under these forces and their moment about the centre, and its weight.
+    /// Finds the velocities of the coming step under these forces and their moment about the centre, its weight and the moment on it.
     pub fn load(&mut self, force: &Six, functions: &[Function], step: &StepTimes) {
         self.load = *force;
         (0..3).for_each(|i| self.load[i] += self.shape.mass * self.gravity[i]);
+        (0..3).for_each(|i| self.load[3 + i] += self.moment[i]);
         self.push([0.0; 6], functions, step);
     }
 
@@ -258,10 +263,11 @@ impl RigidBody {
         self.holds.iter().map(of).collect()
     }
 
-    /// Books half the step's work of what drives it and of its weight, before or after the kick.
+    /// Books half the step's work of what drives it, of its weight and of the moment on it, before or after the kick.
     pub fn book(&mut self, half_step: f64, after: bool) {
         let [velocity, spin] = self.motion(after);
-        self.weight_work += half_step * self.shape.mass * dot(self.gravity, velocity);
+        self.load_work += half_step * self.shape.mass * dot(self.gravity, velocity);
+        self.load_work += half_step * dot(self.moment, spin);
         let frame = self.frame;
         for hold in self.holds.iter_mut().filter(|hold| hold.motion.is_some() || hold.begins) {
             let row = hold.row(times(&frame, hold.arm));

@@ -42,6 +42,7 @@ pub struct RigidBodies {
     /// Body of each local node, or [`ABSENT`].
     of_node: Vec<u32>,
     gravities: Vec<Gravity>,
+    moments: Vec<BodyMoment>,
     /// Whether the present state has its forces.
     prepared: bool,
     /// Whether the nodes inside have been brought up to date, so that they have forces.
@@ -56,6 +57,16 @@ struct Follower {
     body: u32,
     /// Where it is from the centre at the start.
     arm: [f64; 3],
+}
+
+/// PRESCRIBED MOMENT on nodes of a body that have no rotation of their own.
+#[derive(Debug, Clone, Copy)]
+struct BodyMoment {
+    body: u32,
+    axis: usize,
+    function: usize,
+    /// Factor on the function, times the number of nodes.
+    scale: f64,
 }
 
 impl RigidBodies {
@@ -94,6 +105,7 @@ impl RigidBodies {
             turning,
             of_node,
             gravities,
+            moments: moments(mesh, model, body),
             prepared: false,
             refreshed: false,
             kick: 0.0,
@@ -124,6 +136,9 @@ impl RigidBodies {
         for follower in self.near.iter().chain(&self.deep).filter(|f| nodes.owned[f.node as usize]) {
             let momentum = scaled(nodes.velocity(follower.node), nodes.mass(follower.node));
             take(&mut sums, follower.body, momentum, follower.arm);
+        }
+        for follower in self.turning.iter().filter(|f| nodes.owned[f.node as usize]) {
+            take_moment(&mut sums, follower.body, scaled(nodes.velocity(follower.node), nodes.mass(follower.node)));
         }
         ExactSum::merge_ranks(&mut sums, comm);
         for (body, sums) in self.bodies.iter_mut().zip(sums.chunks_exact(6)) {
@@ -193,13 +208,16 @@ impl RigidBodies {
             }
         }
         for follower in self.turning.iter().filter(|f| nodes.owned[f.node as usize]) {
-            let moment = nodes.force(follower.node);
-            (0..3).for_each(|i| sums[6 * follower.body as usize + 3 + i].add(moment[i]));
+            take_moment(&mut sums, follower.body, nodes.force(follower.node));
         }
         ExactSum::merge_ranks(&mut sums, comm);
         let gravity = loads::gravity_now(&self.gravities, functions, step.time);
+        self.bodies.iter_mut().for_each(|body| (body.gravity, body.moment) = (gravity, [0.0; 3]));
+        for moment in &self.moments {
+            let now = moment.scale * functions[moment.function].value(step.time);
+            self.bodies[moment.body as usize].moment[moment.axis] += now;
+        }
         for (body, sums) in self.bodies.iter_mut().zip(sums.chunks_exact(6)) {
-            body.gravity = gravity;
             body.load(&std::array::from_fn(|i| sums[i].value()), functions, step);
         }
         (self.prepared, self.kick) = (true, step.kick);
@@ -246,7 +264,7 @@ impl RigidBodies {
         }
     }
 
-    /// Books half the step's work of what drives bodies and of their weight, before or after the kick.
+    /// Books half the step's work of what drives bodies, of their weight and of moments on them, before or after the kick.
     pub fn book(&mut self, half_step: f64, after: bool) {
         self.bodies.iter_mut().for_each(|body| body.book(half_step, after));
     }
@@ -318,19 +336,19 @@ impl RigidBodies {
         }
     }
 
-    /// Work of all that drives bodies, and of their weight: the same on all ranks.
+    /// Work of all that drives bodies, of their weight and of moments on them: the same on all ranks.
     pub fn works(&self) -> impl Iterator<Item = f64> + '_ {
-        self.bodies.iter().flat_map(|body| body.holds.iter().map(|hold| hold.work).chain([body.weight_work]))
+        self.bodies.iter().flat_map(|body| body.holds.iter().map(|hold| hold.work).chain([body.load_work]))
     }
 
-    /// Kinetic energy at the present state that is not in the nodes: the same on all ranks.
-    pub fn surplus_energies(&self) -> impl Iterator<Item = f64> + '_ {
-        self.bodies.iter().map(RigidBody::surplus_energy)
+    /// Kinetic energy at the present state, `kicked` or the initial one, that is not in the nodes: the same on all ranks.
+    pub fn surplus_energies(&self, kicked: bool) -> impl Iterator<Item = f64> + '_ {
+        self.bodies.iter().map(move |body| body.surplus_energy(kicked))
     }
 
     /// What blocks, by their positions in the mesh, have from turning that is not in the nodes: the same on all ranks.
-    pub fn surplus_of_blocks(&self) -> impl Iterator<Item = (usize, Turning)> + '_ {
-        self.bodies.iter().flat_map(RigidBody::surplus_of_blocks)
+    pub fn surplus_of_blocks(&self, kicked: bool) -> impl Iterator<Item = (usize, Turning)> + '_ {
+        self.bodies.iter().flat_map(move |body| body.surplus_of_blocks(kicked))
     }
 
     /// Forces that hold and drive bodies: node of the mesh, axis, force.
@@ -360,7 +378,7 @@ impl RigidBodies {
             for i in 0..4 {
                 archive.number(&name(["Q0", "Q1", "Q2", "Q3"][i]), &mut body.turn[i]);
             }
-            archive.number(&name("WEIGHTW"), &mut body.weight_work);
+            archive.number(&name("WEIGHTW"), &mut body.load_work);
             visit_holds(archive, &name("HOLD"), body);
         }
     }
@@ -398,9 +416,23 @@ fn visit_holds(archive: &mut dyn Archive, name: &str, body: &mut RigidBody) {
                 }
                 [hold.speed, hold.turned, hold.work, hold.strayed] = [row[5], row[6], row[7], row[8]];
             }
-            None => body.weight_work += row[7],
+            None => body.load_work += row[7],
         }
     }
+}
+
+/// What PRESCRIBED MOMENT asks for of nodes of bodies that have no rotation of their own.
+fn moments(mesh: &Mesh, model: &Model, body: &Body) -> Vec<BodyMoment> {
+    let mut moments = Vec::new();
+    for load in model.prescribed_forces.iter().filter(|load| load.of == Unknown::Rotation) {
+        for (number, shape) in (0..).zip(&body.rigid) {
+            let nodes = shape.without_rotation(mesh, load.node_set, &body.rotations);
+            let (axis, scale) = (load.direction.axis(), load.scale * nodes as f64);
+            moments.push(BodyMoment { body: number, axis, function: load.function, scale });
+        }
+    }
+    moments.retain(|moment| moment.scale != 0.0);
+    moments
 }
 
 /// Changes of velocity and angular velocity in the kick of the step.
@@ -411,8 +443,11 @@ fn change(body: &RigidBody) -> [[f64; 3]; 2] {
 
 /// Adds a force, or a momentum, and its moment to the sums of a body.
 fn take(sums: &mut [ExactSum], body: u32, force: [f64; 3], arm: [f64; 3]) {
-    let moment = cross(arm, force);
-    let own = &mut sums[6 * body as usize..][..6];
-    (0..3).for_each(|i| own[i].add(force[i]));
-    (0..3).for_each(|i| own[3 + i].add(moment[i]));
+    (0..3).for_each(|i| sums[6 * body as usize + i].add(force[i]));
+    take_moment(sums, body, cross(arm, force));
+}
+
+/// Adds a moment, or an angular momentum, to the sums of a body.
+fn take_moment(sums: &mut [ExactSum], body: u32, moment: [f64; 3]) {
+    (0..3).for_each(|i| sums[6 * body as usize + 3 + i].add(moment[i]));
 }

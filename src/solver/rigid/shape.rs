@@ -2,7 +2,8 @@
 //!
 //! A body weighs what its nodes weigh, so that momentum, gravity and what shares nodes with it need no second account: the share of
 //! deformable elements at its nodes and POINT MASS are part of it. Its inertia is that of the volumes of its elements,
-//! integrated: masses at corners would turn as one element of a cube does, three times too slowly.
+//! integrated: masses at corners would turn as one element of a cube does, three times too slowly. What POINT MASS and PRESCRIBED
+//! MOMENT say of nodes that have no rotation of their own, they say of the body.
 
 use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::mesh::exterior::{SIDES, exterior};
@@ -10,6 +11,7 @@ use crate::mesh::hexahedron::SIGNS;
 use crate::mesh::{Mesh, Shape};
 use crate::model::Model;
 use crate::solver::body::Body;
+use crate::solver::domain::Rotations;
 use crate::solver::elements::{Sample, Touch};
 
 /// A 3 × 3 matrix by rows.
@@ -30,12 +32,20 @@ pub struct BodyShape {
     pub centre: [f64; 3],
     /// Inertia about it, mass·length².
     pub inertia: Matrix,
-    /// That of the masses of its nodes alone.
+    /// That of its nodes alone: of their masses, and of the rotary inertias of those that can turn.
     pub of_nodes: Matrix,
     /// The part of the inertia that is not in the masses of the nodes and in the rotary inertias of those that can turn.
     pub surplus: Matrix,
     /// What each of its blocks, by its position in the mesh, has of that.
     pub surplus_of: Vec<(usize, Matrix)>,
+}
+
+impl BodyShape {
+    /// How many nodes of a node set are the body's and turn with it only, having no rotation of their own.
+    pub fn without_rotation(&self, mesh: &Mesh, node_set: i64, rotations: &Rotations) -> usize {
+        let is_own = |node: &&u32| self.nodes.binary_search(node).is_ok() && rotations.of(**node).is_none();
+        mesh.distinct_nodes(node_set).iter().filter(is_own).count()
+    }
 }
 
 /// Of each block of the mesh, which body it belongs to.
@@ -99,14 +109,13 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
     }
     shape.centre = scaled(moment, 1.0 / shape.mass);
     // Second moments Σ m r rᵀ, from which inertia follows.
-    let (mut of_nodes, mut of_rows) = (Moments::default(), Moments::default());
+    let mut of_rows = Moments::default();
     for &node in &shape.nodes {
         of_rows.point(subtract(body.positions[node as usize], shape.centre), body.node_mass[node as usize]);
         if let Some(rotation) = body.rotations.of(node) {
             of_rows.turning(body.node_mass[rotation as usize]);
         }
     }
-    of_nodes.second = of_rows.second;
     let mut surpluses = vec![Moments::default(); mesh.blocks.len()];
     let mut elements = body.elements.clone();
     let (mut corners, mut shares) = (Vec::new(), Vec::new());
@@ -132,26 +141,36 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
     }
     let owned = (0..surpluses.len()).filter(|&block| shape.blocks.contains(&mesh.blocks[block].id));
     shape.surplus_of = owned.map(|block| (block, surpluses[block].inertia())).collect();
-    let surplus = shape.surplus_of.iter().fold([[0.0; 3]; 3], |all, (_, own)| sum(&all, own));
+    let mut points = Moments::default();
+    for point in &model.point_masses {
+        points.turning(point.inertia * shape.without_rotation(mesh, point.node_set, &body.rotations) as f64);
+    }
+    let surplus = shape.surplus_of.iter().fold(points.inertia(), |all, (_, own)| sum(&all, own));
     let inertia = sum(&of_rows.inertia(), &surplus);
-    let stiffened = stiffened(&inertia);
+    let stiffened = stiffened(&inertia, LEAST);
     let added = sum(&stiffened, &inertia.map(|row| scaled(row, -1.0)));
     shape.surplus = sum(&surplus, &added);
     if let Some((_, first)) = shape.surplus_of.first_mut() {
         *first = sum(first, &added);
     }
-    shape.of_nodes = self::stiffened(&of_nodes.inertia());
+    shape.of_nodes = self::stiffened(&of_rows.inertia(), ROUND_OFF);
     shape.inertia = stiffened;
     shape
 }
 
-/// What has no extent across a line would turn about it without any effort: a millionth of its largest inertia is added there.
-fn stiffened(inertia: &Matrix) -> Matrix {
-    const LEAST: f64 = 1e-6;
+/// What is added to the inertia of a line, as a part of its trace; and the determinant, over the cube of that, of what is as thin.
+const LEAST: f64 = 1e-6;
+
+/// The determinant of what has no inertia about a line but round-off, over the cube of the trace.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What has no extent across a line would turn about it without any effort: where the determinant is below this part of the cube of
+/// the trace, a millionth of its largest inertia is added.
+fn stiffened(inertia: &Matrix, least: f64) -> Matrix {
     let trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
     let [x, y, z] = *inertia;
     let determinant = dot(x, cross(y, z));
-    if determinant > LEAST * trace * trace * trace {
+    if determinant > least * trace * trace * trace {
         return *inertia;
     }
     let mut stiffened = *inertia;

@@ -157,7 +157,7 @@ impl Tied {
     }
 
     /// Why the ties cannot be; `None` where they can. `masses` are those of the nodes once masses have been handed over.
-    pub fn refusal(&self, mesh: &Mesh, masses: &[f64]) -> Option<String> {
+    pub fn refusal(&self, mesh: &Mesh, model: &Model, masses: &[f64]) -> Option<String> {
         if let Some(TiedReport { side_sets: [first, second], .. }) = self.reports.iter().find(|report| report.tied == 0)
         {
             return Some(format!(
@@ -168,13 +168,37 @@ impl Tied {
         let leaders = self.followers.iter().flat_map(|one| one.leaders.iter().map(|(node, _)| *node as usize));
         let without = leaders.filter(|&node| masses[node] <= 0.0 || masses[node].is_nan()).min()?;
         let [x, y, z] = mesh.coordinates.get(without)?;
+        let help = match self.heavy_follower(mesh, model, without as u32, masses[without]) {
+            Some((node, weight)) => format!(
+                "node {} follows it with a weight of {weight:.4e}, and its POINT MASS is too heavy for that: change the order of the side \
+                 sets, so that it does not follow, or give the mass to nodes that do not follow",
+                mesh.node_ids.get(node as usize)?
+            ),
+            None => "a coarse surface follows a finer one that it covers only in part: change the order of the side sets, so that the finer \
+                     one follows, or let them cover the same area"
+                .to_string(),
+        };
         Some(format!(
-            "error: TIED CONTACT: node {} at {x:.4e} {y:.4e} {z:.4e} would have a mass of {:.4e} with what follows it\n\
-             help: a coarse surface follows a finer one that it covers only in part: change the order of the side sets, so that the finer \
-             one follows, or let them cover the same area",
+            "error: TIED CONTACT: node {} at {x:.4e} {y:.4e} {z:.4e} would have a mass of {:.4e} with what follows it\nhelp: {help}",
             mesh.node_ids.get(without)?,
             masses[without]
         ))
+    }
+
+    /// The node, with its weight, whose POINT MASS takes most off the mass of a node that it follows; `None` where that would not be
+    /// positive without such masses either.
+    fn heavy_follower(&self, mesh: &Mesh, model: &Model, leader: u32, mass: f64) -> Option<(u32, f64)> {
+        let sets: Vec<(Vec<u32>, f64)> =
+            model.point_masses.iter().map(|point| (mesh.distinct_nodes(point.node_set), point.mass)).collect();
+        let point_mass = |node: u32| -> f64 {
+            sets.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()).map(|(_, mass)| mass).sum()
+        };
+        let weight = |one: &Follower| one.leaders.iter().find(|(node, _)| *node == leader).map(|(_, weight)| *weight);
+        let given = |one: &Follower| weight(one).map(|weight| (one.node, weight, weight * point_mass(one.node)));
+        let given: Vec<(u32, f64, f64)> = self.followers.iter().filter_map(given).collect();
+        let without = mass - given.iter().map(|(_, _, mass)| mass).sum::<f64>();
+        let (node, weight, _) = given.into_iter().min_by(|a, b| a.2.total_cmp(&b.2)).filter(|_| without > 0.0)?;
+        Some((node, weight))
     }
 
     /// Place of a node among those that follow.
