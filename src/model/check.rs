@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Analysis, Contact, ContactMaterials, Direction, Problem, RigidSurface,
+    Analysis, Contact, ContactMaterials, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
     conditions::boundary::direction,
     interactions::{rigid, tied},
     problem::those_there_are,
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::{Mesh, locate::locate},
+    mesh::{Mesh, Shape, locate::locate},
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -50,6 +50,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
+    choices_without_effect(problem, mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
@@ -63,6 +64,25 @@ fn elements_of_others(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
         let [_, elements] = block.shape.names();
         let message = format!("{}: block {} is of {elements}, so that nothing follows from this", card.name, block.id);
         found.push(Diagnostic::warning(message).at(card.record, format!("this is for {called}")));
+    }
+}
+
+/// Warns of choices for hexahedra where the mesh has none.
+fn choices_without_effect(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    if mesh.blocks.iter().any(|block| block.shape == Shape::Hexahedron) {
+        return;
+    }
+    let Model { precision, step_estimate, spin, .. } = &problem.model;
+    let choices = [
+        ("PRECISION", *precision == Precision::Single),
+        ("TIME STEP ESTIMATE", *step_estimate == StepEstimate::Global),
+        ("SPIN", *spin == Spin::SecondOrder),
+    ];
+    for (name, _) in choices.iter().filter(|(_, is_made)| *is_made) {
+        for card in problem.deck.cards_of(name) {
+            let message = format!("{name}: the mesh has no hexahedra, so that nothing follows from this");
+            found.push(Diagnostic::warning(message).at(card.record, "this is for hexahedra"));
+        }
     }
 }
 

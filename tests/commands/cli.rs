@@ -145,6 +145,20 @@ fn check_says_what_each_block_costs() {
     told.says(&["block 1: step ", "ns per element and cycle, ", "% of the time of all elements", "block 2: step "]);
 }
 
+/// Beams of four diameters turn with 1.39 times the inertia of their rod, such of one with that itself.
+#[test]
+fn check_says_where_beams_turn_with_more_than_their_section() {
+    let desk = Desk::new();
+    desk.put("rod.mesh", "TITLE\n rod\nLINE, 1, 0., 0., 0., 1., 0., 0., {n = 4}\n");
+    let deck = "TITLE\n rod\nTERMINATION TIME, 1.E-3\nBEAM SECTION, 1, ROD, 0.03\nMATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.E4\n\
+                POISSONS RATIO = 0.3\nEND\nEXIT\n";
+    desk.put("rod.i", deck);
+    let told = "block 1: beams turn with up to 1.39 times rho (Iy + Iz), torsional frequencies come out up to 15 % low";
+    desk.urto(&["check", "rod.i"]).with(0).says(&[told]);
+    let fine = desk.urto(&["check", "rod.i", "-D", "n=16"]).with(0);
+    assert!(!fine.out.contains("beams turn"), "{}", fine.out);
+}
+
 #[test]
 fn check_foretells_and_runs_nothing() {
     let desk = Desk::new();
@@ -167,6 +181,10 @@ fn check_foretells_and_runs_nothing() {
     assert!(left.out.starts_with("A bar\nmesh bar.g"), "what is modelled comes first:\n{}", left.out);
     left.says(&["assumed: PLOT TIME for `PLO TIM`, ", " and 6 more, which the log of a run lists\n"]);
     put_bar(&desk, 1e-3, "NO DISPLACEMENT, X, 1\n");
+    desk.urto(&["check", "bar.i", "--strict"]).with(0);
+    put_bar(&desk, 1e-3, "SHELL THICKNESS, 1, 0.1\n");
+    desk.urto(&["check", "bar.i"]).with(0).says(&["so that nothing follows from this"]);
+    desk.urto(&["check", "bar.i", "--strict"]).with(1).says(&["deck and mesh are sound"]);
     desk.put("wrong.i", "TITLE\n x\n");
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["TERMINATION TIME", "MATERIAL"]);
 }
@@ -364,9 +382,13 @@ fn last_state_is_that_of_the_log(desk: &Desk) {
 
 #[test]
 fn signals_and_the_shutdown_file_end_a_run_in_good_order() {
-    for (signal, code, words) in
-        [("INT", 130, "BY SIGINT"), ("TERM", 143, "BY SIGTERM"), ("", 0, "BY THE SHUTDOWN FILE")]
-    {
+    for (signal, code, words) in [
+        ("INT", 130, "BY SIGINT"),
+        ("TERM", 143, "BY SIGTERM"),
+        ("HUP", 129, "BY SIGHUP"),
+        ("USR1", 138, "BY SIGUSR1"),
+        ("", 0, "BY THE SHUTDOWN FILE"),
+    ] {
         let desk = Desk::new();
         put_bar(&desk, NEVER, "PLOT TIME, 1.E2\n");
         desk.put("bar.shutdown", "left from before");
@@ -383,6 +405,22 @@ fn signals_and_the_shutdown_file_end_a_run_in_good_order() {
         assert!(!desk.has("bar.shutdown"), "removed at the start, and once obeyed");
         last_state_is_that_of_the_log(&desk);
     }
+}
+
+/// `nohup` asks that the end of the terminal be ignored.
+#[test]
+fn the_end_of_the_terminal_is_ignored_where_nohup_asks_for_it() {
+    let desk = Desk::new();
+    put_bar(&desk, NEVER, "PLOT TIME, 1.E2\n");
+    let mut command = Command::new("nohup");
+    command.arg(env!("CARGO_BIN_EXE_urto")).args(["bar.i", "--ranks", "1"]).current_dir(desk.path("."));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("nohup");
+    assert!(wait_for(|| desk.has("bar.o") && desk.text("bar.o").contains("SECONDS PER")), "the run begins");
+    send("HUP", &child);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    send("TERM", &child);
+    let left = Left::of(child.wait_with_output().expect("the program ends")).with(143);
+    left.says(&["stopped on request"]);
 }
 
 fn send(signal: &str, child: &Child) {

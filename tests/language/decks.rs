@@ -104,6 +104,23 @@ fn abbreviated_materials_are_those_that_are_meant() {
     }
 }
 
+/// What is chosen for hexahedra is told to have no effect where there are none.
+#[test]
+fn choices_for_hexahedra_are_told_to_be_idle_in_the_plane() {
+    let mesh = urto::mesher::make("RECTANGLE, 1, 0., 0., 1., 1., 1, 1\n", "recipe", 1);
+    let mesh = mesh.unwrap_or_else(|found| panic!("{}", found.render(false)));
+    let deck = "TERMINATION TIME, 1.\nPLANE STRAIN\nPRECISION, SINGLE\nTIME STEP ESTIMATE, GLOBAL\n\
+                MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\nEXIT\n";
+    let told = |mesh| {
+        let problem = examine(Source::new("t.i", deck), Some(mesh));
+        problem.unwrap_or_else(|messages| panic!("{}", messages.render(false))).diagnostics.render(false)
+    };
+    let of_plane = told(&mesh);
+    for name in ["PRECISION", "TIME STEP ESTIMATE"] {
+        assert!(of_plane.contains(&format!("warning: {name}: the mesh has no hexahedra")), "{of_plane}");
+    }
+}
+
 /// Shapes that the grammar names are shapes of meshes: a misspelt one would warn of every block.
 #[test]
 fn commands_about_elements_name_shapes_that_there_are() {

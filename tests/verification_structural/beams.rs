@@ -136,6 +136,41 @@ fn sections_come_from_the_mesh() {
     assert!(why.contains("not all the same"), "{why}");
 }
 
+/// A beam that is clamped and twisted at its end for a moment: √(GJ/ρ(Iy + Iz))/4L with the lumped masses' sin(x)/x, x = π/4n, and slower
+/// by the root of the inertia that long elements have, L²S/4(EA − S) over the area's, with S = 1/(1/κGA + L²/12EI).
+#[test]
+fn torsion_of_long_beams_is_as_slow_as_the_manual_says() {
+    let (young, shear) = (210e9, 210e9 / 2.6);
+    let radius = 0.03f64;
+    let of_rod = std::f64::consts::PI * radius.powi(4) / 4.0;
+    let rod = ("ROD, 0.03", std::f64::consts::PI * radius * radius, [of_rod; 2], 2.0 * of_rod, 0.9);
+    let (b, h) = (0.04f64, 0.08f64);
+    let torsion = h * b.powi(3) * (1.0 / 3.0 - 0.21 * 0.5 * (1.0 - 0.5f64.powi(4) / 12.0));
+    let moments = [b * h.powi(3) / 12.0, h * b.powi(3) / 12.0];
+    let flat = ("RECTANGLE, 0.04, 0.08, , , 0., 1., 0.", b * h, moments, torsion, 5.0 / 6.0);
+    for ((form, area, [iy, iz], torsion, correction), parts) in [(rod, [0.85, 0.94, 1.0]), (flat, [0.71, 0.88, 1.0])] {
+        let exact = (shear * torsion / 7850.0 / (iy + iz)).sqrt() / 4.0;
+        for (n, part) in [4usize, 8, 16].into_iter().zip(parts) {
+            let deck = format!(
+                "TITLE\n torsion\nTERMINATION TIME, {}\nPLOT TIME, 2.E-5\nPLOT NODAL, ROTATION\nBEAM SECTION, 1, {form}\n{CLAMPED}{STEEL}\
+                 FUNCTION, 1\n0., 0.\n{}, 1.\n{}, 0.\nEND\nPRESCRIBED MOMENT, X, 2, 1, 10.\n",
+                20.0 / exact,
+                0.5 / exact,
+                1.0 / exact
+            );
+            let found = frequency(&run(&deck, &beam(n)), "ROTX", n);
+            let length = 1.0 / n as f64;
+            let stiffness = 1.0 / (1.0 / (correction * shear * area) + length * length / (12.0 * young * iy));
+            let own = 0.25 * length * length * stiffness / (young * area - stiffness);
+            let turned = f64::max(1.0, own * area / (iy + iz));
+            let x = std::f64::consts::PI / 4.0 / n as f64;
+            let what = format!("first torsional frequency of {n} beams, {form} [Hz]");
+            close("torsion", &what, found, exact * x.sin() / x / turned.sqrt(), 0.003);
+            close("torsion", &format!("{what} by the manual"), found, part * exact, 0.008);
+        }
+    }
+}
+
 /// A mass at the end of a light beam: it swings as on a spring 3EI/L³.
 #[test]
 fn a_point_mass_at_the_end_of_a_beam() {

@@ -2,9 +2,9 @@
 
 use crate::cli::input::Given;
 use crate::cli::terminal::{complain, say};
-use crate::cli::{DONE, Failure, options};
+use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
-use crate::mesh::{Dimension, plane};
+use crate::mesh::{Dimension, Mesh, plane};
 use crate::model::StepEstimate;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
@@ -16,6 +16,9 @@ use std::time::Instant;
 /// Steps that are timed to estimate the cost of a run.
 const TRIAL_STEPS: u32 = 5;
 
+/// Beams that turn with more than this times the inertia about their line are told.
+const TOLD_INERTIA: f64 = 1.01;
+
 /// Reads, checks and reports.
 ///
 /// # Errors
@@ -23,15 +26,18 @@ const TRIAL_STEPS: u32 = 5;
 /// Deck or mesh cannot be read or have mistakes; all of them are reported.
 pub fn check(options: &options::Check) -> Result<u8, Failure> {
     let given = Given::read(&options.input)?;
-    if let Some(warnings) = given.warnings() {
-        complain(format_args!("{warnings}\n"));
-    }
+    let mut is_warned = false;
+    let mut warn = |warning: Option<String>| {
+        if let Some(warning) = warning {
+            complain(format_args!("{warning}\n"));
+            is_warned = true;
+        }
+    };
+    warn(given.warnings());
     let model = &given.problem.model;
     say(model.title.trim());
     let body = given.body()?;
-    if let Some(warning) = body.overlap.deep.warning(&given.mesh) {
-        complain(format_args!("{warning}\n"));
-    }
+    warn(body.overlap.deep.warning(&given.mesh));
     if let Some(note) = body.overlap.crowded.note(&given.mesh) {
         complain(format_args!("{note}\n"));
     }
@@ -40,7 +46,7 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
         say(assumed);
     }
     say(trial(&given, &body)?);
-    Ok(DONE)
+    Ok(if options.strict && is_warned { FAILED } else { DONE })
 }
 
 /// How abbreviations were understood, in a few lines; the log of a run has all.
@@ -86,6 +92,7 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific((modulus / material.density).sqrt(), 4)
         );
     }
+    out += &(0..mesh.blocks.len()).filter_map(|index| heavy_turning(mesh, body, index)).collect::<String>();
     for (number, rigid) in body.rigid.iter().enumerate() {
         out +=
             &format!("  rigid body {}: {} nodes, mass {}\n", number + 1, rigid.nodes.len(), scientific(rigid.mass, 4));
@@ -117,8 +124,24 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific(added.most, 4)
         );
     }
-    let parts = print::features(model, mesh).into_iter().map(|part| format!("  {:<44}{}\n", part.what, part.asked_by));
+    let parts = print::features(model, mesh).into_iter().map(|part| format!("  {:<43} {}\n", part.what, part.asked_by));
     out + "what is modelled, and which command asked for it\n" + &parts.collect::<String>()
+}
+
+/// That beams of a block turn with more than the inertia of their section, where they do; a rigid body has that of its volume.
+fn heavy_turning(mesh: &Mesh, body: &Body, index: usize) -> Option<String> {
+    let block = &mesh.blocks[index];
+    let corners = |nodes: &[u32]| nodes.iter().map(|&node| body.positions[node as usize]).collect::<Vec<_>>();
+    let ratios = block.elements().map(|nodes| body.elements[index].inertia_about_line(&corners(nodes)));
+    let most = ratios.fold(1.0, f64::max);
+    (most > TOLD_INERTIA && body.block_body[index].is_none()).then(|| {
+        format!(
+            "  block {}: beams turn with up to {most:.2} times rho (Iy + Iz), torsional frequencies come out up to {:.0} % low; shorter \
+             elements turn with less\n",
+            block.id,
+            100.0 * (1.0 - 1.0 / most.sqrt())
+        )
+    })
 }
 
 /// Prepares the run, takes a few steps without writing anything, and says what the whole would take.

@@ -79,8 +79,8 @@ fn end_of_phase(title: &str, seconds: f64, memory: Option<f64>) -> String {
 }
 
 fn modelled(model: &Model, mesh: &Mesh) -> String {
-    let lines = features(model, mesh).into_iter().map(|feature| format!("{:<44}{}", feature.what, feature.asked_by));
-    table("WHAT IS MODELLED", &format!("{:<44}{}", "PART", "ASKED FOR BY"), lines.collect())
+    let lines = features(model, mesh).into_iter().map(|feature| format!("{:<43} {}", feature.what, feature.asked_by));
+    table("WHAT IS MODELLED", &format!("{:<43} {}", "PART", "ASKED FOR BY"), lines.collect())
 }
 
 fn functions(model: &Model) -> String {
