@@ -101,6 +101,30 @@ fn driven_and_held() -> Desk {
     )
 }
 
+/// A block that is driven through a rigid plane.
+fn driven_through_a_plane() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 0.015\nOUTPUT TIME, 1.5E-3\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nRIGID SURFACE, 2, 0., 0., 0.1, 0., 0., 1.\n\
+         PRESCRIBED VELOCITY, Z, 1, 1, -10.\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(&deck, "BOX, 1, 0., 0., 0.12, 0.06, 0.06, 0.1, 2, 2, 1\nNODE SET BLOCK, 1, 1\nSIDE SET BLOCK, 2, 1\n")
+}
+
+/// A free rigid block on a held one under a driven one, which goes farther than there is room and tilts it.
+fn rigid_without_room() -> Desk {
+    let held = ["X", "Y", "Z"].map(|axis| format!("NO DISPLACEMENT, {axis}, 5\n")).concat();
+    let materials = [1, 2, 3, 4].map(|block| format!("MATERIAL, {block}, ELASTIC, 1000.\n{STEEL}")).concat();
+    let deck = format!(
+        "TERMINATION TIME, 0.015\nOUTPUT TIME, 1.5E-3\nTIME STEP MAXIMUM, 1.E-4\nCONTACT MATERIAL\nRIGID BODY, 1\nRIGID BODY, 2\n\
+         RIGID BODY, 3\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nPRESCRIBED VELOCITY, Z, 2, 1, -10.\n{held}{materials}"
+    );
+    desk(
+        &deck,
+        "BOX, 1, 0., 0., 0., 0.2, 0.2, 0.1, 2, 2, 1\nBOX, 2, 0.05, 0.05, 0.12, 0.06, 0.06, 0.1, 1, 1, 1\nNODE SET BLOCK, 2, 2\n\
+         BOX, 3, 0., 0., -0.05, 0.2, 0.2, 0.03, 1, 1, 1\nNODE SET BLOCK, 5, 3\nBOX, 4, 9., 9., 9., 10., 10., 10., 1, 1, 1\n",
+    )
+}
+
 /// A plate that flies and falls to pieces: every node goes on by itself.
 fn dust() -> Desk {
     let deck = format!(
@@ -159,6 +183,19 @@ fn scenes() -> [Scene; 9] {
             &["32 free nodes", "carry a kinetic energy of", "100 % of the largest", "at node"],
         ),
     ]
+}
+
+/// What has no room is told as such, whatever happens to it then; a plane that was gone through was touched.
+#[test]
+fn what_has_no_room_is_told() {
+    let left = driven_through_a_plane().urto(&["case.i", "--ranks", "2"]).with(0);
+    left.says(&["warning: ", "nodes have gone into faces out of which contact cannot move them"]);
+    let desk = driven_through_a_plane();
+    desk.urto(&["case.i", "--ranks", "1"]).with(0).says(&["contact cannot move them"]);
+    assert!(!desk.text("case.o").contains("never touched"), "{}", desk.text("case.o"));
+    let left = rigid_without_room().urto(&["case.i", "--ranks", "1"]);
+    let first = left.err.lines().find(|line| line.starts_with("warning")).unwrap_or_default();
+    assert!(first.contains("contact cannot move them"), "{}", left.err);
 }
 
 /// Lines of a text that begin like this, which differ on no number of ranks.

@@ -13,6 +13,7 @@ mod rims;
 mod shells;
 mod sliding;
 mod solids;
+mod through;
 mod tied;
 
 #[path = "../support/mod.rs"]

@@ -1,9 +1,10 @@
 //! Press fits: CONTACT OVERLAP, STRESS against Lamé's thick ring on a shaft.
 
 use crate::support::meshes::recipe;
-use crate::support::run::{Run, run, run_on};
+use crate::support::run::{Run, model, run, run_on};
 use crate::support::{between, close};
 use urto::mesh::Mesh;
+use urto::solver::Body;
 
 /// Radius of the shaft without the overlap, outer radius of the ring, and the overlap.
 const INNER: f64 = 0.1;
@@ -17,15 +18,19 @@ fn ring_on_shaft(cells: usize, through: usize) -> Mesh {
 }
 
 /// With so many elements along half of the shaft's radius, through the ring's wall and along the axis.
-fn overlapping([cells, through, along]: [usize; 3], overlap: f64) -> Mesh {
-    recipe(&format!(
+fn overlapping(cells: [usize; 3], overlap: f64) -> Mesh {
+    recipe(&ring_recipe(cells, overlap))
+}
+
+fn ring_recipe([cells, through, along]: [usize; 3], overlap: f64) -> String {
+    format!(
         "TITLE\n THICK RING, SHRUNK\n\
          CYLINDER, 1, {:?}, 0.01, {cells}, {along}, QUARTER\n\
          TUBE, 2, {INNER:?}, {OUTER:?}, 0.01, {through}, {}, {along}, QUARTER\n\
          NODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, Y, 0.\nNODE SET PLANE, 3, Z, 0.\nNODE SET PLANE, 3, Z, 0.01\n",
         INNER + overlap,
         2 * cells
-    ))
+    )
 }
 
 fn deck(lines: &str) -> String {
@@ -36,6 +41,25 @@ fn deck(lines: &str) -> String {
          NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 3\n\
          CONTACT MATERIAL\n{lines}\nEXIT\n"
     )
+}
+
+/// No stress comes of a fit of two rigid bodies; one rigid body alone is pressed as any other.
+#[test]
+fn rigid_bodies_are_not_pressed_together() {
+    // A body beside them bounds the step.
+    let beside = "BOX, 3, 1., 1., 1., 0.1, 0.1, 0.1, 1, 1, 1\n";
+    let mesh = recipe(&format!("{}{beside}", ring_recipe([4, 2, 1], OVERLAP)));
+    let overlap = |lines: &str| {
+        let steel = format!("MATERIAL, 3, ELASTIC, 7800.\nYOUNGS MODULUS = {YOUNG:?}\nPOISSONS RATIO = 0.3\nEND");
+        let deck = deck(&format!("CONTACT OVERLAP, STRESS\n{steel}\n{lines}"));
+        Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap
+    };
+    let refusal = overlap("RIGID BODY, 1\nRIGID BODY, 2").refusal(&mesh).expect("a refusal");
+    assert!(refusal.contains("between rigid bodies, which no stress deforms"), "{refusal}");
+    // On a circle of straight edges nodes of the ring are behind chords, less deep than on the circle.
+    let deepest = overlap("RIGID BODY, 1\nRIGID BODY, 2").rigid.deepest;
+    assert!(deepest > 0.9 * OVERLAP && deepest < 1.001 * OVERLAP, "{deepest}");
+    assert_eq!(overlap("RIGID BODY, 1").refusal(&mesh), None);
 }
 
 /// Pressure between ring and shaft of one material in plane strain (Lamé 1852; Timoshenko and Goodier 1970, section 28):

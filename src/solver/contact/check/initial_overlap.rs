@@ -53,6 +53,8 @@ pub struct Overlap {
     pub deep: DeepOverlap,
     /// What could not be moved out, though it is not deep.
     pub stuck: Stuck,
+    /// What is to be pushed apart through strain between rigid bodies, which have none.
+    pub rigid: Stuck,
     /// Where the mesh leaves less room than thicknesses.
     pub crowded: Crowded,
 }
@@ -99,9 +101,13 @@ pub struct Stuck {
 impl Overlap {
     /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
     pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
-        let ((count, deepest, node), why) = match (self.deep, self.stuck) {
-            (deep, _) if deep.nodes > 0 => ((deep.nodes, deep.deepest, deep.node), "deeper than half an element"),
-            (_, stuck) => ((stuck.nodes, stuck.deepest, stuck.node), "held by the deck or between others"),
+        let Overlap { deep, stuck, rigid, .. } = *self;
+        let ((count, deepest, node), why) = if deep.nodes > 0 {
+            ((deep.nodes, deep.deepest, deep.node), "deeper than half an element")
+        } else if rigid.nodes > 0 {
+            ((rigid.nodes, rigid.deepest, rigid.node), "between rigid bodies, which no stress deforms")
+        } else {
+            ((stuck.nodes, stuck.deepest, stuck.node), "held by the deck or between others")
         };
         let [x, y, z] = mesh.coordinates.get(node as usize)?;
         (count > 0).then(|| {
@@ -193,11 +199,16 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded 
 fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
-    if matches!(model.contact.control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_)) {
-        return Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() };
-    }
     let pairings = Pairings::new(mesh, model, body);
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    match model.contact.control.overlap {
+        ContactOverlap::Keep => return Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() },
+        ContactOverlap::Stress(_) => {
+            let rigid = between_rigid_bodies(mesh, body, &layout, (&pairings, &mut motion));
+            return Overlap { deep: deep_overlap(body, &layout, KNOWN), rigid, ..Default::default() };
+        }
+        ContactOverlap::Refuse | ContactOverlap::Remove => (),
+    }
     weigh(mesh, model, body, &layout, &mut motion);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(motion.len());
@@ -227,6 +238,23 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         }
     }
     Overlap { deep: deep_overlap(body, &layout, CLEARLY), stuck, ..moved(&before, body, &layout) }
+}
+
+/// Overlaps of rigid bodies with each other.
+fn between_rigid_bodies(
+    mesh: &Mesh,
+    body: &Body,
+    layout: &Layout,
+    (pairings, motion): (&Pairings, &mut NodeMotion),
+) -> Stuck {
+    if body.block_body.iter().all(Option::is_none) {
+        return Stuck::default();
+    }
+    stand_still(motion, body, layout);
+    let mut constraints = overlaps(layout, pairings, motion);
+    let is_rigid = of_rigid_bodies(mesh, body, layout);
+    constraints.retain(|c| c.parts().all(|(point, _)| is_rigid[point]));
+    Stuck::of(&constraints, layout)
 }
 
 impl Stuck {
@@ -387,10 +415,9 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
         }
     }
     // Rigid bodies stay as they are.
-    let blocks = mesh.blocks.iter().zip(&body.block_body).filter(|(_, of)| of.is_some());
-    for node in blocks.flat_map(|(block, _)| &block.nodes) {
-        if let Ok(point) = layout.nodes.binary_search(node) {
-            motion.inverse_mass[point] = [0.0; 3];
+    for (inverse, is_rigid) in motion.inverse_mass.iter_mut().zip(of_rigid_bodies(mesh, body, layout)) {
+        if is_rigid {
+            *inverse = [0.0; 3];
         }
     }
     let still = model.no_displacements.iter().map(|held| (held.node_set, held.direction));
@@ -402,6 +429,18 @@ fn weigh(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, motion: &mut 
             }
         }
     }
+}
+
+/// Whether each point is a node of a rigid body.
+fn of_rigid_bodies(mesh: &Mesh, body: &Body, layout: &Layout) -> Vec<bool> {
+    let mut is_rigid = vec![false; layout.nodes.len()];
+    let blocks = mesh.blocks.iter().zip(&body.block_body).filter(|(_, of)| of.is_some());
+    for node in blocks.flat_map(|(block, _)| &block.nodes) {
+        if let Ok(point) = layout.nodes.binary_search(node) {
+            is_rigid[point] = true;
+        }
+    }
+    is_rigid
 }
 
 /// Constraints of all points behind faces that face them.

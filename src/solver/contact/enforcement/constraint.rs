@@ -50,6 +50,27 @@ pub enum Origin {
     Plane(u32),
 }
 
+impl Origin {
+    /// As numbers, for messages.
+    pub fn to_array(self) -> [f64; 3] {
+        let (kind, a, b) = match self {
+            Origin::Face(a, b) => (0, a, b),
+            Origin::Edges(a, b) => (1, a, b),
+            Origin::Plane(a) => (2, a, 0),
+        };
+        [kind, a, b].map(f64::from)
+    }
+
+    /// From these numbers.
+    pub fn from_array(numbers: [f64; 3]) -> Origin {
+        match numbers.map(|number| number as u32) {
+            [0, a, b] => Origin::Face(a, b),
+            [1, a, b] => Origin::Edges(a, b),
+            [_, a, _] => Origin::Plane(a),
+        }
+    }
+}
+
 impl Constraint {
     /// Members with their weights.
     pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {

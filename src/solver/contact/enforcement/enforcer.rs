@@ -18,13 +18,14 @@
 use super::accounts::certificate::{Sums, Target, Terms, tangential};
 use super::accounts::ledger::Ledger;
 use super::carried::Carried;
-use super::constraint::{Constraint, ConstraintState, Response};
+use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
 use super::iterates::Iterates;
 use super::iterations::{Limits, Outcome, Times};
 use super::joints::JointSums;
 use super::mobility::{self, BodySums};
 use super::other_ranks::OtherRanks;
 use super::pinned;
+use super::pinned_bodies::{self, Among};
 use super::sweep;
 use crate::common::vector::{add, dot, scaled};
 use crate::lanes::InstructionSet;
@@ -44,7 +45,13 @@ const LEAST_SHARE: f64 = 0.25;
 
 /// A constraint that its members can follow only by less than this part of how far they can move at all is held: a tilt of
 /// a thousandth between a normal and the directions that are held. Round-off would move it.
-const HELD: f64 = 1e-6;
+pub(super) const HELD: f64 = 1e-6;
+
+/// What nothing can move out of a face is told once it is deeper than this part of the face's size.
+const DEEP: f64 = 0.05;
+
+/// The same of rigid bodies, which give way as a whole: what leaves them no room goes into them, whatever the iterations do.
+const DEEP_IN_RIGID: f64 = 0.002;
 
 /// Buffers of the iterations, kept from step to step.
 #[derive(Debug, Clone, Default)]
@@ -68,8 +75,8 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
-    /// Deepest penetration before the step between members that nothing can move, or what is missing of the room of a node between faces
-    /// that nothing can move, as a part of the face's size, with a member; and on any rank.
+    /// Deepest penetration before the step between members that nothing can move or between rigid bodies, or what is missing of the room
+    /// of a node between faces that nothing can move, as a part of the face's size, with a member; and on any rank. 0 where it is small.
     pub held: (f64, u32),
     pub(super) held_anywhere: f64,
     pub(super) instructions: InstructionSet,
@@ -78,6 +85,27 @@ pub struct Enforcer {
 /// 1/m along a direction.
 fn along(inverse_mass: [f64; 3], n: [f64; 3]) -> f64 {
     inverse_mass[0] * n[0] * n[0] + inverse_mass[1] * n[1] * n[1] + inverse_mass[2] * n[2] * n[2]
+}
+
+/// What a unit force along the normal of a constraint does to it, and what such forces do to single members in any direction at most:
+/// inverse masses; and what each member has of both.
+fn weigh(c: &Constraint, motion: &NodeMotion, softness: &mut [[f64; 2]; MEMBERS]) -> [f64; 2] {
+    let (mut inverse, mut isotropic) = (0.0, 0.0);
+    for (i, (point, w)) in c.parts().enumerate() {
+        if motion.mobility.of(point).is_some() {
+            continue;
+        }
+        let m = motion.inverse_mass[point];
+        let one = along(m, c.normal);
+        inverse += w * w * one;
+        let most = m[0].max(m[1]).max(m[2]);
+        isotropic += w * w * most;
+        softness[i] = [w.abs() * one, w.abs() * most];
+    }
+    if !motion.mobility.bodies.is_empty() {
+        mobility::weigh(c, motion, softness, [&mut inverse, &mut isotropic]);
+    }
+    [inverse, isotropic]
 }
 
 impl Enforcer {
@@ -115,11 +143,15 @@ impl Enforcer {
         // under small loads a step's overlap is far below any tolerance; left alone until it has grown, it would come
         // out as a row of blows instead of a steady force.
         let wanted = self.iterates.are_wanted();
-        let outcome = if wanted || others.are_there() {
-            self.iterate(constraints, motion, times, limits, wanted, others)
-        } else {
-            None
-        };
+        let mut outcome = None;
+        if wanted || others.are_there() {
+            outcome = self.iterate(constraints, motion, times, limits, wanted, others);
+            let has_run_out = outcome.is_some_and(|outcome| outcome.ran_out) && !motion.mobility.bodies.is_empty();
+            if has_run_out && pinned_bodies::share_room(constraints, &mut self.states, motion, (Among::All, others)) {
+                self.iterates.begin(constraints, &self.states);
+                outcome = self.iterate(constraints, motion, times, limits, true, others);
+            }
+        }
         self.iterates.end(constraints, &mut self.states);
         if outcome.is_some() {
             self.settle(constraints, motion, times, ledger, others);
@@ -232,21 +264,7 @@ impl Enforcer {
             (c.carried.normal_force, c.carried.tangential_force) =
                 (BEGINNING * normal_force, scaled(tangential_force, BEGINNING));
             let mut state = ConstraintState { own: true, ..Default::default() };
-            let (mut inverse, mut isotropic) = (0.0, 0.0);
-            for (i, (point, w)) in c.parts().enumerate() {
-                if motion.mobility.of(point).is_some() {
-                    continue;
-                }
-                let m = motion.inverse_mass[point];
-                let one = along(m, c.normal);
-                inverse += w * w * one;
-                let most = m[0].max(m[1]).max(m[2]);
-                isotropic += w * w * most;
-                state.softness[i] = [w.abs() * one, w.abs() * most];
-            }
-            if !motion.mobility.bodies.is_empty() {
-                mobility::weigh(c, motion, &mut state.softness, [&mut inverse, &mut isotropic]);
-            }
+            let [inverse, isotropic] = weigh(c, motion, &mut state.softness);
             let of_first = c.weights[0].abs() * state.softness[0][0];
             self.lone.push(of_first > 0.0 && inverse - of_first <= HELD * isotropic);
             let [free, before] = c.velocities(motion);
@@ -255,16 +273,18 @@ impl Enforcer {
                 Ledger::Unlimited => Target { least: state.free - c.gap / drift, ..Default::default() },
                 _ => Target::of(c, [state.before, state.free], drift),
             };
+            let sunk = (c.carried.penetration / c.size, c.members[0]);
+            if motion.mobility.is_rigid(c.parts(), &motion.inverse_mass) {
+                state.target = state.target.without_store(state.before);
+                self.note_held(sunk, DEEP_IN_RIGID);
+            }
             // Where all members are held there is nothing to move.
             if inverse > HELD * isotropic {
                 state.strength = c.share.max(LEAST_SHARE) / inverse;
                 state.closing = drift * (state.free - state.target.with(granted));
             } else {
                 (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
-                let part = c.carried.penetration / c.size;
-                if part > self.held.0 {
-                    self.held = (part, c.members[0]);
-                }
+                self.note_held(sunk, DEEP);
             }
             if c.friction.is_some() {
                 (state.slip, state.slip_before) = (tangential(free, c.normal), tangential(before, c.normal));
@@ -275,8 +295,13 @@ impl Enforcer {
             self.states.push(state);
         }
         let pinned = pinned::share_room(constraints, &mut self.states, &self.lone);
-        if pinned.0 > self.held.0 {
-            self.held = pinned;
+        self.note_held(pinned, DEEP);
+    }
+
+    /// Notes how deep a member is in, a part of the face's size, that forces cannot bring out; not what is less deep than this part.
+    fn note_held(&mut self, (part, member): (f64, u32), least: f64) {
+        if part > least.max(self.held.0) {
+            self.held = (part, member);
         }
     }
 

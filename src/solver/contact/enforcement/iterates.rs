@@ -77,7 +77,8 @@ impl Iterates {
                 members: c.members,
                 count: c.count as u8,
                 active,
-                touched: active,
+                // What nothing can move overlaps all the same.
+                touched: active || state.strength <= 0.0 && c.gap < 0.0,
                 own: state.own,
                 normal: c.normal,
                 normal_force,

@@ -48,6 +48,17 @@ impl Mobility {
         self.body.get(point).copied().filter(|body| *body != ABSENT).map(|body| body as usize)
     }
 
+    /// Whether members of a constraint belong to rigid bodies, and all others cannot be moved.
+    pub fn is_rigid(&self, mut parts: impl Iterator<Item = (usize, f64)>, inverse_mass: &[[f64; 3]]) -> bool {
+        let mut some_are = false;
+        let mut is_or_rests = |point: usize| {
+            let is_of_body = self.of(point).is_some();
+            some_are |= is_of_body;
+            is_of_body || inverse_mass[point].iter().all(|m| *m <= 0.0)
+        };
+        !self.bodies.is_empty() && parts.all(|(point, _)| is_or_rests(point)) && some_are
+    }
+
     /// Place of a point among the nodes of joints.
     #[inline]
     pub fn joint(&self, point: usize) -> Option<u32> {

@@ -11,4 +11,5 @@ pub mod joints;
 pub mod mobility;
 pub mod other_ranks;
 mod pinned;
+pub mod pinned_bodies;
 mod sweep;

@@ -2,7 +2,7 @@
 
 use super::accounts::certificate::Sums;
 use super::constraint::{Constraint, ConstraintState, Response};
-use crate::comm::{Communicator, ExactSum};
+use crate::comm::{Communicator, ExactSum, gather_for_all};
 
 /// Of what all ranks learn the largest value in an iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,8 +52,16 @@ pub trait OtherRanks {
     fn sum(&mut self, sums: &mut Sums);
     /// The same of any sums.
     fn merge(&mut self, sums: &mut [ExactSum]);
+    /// The numbers of all ranks one after another, the own among them.
+    fn gather(&mut self, own: Vec<f64>) -> Vec<f64>;
     /// Whether there are any.
     fn are_there(&self) -> bool;
+}
+
+/// The numbers of all ranks one after another; all ranks call it.
+pub fn gather_numbers(own: &[f64], comm: &mut dyn Communicator) -> Vec<f64> {
+    let bytes = gather_for_all(own.iter().flat_map(|number| number.to_le_bytes()).collect(), comm);
+    bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()
 }
 
 /// There are no others.
@@ -71,6 +79,10 @@ impl OtherRanks for NoOtherRanks {
     fn sum(&mut self, _: &mut Sums) {}
 
     fn merge(&mut self, _: &mut [ExactSum]) {}
+
+    fn gather(&mut self, own: Vec<f64>) -> Vec<f64> {
+        own
+    }
 
     fn are_there(&self) -> bool {
         false
@@ -97,6 +109,10 @@ impl OtherRanks for Elsewhere<'_> {
 
     fn merge(&mut self, sums: &mut [ExactSum]) {
         ExactSum::merge_ranks(sums, self.0);
+    }
+
+    fn gather(&mut self, own: Vec<f64>) -> Vec<f64> {
+        gather_numbers(&own, self.0)
     }
 
     fn are_there(&self) -> bool {

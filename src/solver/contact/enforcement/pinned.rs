@@ -8,7 +8,7 @@ use super::constraint::{Constraint, ConstraintState, Origin};
 use crate::common::vector::dot;
 
 /// Cosine of the angle between two normals below which a node is between two faces, and not in a wedge from which it slips.
-const OPPOSED: f64 = -0.9;
+pub(super) const OPPOSED: f64 = -0.9;
 
 /// Lets the constraints of pinned nodes ask for no more than there is. `lone` says of which constraints only the first member can be
 /// moved. The largest shortage, as a part of the face's size, and its node; a part of 0 where none is pinned.

@@ -1,7 +1,8 @@
 //! Edges of the surface: which stand out, and which are lines of the mesh in faces that are flat or nearly so.
 //!
-//! Edges stand out between faces that turn away from each other by more than a third of a right angle. The bulge of a warped face
-//! has lines as well, its ridges: from two corners across from each other to the middle of the face, which is the mean of all four.
+//! Edges stand out between faces that turn away from each other by more than a third of a right angle, and where faces are much longer
+//! along the edge than across by less: a chord of length L between two nodes of another body sinks in by ½ L tan β/2 at a bend of β, where no node
+//! needs to come near a face. The bulge of a warped face has lines as well, its ridges: from two corners across from each other to the middle of the face, which is the mean of all four.
 
 use super::faces::Faces;
 use super::projection::{area_normal, centre};
@@ -12,6 +13,12 @@ const SHARP: f64 = 0.866;
 
 /// The same at an edge that has stood out before: 20 degrees.
 const BLUNT: f64 = 0.94;
+
+/// So many times longer along an edge than across faces are to count as long.
+const LONG: f64 = 4.0;
+
+/// So many times longer than wide they count at most: the edges of needles do not stand out at any bend.
+const LONGEST: f64 = 64.0;
 
 /// A face has ridges from this height of its corners above the plane of its middle on, as a part of its size: what is less lets nothing
 /// sink in by more.
@@ -65,7 +72,12 @@ impl Shape {
     pub fn of(first: Side, second: Side, stood_out: bool) -> Shape {
         let (n, m) = (first.normal, second.normal);
         let least = if stood_out { BLUNT } else { SHARP };
-        if dot(n, m) >= least * (dot(n, n) * dot(m, m)).sqrt() {
+        let areas = (dot(n, n) * dot(m, m)).sqrt();
+        // Over the distance between their middles the area is the length of the edge: tan² β/2 grows with the square of the ratio.
+        let across = subtract(second.middle, first.middle);
+        let longer = (areas.sqrt() / dot(across, across)).min(LONGEST);
+        let longer = if longer < LONG { 1.0 } else { longer };
+        if (areas - dot(n, m)) * (1.0 + least) * longer <= (areas + dot(n, m)) * (1.0 - least) {
             Shape::Line
         } else if dot(subtract(second.middle, first.middle), n) < 0.0 {
             Shape::StandsOut

@@ -17,6 +17,7 @@ use super::enforcement::constraint::{Constraint, Origin};
 use super::enforcement::enforcer::Enforcer;
 use super::enforcement::iterations::{Limits, Outcome};
 use super::enforcement::other_ranks::OtherRanks;
+use super::enforcement::pinned_bodies::{self, Among};
 use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::NodeMotion;
@@ -62,6 +63,8 @@ pub struct LocalProblem {
     edges: Vec<Edge>,
     /// How far around itself each edge looks for others, a length.
     edge_reaches: Vec<f64>,
+    /// The least of them of lines.
+    least_line_reach: f64,
     point_block: Vec<u32>,
     /// Blocks that have a say at each point, and at each face.
     blocks_around: [Vec<Blocks>; 2],
@@ -141,9 +144,8 @@ impl LocalProblem {
             plane_nodes.iter().map(|plane_node| PlaneNode { point: local(plane_node.point), ..*plane_node }).collect();
         (points as u32..).zip(&numbering.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + numbering.ghosts.len();
-        LocalProblem {
+        let mut problem = LocalProblem {
             locator: Locator::new(found, depth, points, &faces, &edges),
-            edge_reaches: edges.iter().map(|edge| edge_edge::reach(&faces, edge)).collect(),
             edges,
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             blocks_around: [
@@ -159,7 +161,9 @@ impl LocalProblem {
             faces,
             numbering,
             ..Default::default()
-        }
+        };
+        problem.measure_edges();
+        problem
     }
 
     /// Place of a point of the layout here, or [`ABSENT`].
@@ -224,6 +228,8 @@ impl LocalProblem {
     fn measure_edges(&mut self) {
         let faces = &self.faces;
         self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
+        let lines = self.edges.iter().zip(&self.edge_reaches).filter(|(edge, _)| !edge.stands_out());
+        self.least_line_reach = lines.fold(f64::INFINITY, |least, (_, reach)| least.min(*reach));
     }
 
     /// Finds the constraints of a step, whose motion is in `motion`; `met` learns which blocks meet.
@@ -284,6 +290,9 @@ impl LocalProblem {
         enforcer.prepare(constraints, motion, step.drift, &ledger);
         for (c, state) in constraints.iter().zip(enforcer.states()).filter(|_| !answers.is_empty()) {
             state.own = answers[c.members[0] as usize];
+        }
+        if !motion.mobility.bodies.is_empty() {
+            pinned_bodies::share_room(constraints, enforcer.states(), motion, (Among::OneLine, others));
         }
         let own = constraints.len();
         others.copy(constraints, enforcer.states());
@@ -370,15 +379,18 @@ impl LocalProblem {
         }
     }
 
-    /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due.
+    /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due, or where an edge
+    /// would else come too deep until they are.
     #[inline(always)]
     fn check_edges(&mut self, pairings: &Pairings, lines: bool, met: &mut Meetings) {
-        let LocalProblem { motion, faces, locator, edges, edge_reaches, edge_history, .. } = self;
+        let LocalProblem { motion, faces, locator, edges, edge_reaches, least_line_reach, edge_history, .. } = self;
         let LocalProblem { pair_places, constraints, blocks_around: [_, around], .. } = self;
         let blocks = |edge: u32| edges[edge as usize].faces.iter().fold(0, |set, &face| set | around[face as usize]);
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
-        locator.pairs_to_check(lines, before.iter().map(|past| &past.pair), pair_places);
+        let steps = super::LINES_EVERY as f64;
+        let some_are_fast = steps * locator.farthest_approach() > edge_edge::unseen(*least_line_reach);
+        locator.pairs_to_check(lines || some_are_fast, before.iter().map(|past| &past.pair), pair_places);
         let mut past = before.iter().peekable();
         for place in pair_places.iter().map(|&place| place as usize) {
             if !locator.is_pair_due(place) {
@@ -395,7 +407,11 @@ impl LocalProblem {
             if second.is_ridge() {
                 motion.place_all(second.points(faces));
             }
-            match (EdgeCheck { motion, faces, edges, reaches: edge_reaches }).pair(pair, past, pairing) {
+            let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
+            if !lines && past.is_none() && !second.stands_out() && !check.comes_fast(pair, steps) {
+                continue;
+            }
+            match check.pair(pair, past, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
                     met.meet(blocks(pair[0]), blocks(pair[1]));

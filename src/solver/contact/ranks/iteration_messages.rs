@@ -7,7 +7,7 @@ use crate::model::Friction;
 use crate::solver::contact::enforcement::accounts::certificate::Sums;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState, MEMBERS, Origin, Response};
-use crate::solver::contact::enforcement::other_ranks::{Largest, OtherRanks};
+use crate::solver::contact::enforcement::other_ranks::{Largest, OtherRanks, gather_numbers};
 use crate::solver::contact::local_problem::Numbering;
 
 /// What owner ranks tell each other in a step.
@@ -119,6 +119,10 @@ impl OtherRanks for IterationExchange<'_> {
         ExactSum::merge_ranks(sums, self.comm);
     }
 
+    fn gather(&mut self, own: Vec<f64>) -> Vec<f64> {
+        gather_numbers(&own, self.comm)
+    }
+
     fn are_there(&self) -> bool {
         true
     }
@@ -149,11 +153,6 @@ impl Row {
 /// A constraint as numbers, but for what only the rank that has made it asks for; `members` are numbers of the layout.
 fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f64; COPY] {
     let Friction { at_rest, high_speed, decay } = c.friction;
-    let (kind, a, b) = match c.origin {
-        Origin::Face(a, b) => (0, a, b),
-        Origin::Edges(a, b) => (1, a, b),
-        Origin::Plane(a) => (2, a, 0),
-    };
     let mut row = Row { numbers: [0.0; COPY], at: 0 };
     row.put(members.map(f64::from));
     row.put(c.weights);
@@ -162,7 +161,7 @@ fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f6
     row.put(state.slip);
     row.put([at_rest, high_speed, decay]);
     row.put([c.count as f64, c.size, c.share, c.carried.normal_force, state.closing, state.strength]);
-    row.put([kind, a, b].map(f64::from));
+    row.put(c.origin.to_array());
     state.softness.into_iter().for_each(|of_member| row.put(of_member));
     row.numbers
 }
@@ -177,7 +176,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
     let slip = row.take();
     let [at_rest, high_speed, decay] = row.take();
     let [count, size, share, normal_force, closing, strength] = row.take();
-    let [kind, a, b] = row.take().map(|number: f64| number as u32);
+    let origin = Origin::from_array(row.take());
     let softness = std::array::from_fn(|_| row.take());
     let constraint = Constraint {
         members,
@@ -192,11 +191,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
         growth: 0.0,
         persists: true,
         carried: Carried { penetration: 0.0, normal_force, tangential_force },
-        origin: match kind {
-            0 => Origin::Face(a, b),
-            1 => Origin::Edges(a, b),
-            _ => Origin::Plane(a),
-        },
+        origin,
     };
     (constraint, ConstraintState { strength, softness, slip, closing, ..Default::default() })
 }

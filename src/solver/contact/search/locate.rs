@@ -259,6 +259,11 @@ impl Locator {
         self.paths.longest
     }
 
+    /// How much nearer two of them come in this step at most, a length.
+    pub fn farthest_approach(&self) -> f64 {
+        TWICE_ROOT_THREE * self.paths.half_range
+    }
+
     /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
     pub fn moving(&self) -> &[u32] {
         &self.moving

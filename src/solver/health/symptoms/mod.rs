@@ -44,6 +44,7 @@ pub static SYMPTOMS: [Symptom; 15] = [
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
     gain::SYMPTOM,
+    held::SYMPTOM,
     hourglass::SYMPTOM,
     given_back::SYMPTOM,
     corners::SYMPTOM,
@@ -54,7 +55,6 @@ pub static SYMPTOMS: [Symptom; 15] = [
     debris::SYMPTOM,
     brief::SYMPTOM,
     tied_held::SYMPTOM,
-    held::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

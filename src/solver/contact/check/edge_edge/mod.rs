@@ -45,6 +45,9 @@ const SLACK: f64 = 0.005;
 /// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
 const SUNK: f64 = 0.05;
 
+/// So many times longer than a face an edge has its nodes too far apart to be held by them on the face.
+const LONG: f64 = 2.0;
+
 /// Part of a ridge by which an edge may cross it beyond the middle of the face. Both fall towards the middle, so that an edge below it
 /// crosses neither.
 const BEYOND_MIDDLE: f64 = 0.05;
@@ -85,6 +88,11 @@ pub enum EdgeVerdict {
     Touching(EdgeContact, Box<Constraint>),
     /// They do not; along an axis they are so far apart in this step, beyond where they would be near, or 0.
     Apart(f64),
+}
+
+/// How far an edge may come, a length, between two looks for lines before the line no longer takes it, of the line's [`reach`].
+pub fn unseen(reach: f64) -> f64 {
+    (SUNK - SLACK) / SUNK * reach
 }
 
 /// The check of edges against edges.
@@ -190,6 +198,27 @@ impl EdgeCheck<'_> {
             // Newcomers that come so far are near.
             None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
         }
+    }
+
+    /// Whether an edge may come to a line, within so many steps like this one, by more than the depth down to which the line takes it:
+    /// one that is much longer than the face, whose nodes do not hold it back.
+    #[inline(always)]
+    pub fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
+        let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
+        let along = subtract(self.motion.start(first.ends[0]), self.motion.start(first.ends[1]));
+        let size = second.faces.iter().map(|&face| self.faces.size[face as usize]).fold(f64::INFINITY, f64::min);
+        if dot(along, along) <= (LONG * size) * (LONG * size) {
+            return false;
+        }
+        let ([a, b, c, d], [e, f, g, h]) = (first.points(self.faces), second.points(self.faces));
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for point in [a, b, c, d, e, f, g, h] {
+            let (_, path) = self.motion.path(point);
+            (low, high) = ([0, 1, 2].map(|i| path[i].min(low[i])), [0, 1, 2].map(|i| path[i].max(high[i])));
+        }
+        let [x, y, z] = subtract(high, low);
+        let nearer = steps * (x * x + y * y + z * z).sqrt();
+        nearer > unseen(self.reaches[pair[1] as usize])
     }
 
     /// Whether one of two edges is one of a surface.

@@ -191,6 +191,13 @@ impl NodeFaceCheck<'_> {
         Some(projection)
     }
 
+    /// The same at its beginning.
+    fn projection_at_start(&self, point: u32, face: u32) -> Option<Projection> {
+        let mut projection = projection::project(&self.faces.start(face, self.motion), self.motion.start(point))?;
+        projection.gap -= self.faces.distance(point, face);
+        Some(projection)
+    }
+
     /// The same at the end of the step, or at its beginning, round about the border where they touch at a distance.
     fn around_border(&self, point: u32, face: u32, at_end: bool) -> Option<Projection> {
         let distance = self.faces.distance(point, face);
@@ -245,6 +252,19 @@ impl NodeFaceCheck<'_> {
         let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
         let top = self.faces.number[face as usize].is_multiple_of(6);
         start.is_some_and(|start| start.gap > 0.0 || start.gap == 0.0 && top)
+    }
+
+    /// Whether a point that a face has held before still is in its reach. What has been at a face of a rigid body comes from there, however
+    /// far it would go in the step, which the body's thickness does not bound.
+    fn still_in_reach(&self, point: u32, face: u32, projection: &Projection, tolerated: f64) -> bool {
+        if self.in_reach(face, projection, tolerated) {
+            return true;
+        }
+        let is_rigid = || {
+            self.faces.corners[face as usize].iter().all(|&corner| self.motion.mobility.of(corner as usize).is_some())
+        };
+        let begins = |start: Projection| start.outside == 0.0 && self.in_reach(face, &start, tolerated);
+        projection.gap < 0.0 && is_rigid() && self.projection_at_start(point, face).is_some_and(begins)
     }
 
     /// Neither away from the face nor so deep that it must have come from elsewhere.

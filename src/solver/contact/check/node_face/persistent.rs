@@ -42,7 +42,7 @@ impl NodeFaceCheck<'_> {
         {
             let Some(projection) = self.projection_at_end(point, old) else { continue };
             if projection.outside == 0.0 {
-                if self.in_reach(old, &projection, tolerated) {
+                if self.still_in_reach(point, old, &projection, tolerated) {
                     contacts.push(self.held(old, projection, tolerated));
                 }
             } else if self.is_beside(point, old, &projection) {

@@ -225,6 +225,12 @@ impl Target {
         Target { least, rest: at_rest - least, lift: wanted - at_rest, lands: now >= 0.0 && !c.persists }
     }
 
+    /// The target between bodies that store no energy, which have had the velocity `before`: what they have sunk in was not pressed in
+    /// against a stiffness that would push them out again. They are lifted no faster than they move anyway.
+    pub fn without_store(self, before: f64) -> Target {
+        Target { lift: self.lift.min((before.abs() - self.least - self.rest).max(0.0)), ..self }
+    }
+
     /// The target with these parts granted, length per time.
     pub fn with(&self, [rest, lift]: Granted) -> f64 {
         self.least + rest * self.rest + lift * self.lift

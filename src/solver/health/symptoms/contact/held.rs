@@ -1,5 +1,5 @@
-//! Nodes that the deck holds or drives on both sides of a contact go into each other, or leave what is between them too little room: no
-//! force can keep them apart.
+//! Nodes that the deck holds or drives on both sides of a contact go into each other, or leave what is between them, or a rigid body, too
+//! little room: no force can keep them apart.
 
 use crate::comm::Communicator;
 use crate::solver::health::finding::{Evidence, Spot, percent};
@@ -9,26 +9,27 @@ use crate::solver::health::watch::Exam;
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 14,
-    when: When::Lines,
-    threshold: 0.05,
-    cause: f64::INFINITY,
-    measure: |exam, _| {
-        let report = exam.solver.domain.contact.as_ref().and_then(|contact| contact.report());
-        let share = report.map_or(0.0, |report| report.tally.held);
-        vec![Evidence { share, ..Evidence::default() }]
+    when: When::Energies,
+    threshold: 0.0,
+    cause: 0.0,
+    measure: |exam, comm| {
+        // Of planes alone each rank knows its own.
+        let mut least = [exam.solver.domain.contact.as_ref().map_or(0.0, |contact| -contact.tally.held)];
+        comm.all_min(&mut least);
+        vec![Evidence { share: -least[0], ..Evidence::default() }]
     },
     place,
     label: |_| "contact between nodes that the deck moves".into(),
     words: |evidence| {
         format!(
             "nodes have gone into faces out of which contact cannot move them, by {} of a face: the deck holds or drives both, or faces \
-             on both sides of them; the deepest: {}",
+             on both sides of them or of their rigid body; the deepest: {}",
             percent(evidence.share),
             evidence.places()
         )
     },
     advice: "let one of the bodies move along the direction in which they meet, or prescribe motions that keep them apart and leave room \
-             for what is between them, a sheet's thickness",
+             for what is between them, a sheet's thickness or a rigid body",
 };
 
 /// The deepest of these nodes.

@@ -6,8 +6,8 @@ use crate::solver::health::place::worst_nodes;
 use crate::solver::health::symptoms::{Symptom, When};
 use crate::solver::health::watch::Exam;
 
-/// Fewer steps than these say nothing.
-const ENOUGH: u64 = 100;
+/// Fewer steps with contact than these say nothing yet, and fewer than the second nothing at the end of a run.
+const ENOUGH: [u64; 2] = [100, 10];
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 9,
@@ -17,7 +17,8 @@ pub const SYMPTOM: Symptom = Symptom {
     measure: |exam, _| {
         let contact = exam.solver.domain.contact.as_ref();
         let tally = contact.and_then(|contact| contact.report()).map(|report| report.tally);
-        let enough = tally.filter(|tally| tally.steps >= ENOUGH);
+        let least = ENOUGH[usize::from(exam.solver.is_at_end())];
+        let enough = tally.filter(|tally| tally.steps >= least);
         let evidence = enough.map(|tally| Evidence {
             share: tally.capped as f64 / tally.steps as f64,
             amount: tally.left.max(tally.deepest),
