@@ -1,6 +1,6 @@
 //! Rigid bodies that are pinned: between what cannot give way, with less room than they need.
 //!
-//! As with nodes ([`pinned`](super::pinned)) two constraints that push a body against each other along one line can each be met alone, but
+//! As with nodes (`pinned`) two constraints that push a body against each other along one line can each be met alone, but
 //! not both. Unmet they would grow with every iteration, shake the body, and ask for more in the next step: what drives the tools would
 //! pay for it without end. So constraints that ask for more than there is stay short by half of what is missing. Pushes against each
 //! other along different lines can be met by a turn, as those on a lever, unless a third is in the way: they share where the iterations
