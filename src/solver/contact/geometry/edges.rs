@@ -1,8 +1,9 @@
 //! Edges of the surface: which stand out, and which are lines of the mesh in faces that are flat or nearly so.
 //!
 //! Edges stand out between faces that turn away from each other by more than a third of a right angle, and where faces are much longer
-//! along the edge than across by less: a chord of length L between two nodes of another body sinks in by ½ L tan β/2 at a bend of β, where no node
-//! needs to come near a face. The bulge of a warped face has lines as well, its ridges: from two corners across from each other to the middle of the face, which is the mean of all four.
+//! along the edge than across by less: a chord of length L between two nodes of another body sinks in by ½ L tan β/2 at a bend of β, where
+//! no node needs to come near a face. The bulge of a warped face has lines as well, its ridges: from two corners across from each other
+//! to the middle of the face, which is the mean of all four.
 
 use super::faces::Faces;
 use super::projection::{area_normal, centre};
@@ -98,6 +99,8 @@ pub struct Edge {
     pub shape: Shape,
     /// How they lie in the mesh.
     pub in_mesh: Shape,
+    /// Distance of its ends when it was made; of so many edges single precision is half of the memory.
+    pub length: f32,
 }
 
 impl Edge {
@@ -179,9 +182,11 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bo
     let shaped = |edge: Edge| {
         let [first, second] = edge.faces.map(of_chosen);
         let shape = edge.shape_between(first, second, faces);
-        Edge { shape, in_mesh: shape, ..edge }
+        let [a, b] = edge.ends.map(|end| positions[end as usize]);
+        let along = subtract(b, a);
+        Edge { shape, in_mesh: shape, length: dot(along, along).sqrt() as f32, ..edge }
     };
-    let unshaped = |ends, faces| Edge { ends, faces, shape: Shape::Hollow, in_mesh: Shape::Hollow };
+    let unshaped = |ends, faces| Edge { ends, faces, shape: Shape::Hollow, in_mesh: Shape::Hollow, length: 0.0 };
     let mut edges: Vec<Edge> = (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| Some(shaped(unshaped(same[0].0, pair_at(same, faces)?))))
         .collect();
