@@ -4,7 +4,7 @@ use crate::cli::input::Given;
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
-use crate::mesh::{Dimension, Mesh, plane};
+use crate::mesh::{Dimension, Mesh, Shape, plane};
 use crate::model::StepEstimate;
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
@@ -130,7 +130,7 @@ fn modelled(given: &Given, body: &Body) -> String {
 
 /// That beams of a block turn with more than the inertia of their section, where they do; a rigid body has that of its volume.
 fn heavy_turning(mesh: &Mesh, body: &Body, index: usize) -> Option<String> {
-    let block = &mesh.blocks[index];
+    let block = mesh.blocks.get(index).filter(|block| block.shape == Shape::Bar)?;
     let corners = |nodes: &[u32]| nodes.iter().map(|&node| body.positions[node as usize]).collect::<Vec<_>>();
     let ratios = block.elements().map(|nodes| body.elements[index].inertia_about_line(&corners(nodes)));
     let most = ratios.fold(1.0, f64::max);

@@ -199,16 +199,16 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded 
 fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
-    let pairings = Pairings::new(mesh, model, body);
-    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    let left = || Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() };
     match model.contact.control.overlap {
-        ContactOverlap::Keep => return Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() },
+        ContactOverlap::Keep => return left(),
         ContactOverlap::Stress(_) => {
-            let rigid = between_rigid_bodies(mesh, body, &layout, (&pairings, &mut motion));
-            return Overlap { deep: deep_overlap(body, &layout, KNOWN), rigid, ..Default::default() };
+            return Overlap { rigid: between_rigid_bodies(mesh, model, body, &layout), ..left() };
         }
         ContactOverlap::Refuse | ContactOverlap::Remove => (),
     }
+    let pairings = Pairings::new(mesh, model, body);
+    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     weigh(mesh, model, body, &layout, &mut motion);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(motion.len());
@@ -241,17 +241,13 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
 }
 
 /// Overlaps of rigid bodies with each other.
-fn between_rigid_bodies(
-    mesh: &Mesh,
-    body: &Body,
-    layout: &Layout,
-    (pairings, motion): (&Pairings, &mut NodeMotion),
-) -> Stuck {
+fn between_rigid_bodies(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Stuck {
     if body.block_body.iter().all(Option::is_none) {
         return Stuck::default();
     }
-    stand_still(motion, body, layout);
-    let mut constraints = overlaps(layout, pairings, motion);
+    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    stand_still(&mut motion, body, layout);
+    let mut constraints = overlaps(layout, &Pairings::new(mesh, model, body), &motion);
     let is_rigid = of_rigid_bodies(mesh, body, layout);
     constraints.retain(|c| c.parts().all(|(point, _)| is_rigid[point]));
     Stuck::of(&constraints, layout)

@@ -107,9 +107,8 @@ pub(in crate::solver::contact) fn share_room(
     all.sort_by_key(|push| (push.body, push.origin));
     let before: Vec<f64> = all.iter().map(|push| push.closing).collect();
     all.chunk_by_mut(|a, b| a.body == b.body).for_each(|pushes| share_of_body(pushes, among));
-    let mut shorter: Vec<(Origin, f64)> = all.iter().map(|push| (push.origin, push.closing)).collect();
-    let mut has_changed = all.iter().zip(before).map(|(push, before)| push.closing != before);
-    shorter.retain(|_| has_changed.next() == Some(true));
+    let changed = all.iter().zip(before).filter(|(push, before)| push.closing != *before);
+    let mut shorter: Vec<(Origin, f64)> = changed.map(|(push, _)| (push.origin, push.closing)).collect();
     shorter.sort_by_key(|(origin, _)| *origin);
     for (c, state) in constraints.iter().zip(states) {
         if let Ok(place) = shorter.binary_search_by_key(&c.origin, |(origin, _)| *origin) {

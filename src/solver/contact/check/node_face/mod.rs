@@ -191,11 +191,9 @@ impl NodeFaceCheck<'_> {
         Some(projection)
     }
 
-    /// The same at its beginning.
+    /// Where it stands at its beginning, its gap that to the face itself.
     fn projection_at_start(&self, point: u32, face: u32) -> Option<Projection> {
-        let mut projection = projection::project(&self.faces.start(face, self.motion), self.motion.start(point))?;
-        projection.gap -= self.faces.distance(point, face);
-        Some(projection)
+        projection::project(&self.faces.start(face, self.motion), self.motion.start(point))
     }
 
     /// The same at the end of the step, or at its beginning, round about the border where they touch at a distance.
@@ -249,7 +247,7 @@ impl NodeFaceCheck<'_> {
     /// Whether a point begins the step on the side of a surface to which a face belongs. Where it is in the surface itself, it
     /// belongs to the top.
     fn begins_in_front(&self, point: u32, face: u32) -> bool {
-        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
+        let start = self.projection_at_start(point, face);
         let top = self.faces.number[face as usize].is_multiple_of(6);
         start.is_some_and(|start| start.gap > 0.0 || start.gap == 0.0 && top)
     }
@@ -263,7 +261,10 @@ impl NodeFaceCheck<'_> {
         let is_rigid = || {
             self.faces.corners[face as usize].iter().all(|&corner| self.motion.mobility.of(corner as usize).is_some())
         };
-        let begins = |start: Projection| start.outside == 0.0 && self.in_reach(face, &start, tolerated);
+        let begins = |mut start: Projection| {
+            start.gap -= self.faces.distance(point, face);
+            start.outside == 0.0 && self.in_reach(face, &start, tolerated)
+        };
         projection.gap < 0.0 && is_rigid() && self.projection_at_start(point, face).is_some_and(begins)
     }
 

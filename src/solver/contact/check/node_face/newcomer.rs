@@ -123,7 +123,7 @@ impl NodeFaceCheck<'_> {
     /// however far behind the face's plane.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
         self.beside(face).any(|other| {
-            let start = projection::project(&self.faces.start(other, self.motion), self.motion.start(point));
+            let start = self.projection_at_start(point, other);
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
         })
     }

@@ -133,8 +133,7 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point begins the step over a face, or hardly beyond its border.
     fn begins_over(&self, point: u32, face: u32) -> bool {
-        let start = projection::project(&self.faces.start(face, self.motion), self.motion.start(point));
-        start.is_some_and(|start| self.is_hardly_beyond(face, &start))
+        self.projection_at_start(point, face).is_some_and(|start| self.is_hardly_beyond(face, &start))
     }
 
     /// Whether a point begins the step behind the plane of that part of a face over which it ends.
