@@ -99,8 +99,6 @@ pub struct Edge {
     pub shape: Shape,
     /// How they lie in the mesh.
     pub in_mesh: Shape,
-    /// Distance of its ends when it was made; of so many edges single precision is half of the memory.
-    pub length: f32,
 }
 
 impl Edge {
@@ -182,11 +180,9 @@ pub fn between(chosen: &[u32], faces: &Faces, positions: &[[f64; 3]], ridges: bo
     let shaped = |edge: Edge| {
         let [first, second] = edge.faces.map(of_chosen);
         let shape = edge.shape_between(first, second, faces);
-        let [a, b] = edge.ends.map(|end| positions[end as usize]);
-        let along = subtract(b, a);
-        Edge { shape, in_mesh: shape, length: dot(along, along).sqrt() as f32, ..edge }
+        Edge { shape, in_mesh: shape, ..edge }
     };
-    let unshaped = |ends, faces| Edge { ends, faces, shape: Shape::Hollow, in_mesh: Shape::Hollow, length: 0.0 };
+    let unshaped = |ends, faces| Edge { ends, faces, shape: Shape::Hollow, in_mesh: Shape::Hollow };
     let mut edges: Vec<Edge> = (sides.chunk_by(|a, b| a.0 == b.0))
         .filter_map(|same| Some(shaped(unshaped(same[0].0, pair_at(same, faces)?))))
         .collect();

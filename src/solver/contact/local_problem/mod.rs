@@ -7,7 +7,7 @@ mod costs;
 mod history;
 mod outcome;
 
-use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict, Look};
+use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict};
 use super::check::node_face::{self, DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
 use super::enforcement::accounts::certificate::Bank;
@@ -63,6 +63,8 @@ pub struct LocalProblem {
     edges: Vec<Edge>,
     /// How far around itself each edge looks for others, a length.
     edge_reaches: Vec<f64>,
+    /// The least of them of lines.
+    least_line_reach: f64,
     point_block: Vec<u32>,
     /// Blocks that have a say at each point, and at each face.
     blocks_around: [Vec<Blocks>; 2],
@@ -226,6 +228,8 @@ impl LocalProblem {
     fn measure_edges(&mut self) {
         let faces = &self.faces;
         self.edge_reaches = self.edges.iter().map(|edge| edge_edge::reach(faces, edge)).collect();
+        let lines = self.edges.iter().zip(&self.edge_reaches).filter(|(edge, _)| !edge.stands_out());
+        self.least_line_reach = lines.fold(f64::INFINITY, |least, (_, reach)| least.min(*reach));
     }
 
     /// Finds the constraints of a step, whose motion is in `motion`; `met` learns which blocks meet.
@@ -379,12 +383,14 @@ impl LocalProblem {
     /// would else come too deep until they are.
     #[inline(always)]
     fn check_edges(&mut self, pairings: &Pairings, lines: bool, met: &mut Meetings) {
-        let LocalProblem { motion, faces, locator, edges, edge_reaches, edge_history, .. } = self;
+        let LocalProblem { motion, faces, locator, edges, edge_reaches, least_line_reach, edge_history, .. } = self;
         let LocalProblem { pair_places, constraints, blocks_around: [_, around], .. } = self;
         let blocks = |edge: u32| edges[edge as usize].faces.iter().fold(0, |set, &face| set | around[face as usize]);
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
-        locator.pairs_to_check(lines, before.iter().map(|past| &past.pair), pair_places);
+        let steps = super::LINES_EVERY as f64;
+        let some_are_fast = steps * locator.farthest_approach() > edge_edge::unseen(*least_line_reach);
+        locator.pairs_to_check(lines || some_are_fast, before.iter().map(|past| &past.pair), pair_places);
         let mut past = before.iter().peekable();
         for place in pair_places.iter().map(|&place| place as usize) {
             if !locator.is_pair_due(place) {
@@ -402,9 +408,8 @@ impl LocalProblem {
                 motion.place_all(second.points(faces));
             }
             let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
-            let waits = || {
-                Look::at([first, second], faces) != Look::Always && !check.comes_fast(pair, super::LINES_EVERY as f64)
-            };
+            // Surfaces have no depth to sink into: their edges look every step.
+            let waits = || !second.stands_out() && !first.is_of_surface(faces) && !check.comes_fast(pair, steps);
             if !lines && past.is_none() && waits() {
                 continue;
             }

@@ -3,7 +3,6 @@
 
 use super::neighbourhood::SearchResult;
 use crate::common::vector::{dot, subtract};
-use crate::solver::contact::check::edge_edge::Look;
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
@@ -67,7 +66,7 @@ pub struct Locator {
     /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
-    /// Places in that list of the pairs that may have to be looked at in any step, ascending.
+    /// Places in that list of the pairs whose edges both stand out, ascending.
     sharp_pairs: Vec<u32>,
     sleep: Vec<SleepState>,
     /// How far things must have gone in all until a slave node may have anything near at all.
@@ -168,8 +167,9 @@ impl Locator {
             sharp_pairs: (0..)
                 .zip(&found.pairs)
                 .filter_map(|(place, [a, b])| {
-                    let pair = [a, b].map(|edge| &edges[*edge as usize]);
-                    (Look::at(pair, faces) != Look::WhenDue).then_some(place)
+                    // Surfaces have no depth to sink into: their edges look every step.
+                    let [a, b] = [a, b].map(|edge| &edges[*edge as usize]);
+                    (b.stands_out() || a.is_of_surface(faces)).then_some(place)
                 })
                 .collect(),
             edge_pairs: found.pairs,
@@ -257,6 +257,11 @@ impl Locator {
     /// The farthest that one of them goes in this step along an axis, a length.
     pub fn longest_path(&self) -> f64 {
         self.paths.longest
+    }
+
+    /// How much nearer two of them come in this step at most, a length.
+    pub fn farthest_approach(&self) -> f64 {
+        TWICE_ROOT_THREE * self.paths.half_range
     }
 
     /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
@@ -353,7 +358,7 @@ impl Locator {
         &self.edge_pairs
     }
 
-    /// Places in the list of pairs that are to be looked at, ascending: all, or without `lines` those that may have to be in any step
+    /// Places in the list of pairs that are to be looked at, ascending: all, or without `lines` those whose edges both stand out
     /// and those of `touching` pairs, which are ascending.
     pub fn pairs_to_check<'a>(&self, lines: bool, touching: impl Iterator<Item = &'a [u32; 2]>, places: &mut Vec<u32>) {
         places.clear();

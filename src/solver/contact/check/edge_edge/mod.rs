@@ -90,27 +90,9 @@ pub enum EdgeVerdict {
     Apart(f64),
 }
 
-/// When a pair of edges is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Look {
-    /// In every step: both stand out, or one is of a surface, which has no depth to sink into.
-    Always,
-    /// Where it [comes fast](EdgeCheck::comes_fast): its nodes are too far apart to be held by a face and it with them.
-    WhenFast,
-    /// Where lines are due.
-    WhenDue,
-}
-
-impl Look {
-    /// When a pair is looked at, the line second if there is one.
-    #[inline(always)]
-    pub fn at([first, second]: [&Edge; 2], faces: &Faces) -> Look {
-        if second.stands_out() || first.is_of_surface(faces) {
-            return Look::Always;
-        }
-        let size = second.faces.iter().map(|&face| faces.size[face as usize]).fold(f64::INFINITY, f64::min);
-        if f64::from(first.length) > LONG * size { Look::WhenFast } else { Look::WhenDue }
-    }
+/// How far an edge may come, a length, between two looks for lines before the line no longer takes it, of the line's [`reach`].
+pub fn unseen(reach: f64) -> f64 {
+    (SUNK - SLACK) / SUNK * reach
 }
 
 /// The check of edges against edges.
@@ -218,10 +200,16 @@ impl EdgeCheck<'_> {
         }
     }
 
-    /// Whether an edge may come to a line, within so many steps like this one, by more than the depth down to which the line takes it.
+    /// Whether an edge may come to a line, within so many steps like this one, by more than the depth down to which the line takes it:
+    /// one that is much longer than the face, whose nodes do not hold it back.
     #[inline(always)]
     pub fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
         let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
+        let along = subtract(self.motion.start(first.ends[0]), self.motion.start(first.ends[1]));
+        let size = second.faces.iter().map(|&face| self.faces.size[face as usize]).fold(f64::INFINITY, f64::min);
+        if dot(along, along) <= (LONG * size) * (LONG * size) {
+            return false;
+        }
         let ([a, b, c, d], [e, f, g, h]) = (first.points(self.faces), second.points(self.faces));
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for point in [a, b, c, d, e, f, g, h] {
@@ -230,7 +218,7 @@ impl EdgeCheck<'_> {
         }
         let [x, y, z] = subtract(high, low);
         let nearer = steps * (x * x + y * y + z * z).sqrt();
-        nearer > (SUNK - SLACK) / SUNK * self.reaches[pair[1] as usize]
+        nearer > unseen(self.reaches[pair[1] as usize])
     }
 
     /// Whether one of two edges is one of a surface.
