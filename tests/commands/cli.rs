@@ -159,6 +159,24 @@ fn check_says_where_beams_turn_with_more_than_their_section() {
     assert!(!fine.out.contains("beams turn"), "{}", fine.out);
 }
 
+/// A box of 0.2 over a beam whose nodes are 0.25 apart goes through it; with nodes 0.125 apart it does not.
+#[test]
+fn check_says_what_may_go_through_between_the_nodes_of_bars() {
+    let desk = Desk::new();
+    let mesh =
+        "TITLE\n beam\nLINE, 1, 0., 0., 0., 1., 0., 0., {n = 4}\nBOX, 2, 0.4, -0.1, 0.1, 0.2, 0.2, 0.2, 2, 2, 2\n";
+    desk.put("beam.mesh", mesh);
+    let law = "ELASTIC, 1.\nYOUNGS MODULUS = 1.E4\nPOISSONS RATIO = 0.3\nEND";
+    let deck = format!(
+        "TITLE\n beam\nTERMINATION TIME, 1.E-3\nBEAM SECTION, 1, ROD, 0.03\nMATERIAL, 1, {law}\nMATERIAL, 2, {law}\nCONTACT MATERIAL\nEXIT\n"
+    );
+    desk.put("beam.i", &deck);
+    let told = "block 1: bars touch with their nodes only, which are up to 2.500e-01 apart: block 2, 2.000e-01 wide, may go through between them";
+    desk.urto(&["check", "beam.i"]).with(0).says(&[told]);
+    let fine = desk.urto(&["check", "beam.i", "-D", "n=8"]).with(0);
+    assert!(!fine.out.contains("bars touch"), "{}", fine.out);
+}
+
 #[test]
 fn check_foretells_and_runs_nothing() {
     let desk = Desk::new();

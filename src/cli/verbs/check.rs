@@ -4,10 +4,12 @@ use crate::cli::input::Given;
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
-use crate::mesh::{Dimension, Mesh, Shape, plane};
-use crate::model::StepEstimate;
+use crate::common::vector::{dot, subtract};
+use crate::mesh::{Block, Dimension, Mesh, Shape, plane};
+use crate::model::{ContactMaterials, Model, StepEstimate};
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
+use crate::solver::contact::search::Box3;
 use crate::solver::elements::Element;
 use crate::solver::{BlockTrial, Body, Request, Solver, state_names};
 use crate::studies::advice;
@@ -93,6 +95,7 @@ fn modelled(given: &Given, body: &Body) -> String {
         );
     }
     out += &(0..mesh.blocks.len()).filter_map(|index| heavy_turning(mesh, body, index)).collect::<String>();
+    out += &between_bars(mesh, model, body).concat();
     for (number, rigid) in body.rigid.iter().enumerate() {
         out +=
             &format!("  rigid body {}: {} nodes, mass {}\n", number + 1, rigid.nodes.len(), scientific(rigid.mass, 4));
@@ -142,6 +145,42 @@ fn heavy_turning(mesh: &Mesh, body: &Body, index: usize) -> Option<String> {
             100.0 * (1.0 - 1.0 / most.sqrt())
         )
     })
+}
+
+/// That a block which touches is narrower than bars that touch are long, and so may go between the nodes with which they touch; for each
+/// block of bars the narrowest.
+fn between_bars(mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
+    let touches = |block: &&Block| match &model.contact.materials {
+        None => false,
+        Some(ContactMaterials::All) => true,
+        Some(ContactMaterials::Blocks(ids)) => ids.contains(&block.id),
+    };
+    let (bars, others): (Vec<&Block>, Vec<&Block>) =
+        mesh.blocks.iter().filter(touches).partition(|block| block.shape == Shape::Bar);
+    let position = |node: u32| body.positions[node as usize];
+    let width = |block: &Block| {
+        let around = Box3::around(&block.elements().flatten().map(|&node| position(node)).collect::<Vec<_>>());
+        let mut extents = [0, 1, 2].map(|axis| around.high[axis] - around.low[axis]);
+        extents.sort_by(f64::total_cmp);
+        // A shell has no thickness of its own in the mesh, and meets bars with its face.
+        extents[1]
+    };
+    let longest = |block: &Block| {
+        let along = block.elements().map(|nodes| subtract(position(nodes[1]), position(nodes[0])));
+        along.map(|along| dot(along, along)).fold(0.0, f64::max).sqrt()
+    };
+    let widths: Vec<(f64, i64)> = others.iter().map(|block| (width(block), block.id)).collect();
+    let Some((narrowest, other)) = widths.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return Vec::new() };
+    let long = bars.iter().map(|block| (longest(block), block.id)).filter(|(length, _)| *length > narrowest);
+    long.map(|(length, id)| {
+        format!(
+            "  block {id}: bars touch with their nodes only, which are up to {} apart: block {other}, {} wide, may go through between \
+             them; shorter bars hold it\n",
+            scientific(length, 3),
+            scientific(narrowest, 3)
+        )
+    })
+    .collect()
 }
 
 /// Prepares the run, takes a few steps without writing anything, and says what the whole would take.
