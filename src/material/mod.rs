@@ -163,6 +163,10 @@ pub trait Kernel: Copy + Send + Sync {
     /// Whether [`Response::stiffness`] counts; without, the law's [`Law::moduli`] bound the time step.
     const STIFFNESS: bool = false;
 
+    /// Whether the linear bulk viscosity goes by [`Response::answering`]: for laws that are mostly far softer than the stiffest that
+    /// they can become, by which their time step must go.
+    const CRUSHES: bool = false;
+
     /// Whether the pressure follows from an equation of state: the work of the corner forces is booked exactly, and is the
     /// energy in [`Step::energy`]. The last name of [`Kernel::STATE`] is then [`END_POWER`], which the element keeps there.
     const EQUATION: bool = false;
@@ -192,6 +196,9 @@ pub struct Response<V> {
     pub returned: V,
     /// Present stiffness, of laws with [`Kernel::STIFFNESS`].
     pub stiffness: Stiffness<V>,
+    /// Modulus with which a law with [`Kernel::CRUSHES`] answers to strain such as that of the step, from 0 on a plateau to the
+    /// stiffest that it can be.
+    pub answering: V,
 }
 
 /// The stiffness of a law that is not constant.
@@ -208,7 +215,13 @@ impl<V: Lanes> Response<V> {
     #[inline(always)]
     pub fn returned(returned: V) -> Response<V> {
         let none = V::splat(0.0);
-        Response { returned, stiffness: Stiffness { dilatational: none, shear: none } }
+        Response { returned, stiffness: Stiffness { dilatational: none, shear: none }, answering: none }
+    }
+
+    /// Of a law whose stiffness changes, by that and the factor of its plastic return.
+    #[inline(always)]
+    pub fn stiff(returned: V, stiffness: Stiffness<V>) -> Response<V> {
+        Response { returned, stiffness, answering: V::splat(0.0) }
     }
 }
 

@@ -81,6 +81,8 @@ pub(super) struct Point {
     pub returned: f64,
     /// λ + 2μ of the last step, for laws that say it.
     pub dilatational: f64,
+    /// Modulus of the last answer, for laws that crush.
+    pub answering: f64,
     /// Right stretch.
     pub stretch: Matrix<f64>,
     /// Internal energy per initial volume, by the trapezoidal rule.
@@ -121,8 +123,9 @@ impl KernelVisitor for Increment<'_> {
         let mut pair_stress = spread(sym(point.stress));
         let pair_response = kernel.update::<Pair<f64>>(&pairs(&step), &mut pair_stress, &mut pair_stored, 0);
         let mut stress = sym(point.stress);
-        let Response { returned, stiffness } = kernel.update::<f64>(&step, &mut stress, &mut point.stored, 0);
-        (point.returned, point.dilatational) = (returned, stiffness.dilatational);
+        let Response { returned, stiffness, answering } =
+            kernel.update::<f64>(&step, &mut stress, &mut point.stored, 0);
+        (point.returned, point.dilatational, point.answering) = (returned, stiffness.dilatational, answering);
         for (one, two) in stress.to_array().into_iter().zip(pair_stress.to_array()) {
             let mut row = Row::default();
             two.store(&mut row, 0);
@@ -170,6 +173,7 @@ impl Point {
             stored: start.into_iter().map(|x| Row([x; 8])).collect(),
             returned: 1.0,
             dilatational: f64::NAN,
+            answering: f64::NAN,
             stretch: Matrix::identity(),
             energy: 0.0,
             viscous: 0.0,

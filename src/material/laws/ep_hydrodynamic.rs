@@ -111,6 +111,6 @@ impl Kernel for Solid<'_> {
         (eqps + back.increment).store(&mut state[0], part);
         let dilatational = state_after.bulk + two_mu * V::splat(2.0 / 3.0);
         let stiffness = Stiffness { dilatational, shear: V::splat(0.5 * self.two_mu) };
-        Response { returned: back.factor, stiffness }
+        Response::stiff(back.factor, stiffness)
     }
 }

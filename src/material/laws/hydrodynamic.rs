@@ -101,7 +101,7 @@ impl Fluid<'_> {
         let pressure = V::splat(self.lowest).max(state.pressure);
         let mean = -pressure;
         *stress = Sym3 { xx: mean, yy: mean, zz: mean, xy: zero, yz: zero, zx: zero };
-        Response { returned: one, stiffness: Stiffness { dilatational: state.bulk, shear: zero } }
+        Response::stiff(one, Stiffness { dilatational: state.bulk, shear: zero })
     }
 }
 

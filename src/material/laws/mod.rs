@@ -80,6 +80,14 @@ impl Law {
         matches!(self, Law::Hydrodynamic(_))
     }
 
+    /// Moduli of a law whose six stresses do not know of each other at the start, along the axes of space: EX, EY, EZ, GXY, GYZ, GZX.
+    pub fn uncoupled(&self) -> Option<[f64; 6]> {
+        match self {
+            Law::OrthotropicCrush(law) => Some(law.moduli),
+            _ => None,
+        }
+    }
+
     /// The equation of state of a law that has one.
     pub fn equation_of_state(&self) -> Option<&EquationOfState> {
         match self {

@@ -102,7 +102,7 @@ impl Kernel for Rubber<'_> {
         let bulk = V::splat(law.bulk) * step.volume;
         let shear = V::splat(law.c10 + law.c01) * V::splat(2.0);
         let least = V::splat(self.law.moduli().dilatational());
-        Response { returned: one, stiffness: Stiffness { dilatational: least.max(bulk + stiff), shear } }
+        Response::stiff(one, Stiffness { dilatational: least.max(bulk + stiff), shear })
     }
 }
 

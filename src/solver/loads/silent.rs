@@ -7,16 +7,21 @@
 //!
 //! (1 + ½ Δt̄ C/m) v = v⁻ + ½ Δt̄ f/m.
 //!
+//! A material whose stresses do not know of each other carries t = -√(ρΓ) v, with Christoffel's tensor Γ of its moduli at the start;
+//! of an isotropic one that is the same.
+//!
 //! So the dashpots never give energy, Δt̄ F·v ≤ 0, and the stable step is that of the body without them.
 
 use super::pressure::area_vectors;
 use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn};
-use crate::common::vector::{cross, dot, scaled};
+use crate::common::vector::{cross, dot, normalized, scaled};
+use crate::material::Law;
 use crate::model::{Function, Model};
 use crate::solver::body::Body;
 use crate::solver::constraints::StepTimes;
 use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
+use nalgebra::{Matrix3, SymmetricEigen};
 
 pub(super) static ENTRY: LoadEntry = LoadEntry {
     command: "SILENT BC",
@@ -116,14 +121,12 @@ fn dashpots(setting: &Setting) -> Vec<Dashpot> {
     for (element, side) in sides {
         let (block, corners) = elements[element as usize];
         let material = &model.materials[body.block_material[block]];
-        let moduli = material.law.moduli();
         let factor = heavier.get(element as usize).copied().unwrap_or(1.0);
-        let impedance = |modulus: f64| (factor * material.density * modulus).sqrt();
-        let (along, across) = (impedance(moduli.dilatational()), impedance(0.5 * moduli.two_mu));
+        let density = factor * material.density;
         let Some(nodes) = mesh.blocks[block].shape.face(corners, side) else { continue };
         let areas = area_vectors(nodes.map(|node| body.positions[node as usize]), model.analysis);
         for (node, area) in nodes.into_iter().zip(areas).filter(|(node, _)| local[*node as usize] != ABSENT) {
-            add_face(&mut sums[node as usize], area, along, across);
+            add_face(&mut sums[node as usize], area, &material.law, density);
         }
     }
     let mut found: Vec<Dashpot> = local
@@ -148,19 +151,49 @@ fn mass_factors(body: &Body, elements: usize) -> Vec<f64> {
     factors
 }
 
-/// Adds a (ρ c_L n nᵀ + ρ c_S (1 - n nᵀ)) for an area vector a n.
-fn add_face(sum: &mut [[f64; 3]; 3], area: [f64; 3], along: f64, across: f64) {
+/// Adds what a face with the area vector a n resists in a material with this law and density, as it is at the start.
+fn add_face(sum: &mut [[f64; 3]; 3], area: [f64; 3], law: &Law, density: f64) {
+    let Some(normal) = normalized(area) else { return };
     let size = dot(area, area).sqrt();
-    if size == 0.0 {
-        return;
+    let impedance = match law.uncoupled() {
+        Some(moduli) => uncoupled_impedance(normal, moduli, density),
+        None => {
+            let root = |modulus: f64| (density * modulus).sqrt();
+            isotropic_impedance(normal, root(law.moduli().dilatational()), root(0.5 * law.moduli().two_mu))
+        }
+    };
+    for i in 0..3 {
+        for j in 0..3 {
+            sum[i][j] += size * impedance[i][j];
+        }
     }
-    let normal = scaled(area, 1.0 / size);
+}
+
+/// ρ c_L n nᵀ + ρ c_S (1 - n nᵀ), with `along` = ρ c_L and `across` = ρ c_S.
+fn isotropic_impedance(normal: [f64; 3], along: f64, across: f64) -> [[f64; 3]; 3] {
+    let mut impedance = [[0.0; 3]; 3];
     for i in 0..3 {
         for j in 0..3 {
             let unit = if i == j { 1.0 } else { 0.0 };
-            sum[i][j] += size * (across * unit + (along - across) * normal[i] * normal[j]);
+            impedance[i][j] = across * unit + (along - across) * normal[i] * normal[j];
         }
     }
+    impedance
+}
+
+/// √(ρΓ) with Γ_ik = C_ijkl n_j n_l, where C has nothing but EX, EY, EZ, GXY, GYZ and GZX: waves along n run at the roots of the
+/// eigenvalues of Γ/ρ, along its eigenvectors.
+fn uncoupled_impedance([x, y, z]: [f64; 3], [ex, ey, ez, xy, yz, zx]: [f64; 6], density: f64) -> [[f64; 3]; 3] {
+    #[rustfmt::skip]
+    let christoffel = Matrix3::new(
+        ex * x * x + xy * y * y + zx * z * z, xy * x * y, zx * z * x,
+        xy * x * y, xy * x * x + ey * y * y + yz * z * z, yz * y * z,
+        zx * z * x, yz * y * z, zx * x * x + yz * y * y + ez * z * z,
+    );
+    let waves = SymmetricEigen::new(christoffel * density);
+    let roots = waves.eigenvalues.map(|square| square.max(0.0).sqrt());
+    let impedance = waves.eigenvectors * Matrix3::from_diagonal(&roots) * waves.eigenvectors.transpose();
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| impedance[(i, j)]))
 }
 
 #[cfg(test)]
@@ -178,12 +211,29 @@ mod tests {
 
     #[test]
     fn a_face_resists_along_and_across_its_normal() {
-        let mut sum = [[0.0; 3]; 3];
-        add_face(&mut sum, [0.0, 3.0, 4.0], 7.0, 2.0);
+        let sum = isotropic_impedance([0.0, 0.6, 0.8], 7.0, 2.0).map(|row| scaled(row, 5.0));
         let along = [0.0, 0.6, 0.8];
         let across = [0.0, -0.8, 0.6];
         assert!((0..3).all(|i| (dot(sum[i], along) - 35.0 * along[i]).abs() < 1e-13));
         assert!((0..3).all(|i| (dot(sum[i], across) - 10.0 * across[i]).abs() < 1e-13));
         assert!((dot(sum[0], [1.0, 0.0, 0.0]) - 10.0).abs() < 1e-13);
+    }
+
+    /// Along an axis √(ρE) and √(ρG) of it; askew C² = ρΓ.
+    #[test]
+    fn uncoupled_stresses_resist_each_by_its_own_modulus() {
+        let moduli = [4.0, 9.0, 25.0, 1.0, 36.0, 49.0];
+        let along_y = uncoupled_impedance([0.0, 1.0, 0.0], moduli, 4.0);
+        for (i, root) in [2.0, 6.0, 12.0].into_iter().enumerate() {
+            assert!((along_y[i][i] - root).abs() < 1e-12, "{along_y:?}");
+            assert!((0..3).all(|j| i == j || along_y[i][j].abs() < 1e-12), "{along_y:?}");
+        }
+        // Along (1, 1, 0)/√2 the plane of x and y has ρΓ = 4 [(4 + 1)/2, 1/2; 1/2, (1 + 9)/2], and z has 4 (49 + 36)/2.
+        let root = 0.5f64.sqrt();
+        let askew = uncoupled_impedance([root, root, 0.0], moduli, 4.0);
+        let square = |i: usize, j: usize| (0..3).map(|k| askew[i][k] * askew[k][j]).sum::<f64>();
+        for (i, j, expected) in [(0, 0, 10.0), (0, 1, 2.0), (1, 1, 20.0), (2, 2, 170.0), (0, 2, 0.0), (1, 2, 0.0)] {
+            assert!((square(i, j) - expected).abs() < 1e-11, "{i}{j}: {} {expected}", square(i, j));
+        }
     }
 }

@@ -178,7 +178,7 @@ impl Kernel for FoamKernel<'_> {
         // v dσᵃⁱʳ/dv
         let gas = V::splat(law.trapped() * (1.0 - law.solid)) * step.volume / (left * left);
         let stiffness = Stiffness { dilatational: young + gas, shear: young * V::splat(0.5) };
-        Response { returned: factor, stiffness }
+        Response::stiff(factor, stiffness)
     }
 }
 

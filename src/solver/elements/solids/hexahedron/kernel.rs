@@ -12,7 +12,7 @@ use super::single_precision::carried;
 use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Response, Step};
 use crate::model::BulkViscosity;
-use crate::solver::elements::bulk_viscosity::{damped_step, damping};
+use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::solids::exact::Steps;
 use crate::solver::elements::solids::fluid::{gentle_step, jump};
@@ -142,7 +142,14 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     // M at each corner, so M is what eight of the lightest make up
     let end = End::of([&x, &v], given.moving * V::splat(settings.least_share));
     let moduli = answer.moduli::<K>(motion.strain, settings);
-    let slowed = bulk_viscosity::<V, K>((&middle, &end), moduli[0], &given.rates, state, part, settings);
+    let slowed = bulk_viscosity::<V, K>(
+        (&middle, &end),
+        [moduli[0], answer.response.answering],
+        &given.rates,
+        state,
+        part,
+        settings,
+    );
     if !K::EQUATION {
         book::<V, K>(slowed.power * motion.strain.trace() * middle.volume(), VISCOUS, state, part);
     }
@@ -336,7 +343,7 @@ pub(super) struct Slowed<V> {
 #[inline(always)]
 fn bulk_viscosity<V: Lanes, K: Kernel>(
     (middle, end): (&Middle<V>, &End<V>),
-    modulus: V,
+    [modulus, answering]: [V; 2],
     neighbours: &Corners<V>,
     state: &mut [V::Row],
     part: usize,
@@ -346,7 +353,7 @@ fn bulk_viscosity<V: Lanes, K: Kernel>(
     let l = &middle.velocity_gradient;
     let rate = l[0][0] + l[1][1] + l[2][2];
     let whole = damping(settings.viscosity, bound, rate);
-    let mut damping = whole;
+    let mut damping = if K::CRUSHES { softened(settings.viscosity, whole, answering / modulus) } else { whole };
     if K::FLUID {
         let row = &mut state[exact::rate_row::<K>()];
         damping = whole * jump([V::load(row, part), rate], &fluid::across(neighbours));
@@ -359,7 +366,7 @@ fn bulk_viscosity<V: Lanes, K: Kernel>(
         stress,
         power: (last + stress) * V::splat(0.5),
         rate,
-        stable_step: damped_step(bound, damping),
+        stable_step: damped_step(bound, if K::CRUSHES { whole } else { damping }),
         whole_step: damped_step(bound, whole),
     }
 }

@@ -9,7 +9,7 @@ use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Sym3, array};
 use crate::material::{Kernel, Response, Step};
 use crate::model::{BulkViscosity, Hourglass};
-use crate::solver::elements::bulk_viscosity::{damped_step, damping};
+use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::solids::exact::Steps;
 use crate::solver::elements::solids::fluid::{gentle_step, jump};
@@ -137,7 +137,14 @@ fn step<V: Lanes, K: Kernel>(
     let end = End::of((*section, compatible), [&x, &v], operator, &turned.frames[1], &mut masses);
     let moduli = answer.moduli::<K>(&turned.strain, settings);
     let frequency = end.frequency(&moduli, &masses, given.moving, settings);
-    let slowed = bulk_viscosity::<V, K>(&frequency, (&end, &middle), &given.rates, state, part, settings);
+    let slowed = bulk_viscosity::<V, K>(
+        (&frequency, answer.response.answering),
+        (&end, &middle),
+        &given.rates,
+        state,
+        part,
+        settings,
+    );
     if !K::EQUATION {
         let power = slowed.mean_stress * turned.strain.trace();
         accumulate(power * middle.volume, &mut state[rows::VISCOUS_ENERGY], part);
@@ -327,7 +334,7 @@ pub(super) struct Slowed<V> {
 /// Finds the viscous stress and stores it; `neighbours` are the mean rates of the elements at the corners.
 #[inline(always)]
 fn bulk_viscosity<V: Lanes, K: Kernel>(
-    frequency: &Frequency<V>,
+    (frequency, answering): (&Frequency<V>, V),
     (end, middle): (&End<V>, &Middle<V>),
     neighbours: &Corners<V>,
     state: &mut [V::Row],
@@ -336,7 +343,8 @@ fn bulk_viscosity<V: Lanes, K: Kernel>(
 ) -> Slowed<V> {
     let (bound, rate) = (frequency.bound, middle.growth());
     let whole = damping(settings.viscosity, bound, rate);
-    let mut damping = whole;
+    let mut damping =
+        if K::CRUSHES { softened(settings.viscosity, whole, answering / frequency.modulus) } else { whole };
     if K::FLUID {
         let row = &mut state[rate_row::<K>()];
         let acts = jump([V::load(row, part), rate], &fluid::across(neighbours));
@@ -351,7 +359,7 @@ fn bulk_viscosity<V: Lanes, K: Kernel>(
         stress,
         mean_stress: (last + stress) * V::splat(0.5),
         rate,
-        stable_step: damped_step(bound, damping),
+        stable_step: damped_step(bound, if K::CRUSHES { whole } else { damping }),
         least_step: if K::FLUID { damped_step(bound, whole) } else { bound },
     }
 }
