@@ -36,7 +36,7 @@ pub fn field_values(
         ElementField::HourglassEnergy => filled(&[per_volume(entry.energies.hourglass)]),
         ElementField::Density => filled(&[group.element_mass(i) / element.volume(group, i, nodes)]),
         ElementField::Stretch => filled(&in_space(element.stretch(group, i, nodes))),
-        ElementField::Rotation => filled(element.frame(group, i, nodes).as_flattened()),
+        ElementField::Rotation => filled(element.rotation(group, i, nodes).as_flattened()),
         ElementField::BulkViscosity => filled(&[entry.viscous_stress.map_or(0.0, |row| -group.value(i, row))]),
         ElementField::Corners => filled(&[element.least_corner(group, i, nodes)]),
         ElementField::Thickness => filled(&[element.thickness(group, i)]),

@@ -159,6 +159,12 @@ pub trait Formulation: Sized {
     /// The rotation from the frame of the `i`-th element into space; columns are its axes.
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64>;
 
+    /// How the `i`-th element has turned. Bars say it since the start, solids and shells by their frame, which begins as the axes of
+    /// space where they lie along these.
+    fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        self.frame(group, i, nodes)
+    }
+
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
 

@@ -100,6 +100,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.frame(group, i, nodes),)+ }
             }
 
+            /// See [`Formulation::rotation`].
+            pub fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+                match self { $(Element::$element(own) => own.rotation(group, i, nodes),)+ }
+            }
+
             /// See [`Formulation::stress`].
             pub fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
                 match self { $(Element::$element(own) => own.stress(group, i),)+ }

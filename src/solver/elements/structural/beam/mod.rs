@@ -243,6 +243,13 @@ impl Formulation for Beam {
         columns(axes(&chord(group, i, nodes), &group.values(i, rows::AXIS)).e)
     }
 
+    fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        let [a, b] = [0, 1].map(|corner| nodes.initial(group.node(i, corner)));
+        let along = subtract(b, a);
+        let start = columns(axes(&along, &self.y_axis(along)).e);
+        self.frame(group, i, nodes).map(|row| start.map(|other| dot(row, other)))
+    }
+
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         uniaxial_stress(group.value(i, rows::RESULTANTS) / self.section.area)
     }

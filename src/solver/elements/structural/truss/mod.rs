@@ -116,6 +116,11 @@ impl Formulation for Truss {
         frame_along(chord(group, i, nodes))
     }
 
+    fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        let [a, b] = [0, 1].map(|corner| nodes.initial(group.node(i, corner)));
+        smallest_rotation(subtract(b, a), chord(group, i, nodes))
+    }
+
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         Sym3 { xx: group.value(i, rows::STRESS), yy: 0.0, zz: 0.0, xy: 0.0, yz: 0.0, zx: 0.0 }
     }
@@ -161,6 +166,21 @@ fn frame_along(along: [f64; 3]) -> Matrix3<f64> {
     let e2 = normalized(cross(other, e1)).unwrap_or([0.0, 1.0, 0.0]);
     let e3 = cross(e1, e2);
     [0, 1, 2].map(|i| [e1[i], e2[i], e3[i]])
+}
+
+/// The smallest rotation R of one direction a into another b, R = 1 − (a + b)(a + b)ᵀ/(1 + a·b) + 2 b aᵀ: a truss does not say how it
+/// twists. Of half a turn, which has no smallest axis, one about an axis across.
+fn smallest_rotation(from: [f64; 3], to: [f64; 3]) -> Matrix3<f64> {
+    let along = |vector| normalized(vector).unwrap_or([1.0, 0.0, 0.0]);
+    let (a, b) = (along(from), along(to));
+    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let over = 1.0 + dot(a, b);
+    if over < 1e-12 {
+        let axis = frame_along(a).map(|row| row[1]);
+        return [0, 1, 2].map(|i| [0, 1, 2].map(|j| 2.0 * axis[i] * axis[j] - unit(i, j)));
+    }
+    let term = |i: usize, j: usize| unit(i, j) - (a[i] + b[i]) * (a[j] + b[j]) / over + 2.0 * b[i] * a[j];
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| term(i, j)))
 }
 
 /// A pass that still has to learn its law.

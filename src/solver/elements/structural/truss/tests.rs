@@ -1,6 +1,7 @@
 //! The truss alone: what must hold for any motion and law.
 
-use super::{Truss, rows};
+use super::{Truss, rows, smallest_rotation};
+use crate::common::vector::{cross, dot};
 use crate::lanes::{Force, InstructionSet, Row};
 use crate::material::{Elastic, ElasticPlastic, Law};
 use crate::model::{BulkViscosity, StepModuli};
@@ -94,6 +95,24 @@ fn rigid_motion_leaves_the_stress_alone() {
         let pull = force[0] * angle.cos() + force[1] * angle.sin();
         close("force on the first node", pull, tension * AREA, 1e-3 * tension * AREA);
     }
+}
+
+/// A truss that has not turned has the rotation 1, wherever it lies; turned in a plane by any angle, that angle's, half a turn included.
+#[test]
+fn turns_by_the_smallest_rotation() {
+    for along in [[1.0, 0.0, 0.0], [0.0, 0.0, 2.0], [-0.3, 0.2, -0.7]] {
+        let r = smallest_rotation(along, along);
+        (0..9).for_each(|k| close("at rest", r[k / 3][k % 3], if k % 4 == 0 { 1.0 } else { 0.0 }, 1e-15));
+    }
+    for angle in [0.1, 1.0, 3.0, 3.2, 6.0] {
+        let (c, s) = (f64::cos(angle), f64::sin(angle));
+        let r = smallest_rotation([2.0, 0.0, 0.0], [3.0 * c, 3.0 * s, 0.0]);
+        let expected = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+        (0..9).for_each(|k| close("turned", r[k / 3][k % 3], expected[k / 3][k % 3], 1e-12));
+    }
+    let r = smallest_rotation([0.0, 1.0, 0.0], [0.0, -1.0, 0.0]);
+    close("half a turn", dot(r[0], cross(r[1], r[2])), 1.0, 1e-15);
+    close("its direction", r[1][1], -1.0, 1e-15);
 }
 
 /// ν of contraction in tension: the area shrinks by exp(−2νε); the stress across is nothing.
