@@ -88,6 +88,58 @@ fn b3_plastic_hinge() {
     close("B3", "collapse load [N]", mean, 3200.0 * (1.0 + 1.0 / 60.0), 0.01);
 }
 
+/// One rod of 10 mm radius, 1 m long, whose one end is held and whose other end moves along it by a velocity over time, and
+/// then turns by rates about x and y.
+fn pulled(law: &str, velocity: &str, [twist, bend]: [f64; 2], end: f64) -> Run {
+    let deck = format!(
+        "TITLE\n pulled\nTERMINATION TIME, {end}\nPLOT TIME, {end}\nPLOT ELEMENT, DENSITY, STRETCH, STRESS, STRAIN, RESULTANTS\n\
+         PLOT NODAL, REACTION\nTIME STEP MAXIMUM, 2.E-6\nBEAM SECTION, 1, ROD, 0.01, , , , 0., 1., 0.\n\
+         NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 4\nNO DISPLACEMENT, Z, 4\nNO ROTATION, X, 1\nNO ROTATION, Y, 1\n\
+         NO ROTATION, Z, 4\nFUNCTION, 1\n{velocity}END\nFUNCTION, 2\n0., 0.\n0.01, 0.\n0.011, 1.\nEND\n\
+         PRESCRIBED VELOCITY, X, 2, 1, 1.\nPRESCRIBED ANGULAR VELOCITY, X, 2, 2, {twist}\n\
+         PRESCRIBED ANGULAR VELOCITY, Y, 2, 2, {bend}\nMATERIAL, 1, {law}END\n"
+    );
+    let mesh = recipe(
+        "TITLE\n rod\nLINE, 1, 0., 0., 0., 1., 0., 0., 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\nNODE SET PLANE, 4, Y, 0.\n",
+    );
+    run(&deck, &mesh)
+}
+
+/// B5: pulled to one and a half times its length, a rod that flows at 400 MPa bears that on the section that it has then: of the strain
+/// its elastic part σ/E contracts by ν, the rest by a half.
+#[test]
+fn b5_a_stretched_beam_gets_thinner() {
+    let law = "ELASTIC PLASTIC, 7850.\nYOUNGS MODULUS = 210.E9\nPOISSONS RATIO = 0.3\nYIELD STRESS = 400.E6\nHARDENING MODULUS = 0.\nBETA = 1.\n";
+    let rod = pulled(law, "0., 50.\n1., 50.\n", [0.0, 0.0], 0.01);
+    let (strain, elastic) = (f64::ln(1.5), 400e6 / 210e9);
+    let across = -0.5 * (strain - elastic) - 0.3 * elastic;
+    let area = std::f64::consts::PI * 1e-4 * f64::exp(2.0 * across);
+    let end = rod.end();
+    close("B5", "stress [Pa]", end.element("SIGXX")[0], 400e6, 1e-4);
+    close("B5", "force [N]", end.element("NXX")[0], 400e6 * area, 1e-3);
+    close("B5", "reaction [N]", -end.nodal("RX")[0], 400e6 * area, 1e-3);
+    close("B5", "density", end.element("DENSITY")[0], 7850.0 * f64::exp(-strain - 2.0 * across), 1e-4);
+    close("B5", "stretch across", end.element("STRETYY")[0], f64::exp(across), 1e-4);
+    close("B5", "strain across", end.element("EPSZZ")[0], across, 1e-3);
+    between("B5", "worst energy balance", rod.worst_balance(), 0.0, 1e-6);
+}
+
+/// B5: an elastic rod that has been stretched by a tenth is bent and twisted with the second moments of what it is then, smaller by the
+/// fourth power of its contraction.
+#[test]
+fn b5_a_stretched_beam_bends_with_its_present_section() {
+    let law = "ELASTIC, 7850.\nYOUNGS MODULUS = 1.E9\nPOISSONS RATIO = 0.4\n";
+    let rod = pulled(law, "0., 0.\n0.001, 11.1111111111\n0.009, 11.1111111111\n0.01, 0.\n1., 0.\n", [1.0, 0.5], 0.0205);
+    let wide = f64::exp(-0.4 * f64::ln(1.1));
+    let second_moment = 0.25 * std::f64::consts::PI * 1e-8 * wide.powi(4);
+    // 0.01 about x and 0.005 about y.
+    let end = rod.end();
+    close("B5", "length", end.element("STRETXX")[0], 1.1, 1e-3);
+    close("B5", "torsion [Nm]", end.element("MXY")[0], 1e9 / 2.8 * 2.0 * second_moment * 0.01 / 1.1, 3e-3);
+    close("B5", "bending [Nm]", end.element("MXX")[0], 1e9 * second_moment * 0.005 / 1.1, 3e-3);
+    between("B5", "worst energy balance", rod.worst_balance(), 0.0, 1e-6);
+}
+
 /// B2: the elastica (Bisshopp and Drucker 1945): deflection and shortening of a cantilever whose end is loaded across, by PL²/EI.
 #[test]
 fn b2_elastica() {

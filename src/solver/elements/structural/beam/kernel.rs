@@ -2,7 +2,7 @@
 
 use super::section::MOST_FIBRES;
 use super::{point_rows, rows};
-use crate::lanes::{Lanes, array};
+use crate::lanes::{Lanes, array, exp};
 use crate::material::{Kernel, Moduli};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::structural::{BAR_STEP, uniaxial};
@@ -16,11 +16,11 @@ pub struct BeamStep<K> {
     pub moduli: Moduli,
     /// Time of the present positions, and the step that led there.
     pub times: [f64; 2],
-    /// Area, second moments about y and z, torsion constant, shear correction.
+    /// Area, second moments about y and z, torsion constant at the start; shear correction.
     pub section: [f64; 5],
     /// Number of fibres.
     pub count: usize,
-    /// y, z and area of each.
+    /// y, z and area of each at the start.
     pub fibres: [[f64; 3]; MOST_FIBRES],
 }
 
@@ -152,19 +152,24 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
 }
 
 impl<K: Kernel> BeamStep<K> {
-    /// Advances fibres, torsion and shear, books their energy and stores them: N, T, M_y, M_z, Q_y, Q_z.
+    /// Advances fibres, torsion and shear, books their energy and stores them: N, T, M_y, M_z, Q_y, Q_z. The section keeps its form,
+    /// and is as wide as the mean strain across its fibres says: fibres stand at the distances that it had before the step, and
+    /// stresses act on what it has after it.
     #[inline(always)]
     fn resultants<V: Lanes>(&self, rates: &Rates<V>, length: V, state: &mut [V::Row], part: usize) -> [V; 6] {
         let (one, half, dt) = (V::splat(1.0), V::splat(0.5), V::splat(self.times[1]));
-        let [area, iy, iz, torsion, _] = self.section;
+        let area = self.section[0];
         let [stretching, twisting, about_y, about_z] = array![i in 4 => rates.along[i] * dt];
         let (own, points) = state.split_at_mut(rows::POINTS);
         let old: [V; 6] = array![i in 6 => V::load(&own[rows::RESULTANTS + i], part)];
         let stride = point_rows::LAW + K::STATE.len();
         let [mut n, mut my, mut mz, mut kept] = [V::splat(0.0); 4];
+        let mut lateral = V::load(&own[rows::LATERAL], part);
+        let old_wide = exp(lateral);
+        let (bent_about_y, bent_about_z) = (old_wide * about_y, old_wide * about_z);
         for (point, [y, z, of_fibre]) in points.chunks_exact_mut(stride).zip(self.fibres).take(self.count) {
             let (point_own, law_state) = point.split_at_mut(point_rows::LAW);
-            let along = stretching + V::splat(z) * about_y - V::splat(y) * about_z;
+            let along = stretching + V::splat(z) * bent_about_y - V::splat(y) * bent_about_z;
             let stress = [V::load(&point_own[point_rows::STRESS], part), V::load(&point_own[point_rows::ACROSS], part)];
             let answer =
                 uniaxial::update(&self.law, self.moduli, [along, one, one], stress, self.times, law_state, part);
@@ -176,16 +181,18 @@ impl<K: Kernel> BeamStep<K> {
             n = n + force;
             my = my + force * V::splat(z);
             mz = mz - force * V::splat(y);
-            kept = kept + answer.response.returned * carries * V::splat(of_fibre / area);
+            let share = carries * V::splat(of_fibre / area);
+            kept = kept + answer.response.returned * share;
+            lateral = lateral + answer.lateral * share;
         }
+        lateral.store(&mut own[rows::LATERAL], part);
+        let wide = exp(lateral);
+        let (square, cube) = (wide * wide, wide * wide * wide);
+        let elastic = [twisting, rates.shear[0] * dt, rates.shear[1] * dt];
         // Flow takes as much off torsion and shear as off the mean fibre.
-        let mu = 0.5 * self.moduli.two_mu;
-        let t = (old[1] + V::splat(mu * torsion) * twisting) * kept;
-        let [sy, sz] = self.shear_stiffness(length, [iz, iy]);
-        let qy = (old[4] + sy * rates.shear[0] * dt) * kept;
-        let qz = (old[5] + sz * rates.shear[1] * dt) * kept;
-        let now = [n, t, my, mz, qy, qz];
-        let strain = [stretching, twisting, about_y, about_z, rates.shear[0] * dt, rates.shear[1] * dt];
+        let [t, qy, qz] = self.torsion_and_shear([old[1], old[4], old[5]], elastic, [length, square, wide / old_wide]);
+        let now = [n * square, t * kept, my * cube, mz * cube, qy * kept, qz * kept];
+        let strain = [stretching, twisting, about_y, about_z, elastic[1], elastic[2]];
         let mut work = V::splat(0.0);
         for i in 0..6 {
             work = work + (old[i] + now[i]) * strain[i];
@@ -196,16 +203,32 @@ impl<K: Kernel> BeamStep<K> {
         now
     }
 
-    /// 1/(1/κGA + L²/12EI) for both second moments: with what bending adds, one element is exact under forces at its ends
-    /// (residual flexibility, MacNeal 1978).
+    /// T, Q_y and Q_z after elastic strains, of a section that has changed its area by a factor `square`, and its width by `wider` in this
+    /// step: the stresses that they stand for act on the present section.
     #[inline(always)]
-    fn shear_stiffness<V: Lanes>(&self, length: V, moments: [f64; 2]) -> [V; 2] {
+    fn torsion_and_shear<V: Lanes>(
+        &self,
+        [t, qy, qz]: [V; 3],
+        [twist, along_y, along_z]: [V; 3],
+        [length, square, wider]: [V; 3],
+    ) -> [V; 3] {
+        let [_, iy, iz, torsion, _] = self.section;
+        let twisting = V::splat(0.5 * self.moduli.two_mu * torsion) * square * square;
+        let [sy, sz] = self.shear_stiffness(length, [iz, iy], square);
+        let larger = wider * wider;
+        [t * larger * wider + twisting * twist, qy * larger + sy * along_y, qz * larger + sz * along_z]
+    }
+
+    /// 1/(1/κGA + L²/12EI) for both second moments, of a section that has changed its area by a factor `square`: with what bending
+    /// adds, one element is exact under forces at its ends (residual flexibility, MacNeal 1978).
+    #[inline(always)]
+    fn shear_stiffness<V: Lanes>(&self, length: V, moments: [f64; 2], square: V) -> [V; 2] {
         let [young, mu] = young_and_shear(self.moduli);
         let area = V::splat(1.0 / (self.section[4] * mu * self.section[0]));
-        let one = V::splat(1.0);
+        let flexible = length * length / square;
         [
-            one / (area + length * length * V::splat(1.0 / (12.0 * young * moments[0]))),
-            one / (area + length * length * V::splat(1.0 / (12.0 * young * moments[1]))),
+            square / (area + flexible * V::splat(1.0 / (12.0 * young * moments[0]))),
+            square / (area + flexible * V::splat(1.0 / (12.0 * young * moments[1]))),
         ]
     }
 
@@ -216,11 +239,13 @@ impl<K: Kernel> BeamStep<K> {
         let [young, mu] = young_and_shear(self.moduli);
         let two = V::splat(2.0);
         let node = mass * V::splat(0.5);
+        let wide = exp(V::load(&state[rows::LATERAL], part));
+        let square = wide * wide;
         let inertia = node * V::load(&state[rows::INERTIA], part);
-        let [sy, sz] = self.shear_stiffness(length, [iz, iy]);
-        let stretching = two * V::splat(young * area) / (length * node);
+        let [sy, sz] = self.shear_stiffness(length, [iz, iy], square);
+        let stretching = two * V::splat(young * area) * square / (length * node);
         let shear = sy.max(sz) * (two / (length * node) + length / (two * inertia));
-        let turning = two * V::splat((young * iy.max(iz)).max(mu * torsion)) / (length * inertia);
+        let turning = two * V::splat((young * iy.max(iz)).max(mu * torsion)) * square * square / (length * inertia);
         two / stretching.max(shear).max(turning).sqrt() * V::splat(BAR_STEP)
     }
 }

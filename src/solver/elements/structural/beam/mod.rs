@@ -5,7 +5,8 @@
 //! ε = e₁·v₂₁/L, κ = (ω₂ − ω₁)/L in e₁, e₂, e₃, γ_y = e₂·v₂₁/L − e₃·ω̄, γ_z = e₃·v₂₁/L + e₂·ω̄.
 //!
 //! A fibre is strained by ε + z κ_y − y κ_z. Shear has the residual flexibility of bending, so that one element is exact under
-//! forces at its ends. Forces are the transpose of the rates, at the end of the step.
+//! forces at its ends. Forces are the transpose of the rates, at the end of the step. The section follows the mean strain across its
+//! fibres and keeps its form, so that areas grow with exp(2ε_t), distances with exp(ε_t).
 
 mod kernel;
 mod section;
@@ -37,8 +38,10 @@ mod rows {
     pub const RESULTANTS: usize = 5;
     /// Internal energy since the start.
     pub const INTERNAL_ENERGY: usize = 11;
+    /// Logarithmic strain across, the mean of the fibres.
+    pub const LATERAL: usize = 12;
     /// First row of the fibres.
-    pub const POINTS: usize = 12;
+    pub const POINTS: usize = 13;
 }
 
 /// Rows of a fibre; those of its law follow.
@@ -66,6 +69,7 @@ const ROWS: [StoredRow; rows::POINTS] = [
     StoredRow { name: "BEAMQY", dimension: "force" },
     StoredRow { name: "BEAMQZ", dimension: "force" },
     StoredRow { name: "EINTERN", dimension: "energy" },
+    StoredRow { name: "BEAMLATR", dimension: "-" },
 ];
 
 const POINT_ROWS: [StoredRow; point_rows::LAW] = [
@@ -236,7 +240,7 @@ impl Formulation for Beam {
 
     fn volume(&self, group: &Group, i: usize, nodes: &Nodes) -> f64 {
         let along = chord(group, i, nodes);
-        self.section.area * dot(along, along).sqrt()
+        self.area(group, i) * dot(along, along).sqrt()
     }
 
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
@@ -251,7 +255,7 @@ impl Formulation for Beam {
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
-        uniaxial_stress(group.value(i, rows::RESULTANTS) / self.section.area)
+        uniaxial_stress(group.value(i, rows::RESULTANTS) / self.area(group, i))
     }
 
     fn touch(&self, _: &[f64]) -> Touch {
@@ -266,7 +270,8 @@ impl Formulation for Beam {
     fn stretch(&self, group: &Group, i: usize, nodes: &Nodes) -> Sym3<f64> {
         let along = chord(group, i, nodes);
         let long = dot(along, along).sqrt() / group.value(i, rows::START);
-        Sym3 { xx: long, yy: 1.0, zz: 1.0, xy: 0.0, yz: 0.0, zx: 0.0 }
+        let wide = libm::exp(group.value(i, rows::LATERAL));
+        Sym3 { xx: long, yy: wide, zz: wide, xy: 0.0, yz: 0.0, zx: 0.0 }
     }
 
     fn resultants(&self, group: &Group, i: usize) -> [f64; 8] {
@@ -289,6 +294,11 @@ impl Formulation for Beam {
 }
 
 impl Beam {
+    /// Area of the section now.
+    fn area(&self, group: &Group, i: usize) -> f64 {
+        self.section.area * libm::exp(2.0 * group.value(i, rows::LATERAL))
+    }
+
     /// Rows of a beam along a vector that has not been strained.
     fn rest(&self, along: [f64; 3], own: &mut [f64]) {
         let length = dot(along, along).sqrt();
