@@ -108,8 +108,8 @@ impl Moduli {
 pub struct Start {
     /// Mean of its corners.
     pub centre: [f64; 3],
-    /// Its volume V₀.
-    pub volume: f64,
+    /// Its length: the cube root of its volume, in the plane and of shells the root of its area, of bars how long they are.
+    pub length: f64,
     /// Its frame; columns are its axes.
     pub frame: Matrix3<f64>,
 }
@@ -183,6 +183,13 @@ pub trait Kernel: Copy + Send + Sync {
 
     /// Sets the stored state of an element before the first step.
     fn start(&self, _element: &Start, _state: &mut [f64]) {}
+
+    /// The longest step from a time on in which what the law does by itself goes no farther than it may; of fluids. `otherwise` where that
+    /// is less, or no number.
+    #[inline(always)]
+    fn longest_step<V: Lanes>(&self, _time: f64, _state: &[V::Row], _part: usize, otherwise: V) -> V {
+        otherwise
+    }
 
     /// Advances `stress` (force/length²) by a step, in the unrotated frame, and the state rows of this part of the
     /// chunk with it.

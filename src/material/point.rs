@@ -166,7 +166,7 @@ fn exponential(m: Matrix<f64>) -> Matrix<f64> {
 impl Point {
     /// Unstressed, at time zero, in a frame along the axes; one time unit per increment.
     pub fn new(law: Law) -> Point {
-        let start = law.start(&Start { centre: [0.0; 3], volume: 1.0, frame: IDENTITY });
+        let start = law.start(&Start { centre: [0.0; 3], length: 1.0, frame: IDENTITY });
         Point {
             law,
             stress: [0.0; 6],

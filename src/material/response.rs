@@ -78,7 +78,7 @@ struct Point {
 impl Point {
     fn new(law: Law, time_step: f64) -> Point {
         let frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let start = law.start(&Start { centre: [0.0; 3], volume: 1.0, frame });
+        let start = law.start(&Start { centre: [0.0; 3], length: 1.0, frame });
         let stored = start.into_iter().map(|value| Row([value; 8])).collect();
         Point { law, stress: [0.0; 6], stored, stretch: Matrix3::identity(), energy: 0.0, time: 0.0, time_step }
     }

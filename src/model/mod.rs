@@ -13,7 +13,7 @@ mod problem;
 pub use check::check;
 pub use conditions::{
     Direction, Function, Gravity, InitialVelocity, MotionKind, NoDisplacement, PointMass, PrescribedForce,
-    PrescribedMotion, Pressure, Unknown,
+    PrescribedMotion, Pressure, Pulse, Unknown,
 };
 pub use control::{
     Analysis, BulkViscosity, DEFAULT_HOURGLASS, Death, DeathVariable, Deletion, ElementField, Hourglass, MassScaling,

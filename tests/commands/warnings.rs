@@ -280,6 +280,23 @@ fn quiet_runs_warn_and_strict_ones_fail() {
     assert!(brief.err.contains("the run is one step, made shorter to end there"), "{}", brief.err);
 }
 
+/// A pulse that falls between two steps moves nothing; one of many steps is followed.
+#[test]
+fn pulses_that_steps_hardly_see_are_told() {
+    let deck = |length: f64| {
+        let pulse =
+            format!("FUNCTION, 7\n0., 0.\n1.E-4, 0.\n{:?}, 1.\n{:?}, 0.\nEND\n", 1e-4 + 0.5 * length, 1e-4 + length);
+        format!("TERMINATION TIME, 1.E-3\n{pulse}PRESCRIBED FORCE, X, 1, 7, 1.\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}")
+    };
+    let mesh = "BOX, 1, 0., 0., 0., 1., 1., 1., 5, 5, 5\nNODE SET PLANE, 1, X, 0.\n";
+    let short = desk(&deck(2e-5), mesh);
+    short.urto(&["check", "case.i"]).with(0).says(&["foretold: function 7 goes up or down and comes back within 0."]);
+    let told = short.urto(&["case.i", "-q"]).with(0);
+    assert!(told.err.contains("warning: function 7 goes up or down and comes back within 0."), "{}", told.err);
+    let long = desk(&deck(8e-4), mesh).urto(&["case.i", "-q"]).with(0);
+    assert!(!long.err.contains("function 7"), "{}", long.err);
+}
+
 /// What has been warned of before a restart is not told again, but counts.
 #[test]
 fn a_continued_run_knows_what_it_was_warned_of() {

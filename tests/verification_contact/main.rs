@@ -6,6 +6,7 @@ mod edges;
 mod energy;
 mod erosion;
 mod extremes;
+mod flush;
 mod friction;
 mod press_fit;
 mod rigid;

@@ -98,6 +98,34 @@ fn v30_detonation_of_tnt() {
     between("V-30 TNT", "worst energy balance", run.worst_balance(), 0.0, 1e-9);
 }
 
+/// The same column of squares in the plane, in metres and in millimetres: what an element is wide says how wide the front is, and not the unit
+/// of thickness. Nothing overshoots, although their step is longer than that of cubes.
+#[test]
+fn v30_detonation_in_the_plane() {
+    let peaks = [1.0_f64, 1e3].map(|metre| {
+        // A second and a kilogram stay what they are.
+        let [length, density, stress] = [metre, 1630.0 / metre.powi(3), 1.0 / metre];
+        let mesh = format!(
+            "TITLE\n column\nRECTANGLE, 1, 0., 0., {:?}, {:?}, 200, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, Y, 0.\nNODE SET PLANE, 2, Y, {1:?}\n",
+            0.1 * length,
+            0.5e-3 * length
+        );
+        let deck = format!(
+            "TITLE\n column\nPLANE STRAIN\nTERMINATION TIME, 12.5E-6\nPLOT TIME, 12.5E-6\nPLOT ELEMENT, PRESSURE\nNO DISPLACEMENT, X, 1\n\
+             NO DISPLACEMENT, Y, 2\nMATERIAL, 1, HYDRODYNAMIC, {density:?}\nPRESSURE CUTOFF = 0.\nEND\nEQUATION OF STATE, 1, JWL\nA = {:?}\nB = {:?}\n\
+             R1 = 4.15\nR2 = 0.95\nOMEGA = 0.30\nINITIAL ENERGY = {:?}\nDETONATION VELOCITY = {:?}\nEND\nDETONATION POINT, 0., 0.\n",
+            371.2e9 * stress,
+            3.231e9 * stress,
+            7e9 * stress,
+            6930.0 * length
+        );
+        let run = run(&deck, &recipe(&mesh));
+        run.end().element("PRESSURE").iter().fold(0.0f64, |most, p| most.max(p / stress))
+    });
+    between("V-30 TNT in the plane", "largest pressure [GPa]", peaks[0] / 1e9, 0.93 * 21.0, 21.0);
+    close("V-30 TNT in the plane", "in millimetres over metres", peaks[1], peaks[0], 1e-9);
+}
+
 const COLD_GAS: &str = "MATERIAL, 1, HYDRODYNAMIC, 1.\nPRESSURE CUTOFF = 0.\nEND\nEQUATION OF STATE, 1, IDEAL GAS\n";
 
 /// A cold gas that runs into a wall at speed 1: γ = 1.4 compresses it sixfold, the shock leaves the wall at (γ − 1)/2.

@@ -50,7 +50,7 @@ parameters! {
         pub width: f64 = [
             Property::required(
                 "BURN WIDTH", "w", "-", Range::Positive,
-                "Width of the burn front in lengths of the element it passes.",
+                "Width of the burn front in lengths of the element it passes: cube roots of its volume, in the plane roots of its area.",
             )
             .or(WIDTH),
         ],

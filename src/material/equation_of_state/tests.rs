@@ -198,7 +198,7 @@ fn programmed_burn() {
         points.into_iter().map(|(position, time)| DetonationPoint { position, time }).collect();
     let law = Law::Hydrodynamic(Hydrodynamic { equation: tnt(), tension: 0.0, points: points.into() });
     let frame = crate::material::point::IDENTITY;
-    let start = law.start(&Start { centre: [0.0; 3], volume: 8.0, frame });
+    let start = law.start(&Start { centre: [0.0; 3], length: 2.0, frame });
     let lighting = 1e-4 + 5.0 / 6930.0;
     close("lighting", start[0], lighting, 1e-12);
     let mut point = Point::new(law);

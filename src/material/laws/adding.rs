@@ -28,7 +28,7 @@ fn the_entry_is_all_that_a_deck_needs() {
     assert_eq!(law.entry().name, "DRUCKER PRAGER");
     assert_eq!(law.values(), [30e9, 0.2, 10e6, 1.5]);
     assert_eq!(law.moduli(), Moduli::from_young(30e9, 0.2));
-    let start = Start { centre: [0.0; 3], volume: 1.0, frame: point::IDENTITY };
+    let start = Start { centre: [0.0; 3], length: 1.0, frame: point::IDENTITY };
     assert_eq!(law.state(&law.start(&start), &start.frame), [0.0]);
     assert!(matches!(law, Law::DruckerPrager(DruckerPrager { friction: 1.5, .. })));
 }

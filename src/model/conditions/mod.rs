@@ -3,9 +3,11 @@
 pub(super) mod boundary;
 pub(super) mod function;
 pub(super) mod initial;
+pub(super) mod pulse;
 
 pub use boundary::{
     Direction, Gravity, MotionKind, NoDisplacement, PointMass, PrescribedForce, PrescribedMotion, Pressure, Unknown,
 };
 pub use function::Function;
 pub use initial::InitialVelocity;
+pub use pulse::Pulse;

@@ -5,7 +5,7 @@ use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
 use crate::mesh::{Mesh, counts_from_one};
-use crate::model::Model;
+use crate::model::{Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
@@ -34,6 +34,8 @@ pub struct Facts {
     pub overlap_spots: [Option<Spot>; 2],
     /// How many tied nodes are held although they follow others, and the first of them.
     pub tied_held: (usize, Option<Spot>),
+    /// The shortest pulse of the functions that drive and load.
+    pub pulse: Option<Pulse>,
 }
 
 /// A block of the mesh.
@@ -96,6 +98,7 @@ impl Watch {
             overlap: body.overlap,
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
             tied_held: tied_held(mesh, body),
+            pulse: model.shortest_pulse(),
         };
         Watch { facts, supplied: initial_energy, supplied_before: initial_energy, ..Watch::default() }
     }

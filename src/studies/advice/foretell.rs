@@ -4,7 +4,7 @@ use super::steps;
 use super::walls::thin_blocks;
 use crate::common::numbers::scientific;
 use crate::mesh::{Block, Mesh};
-use crate::model::{ContactMaterials, Model};
+use crate::model::{ContactMaterials, Model, Pulse};
 use crate::solver::Solver;
 
 /// How much farther than the fastest of its nodes at the start something may go: bodies spring back.
@@ -21,6 +21,14 @@ pub fn foretold(mesh: &Mesh, model: &Model, solver: &Solver) -> Vec<String> {
         lines.push(format!("TERMINATION TIME is {:.1e} of the first step: the run is one step", steps));
     }
     lines.extend(steps::words(mesh, solver));
+    if let Some(Pulse { function, start, length }) = model.shortest_pulse() {
+        let seen = length / solver.time_step;
+        if seen < Pulse::STEPS {
+            lines.push(format!(
+                "function {function} goes up or down and comes back within {seen:.2} steps from time {start:.4e} on: steps hardly see it"
+            ));
+        }
+    }
     for index in thin_blocks(mesh) {
         let id = mesh.blocks[index].id;
         lines.push(format!(

@@ -311,7 +311,7 @@ mod tests {
         straight.strain_in(200, path);
         let mut turned = honeycomb();
         let frame = std::array::from_fn(|i| std::array::from_fn(|j| r[(i, j)]));
-        let start = turned.law.start(&Start { centre: [0.0; 3], volume: 1.0, frame });
+        let start = turned.law.start(&Start { centre: [0.0; 3], length: 1.0, frame });
         turned.stored = start.into_iter().map(|x| crate::lanes::Row([x; 8])).collect();
         turned.strain_in(200, flat(r.transpose() * full(path) * r));
         let back = r * full(turned.stress) * r.transpose();

@@ -9,6 +9,7 @@ mod given_back;
 pub mod hourglass;
 mod imbalance;
 mod runaway;
+mod short_pulse;
 
 use contact::{gain, held, overlap_deep, overlap_moved, passes, sunk, tied_held};
 
@@ -39,7 +40,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 15] = [
+pub static SYMPTOMS: [Symptom; 16] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -55,6 +56,7 @@ pub static SYMPTOMS: [Symptom; 15] = [
     debris::SYMPTOM,
     brief::SYMPTOM,
     tied_held::SYMPTOM,
+    short_pulse::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

@@ -40,6 +40,9 @@ const SAME_WAY: f64 = 0.8;
 /// would be nearer to the other by as much.
 const SAME_WAY_AT_DISTANCE: f64 = 0.995;
 
+/// A sum of the area normals around a node that is shorter than this part of a face's area is round-off.
+const NO_NORMAL: f64 = 1e-9;
+
 /// Contact of a node with a face, remembered from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceContact {
@@ -273,11 +276,13 @@ impl NodeFaceCheck<'_> {
         projection.gap < keep(self.faces, face) + tolerated && projection.gap > -self.faces.depth[face as usize]
     }
 
+    /// Cosine between the normal of a point and that of a face that it meets. A free node faces everything, and so does one of a surface,
+    /// whose two sides leave nothing but round-off.
     fn opposition(&self, point: u32, projection: &Projection) -> f64 {
         let normal = self.faces.point_normal(point, self.motion);
         let length = dot(normal, normal).sqrt();
-        // A free node faces everything.
-        if length > 0.0 { dot(normal, projection.normal) / length } else { -1.0 }
+        let size = self.faces.around(point).first().map_or(0.0, |&face| self.faces.size[face as usize]);
+        if length > NO_NORMAL * size * size { dot(normal, projection.normal) / length } else { -1.0 }
     }
 
     /// Puts contacts in order and keeps those that push in directions of their own.
@@ -287,7 +292,10 @@ impl NodeFaceCheck<'_> {
         }
         let number = |contact: &DetectedContact| self.faces.number[contact.face as usize];
         contacts.sort_by(|a, b| {
-            a.time.total_cmp(&b.time).then(a.opposition.total_cmp(&b.opposition)).then(number(a).cmp(&number(b)))
+            // What a point is over holds it rather than the border of the face beside that, where both are too near from the beginning.
+            let [a_beside, b_beside] = [a, b].map(|contact| contact.projection.rounded && contact.time == 0.0);
+            let by_way = a_beside.cmp(&b_beside).then(a.opposition.total_cmp(&b.opposition));
+            a.time.total_cmp(&b.time).then(by_way).then(number(a).cmp(&number(b)))
         });
         let mut kept = 0;
         for i in 0..contacts.len() {

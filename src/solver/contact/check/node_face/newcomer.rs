@@ -31,7 +31,7 @@ impl NodeFaceCheck<'_> {
         }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end));
+        let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights));
         let distance = self.faces.distance(point, face);
         if distance == 0.0 && start.gap >= 0.0 {
             let time = self.first_touch(point, face)?;
@@ -50,13 +50,14 @@ impl NodeFaceCheck<'_> {
             // It is on the other side.
             return None;
         }
-        // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front.
+        // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front. What is as deep in the plane
+        // of a face beside it lies flush against that, however far the face comes down in the step.
         let depth = self.faces.depth[face as usize];
         let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
         let inside = shallow
-            && self.opposition(point, &end) < 0.0
+            && self.opposition(point, &end) < FACING
             && !self.in_front_of_another(point, face)
-            && !self.slides_over(point, face, &end);
+            && !self.slides_over(point, face, &start.weights);
         inside.then(|| contact(0.0, start.gap))
     }
 
@@ -157,11 +158,12 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
-    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way.
-    fn slides_over(&self, point: u32, face: u32, end: &Projection) -> bool {
+    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
+    /// the corners in its foot.
+    fn slides_over(&self, point: u32, face: u32, weights: &[f64; 4]) -> bool {
         let at = self.motion.start(point);
         let corners = self.faces.start(face, self.motion);
-        let foot = projection::foot(&corners, &end.weights);
+        let foot = projection::foot(&corners, weights);
         self.beside(face).any(|other| {
             let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
             let near =

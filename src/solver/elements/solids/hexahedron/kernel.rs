@@ -184,7 +184,10 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         book::<V, K>(work, INTERNAL, state, part);
     }
     let stable_step = match &start {
-        Some(start) => gentle_step(start.growth * V::splat(192.0) * end.inverse, stable_step),
+        Some(start) => {
+            let gentle = gentle_step(start.growth * V::splat(192.0) * end.inverse, stable_step);
+            law.longest_step(settings.time, &state[rows::LAW..], part, gentle)
+        }
         None => stable_step,
     };
     // An element that passed through itself within the step has failed, even if it looks sound at the end.

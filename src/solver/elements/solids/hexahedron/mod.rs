@@ -243,7 +243,14 @@ pub(super) fn weigh(element: &Sample, density: f64, shares: &mut [f64], least: &
 pub(super) fn begin(element: &NewElement) -> ([f64; 4], Start) {
     let corners: [[f64; 3]; 8] = element.corners[..].try_into().unwrap_or_default();
     let axes = own_axes(&corners);
-    (axes, Start { centre: centroid(&corners), volume: hexahedron_volume(&corners), frame: rotation_matrix(&axes) })
+    (
+        axes,
+        Start {
+            centre: centroid(&corners),
+            length: libm::cbrt(hexahedron_volume(&corners)),
+            frame: rotation_matrix(&axes),
+        },
+    )
 }
 
 /// Power of a stress in space that is uniform in an element, with these velocities, where its corners were a step before.

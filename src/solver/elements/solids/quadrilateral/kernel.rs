@@ -169,7 +169,8 @@ fn step<V: Lanes, K: Kernel>(
     if let Some(start) = &start {
         start.finish::<K>(powers, state, part, settings);
         let shorter = if compatible { stable_step * frequency.shorter() } else { stable_step };
-        stable_step = gentle_step(start.growth / end.volume, shorter);
+        let gentle = gentle_step(start.growth / end.volume, shorter);
+        stable_step = law.longest_step(settings.time, &state[rows::LAW..], part, gentle);
     }
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
     let least = middle.volume.min(end.volume).min(end.operator.area);

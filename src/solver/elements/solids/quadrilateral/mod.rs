@@ -137,7 +137,7 @@ impl Formulation for Quadrilateral {
         let frame = own_axis(&corners);
         let shares = self.section.mass_shares(&nodes, &corners);
         unstressed(frame, &shares.map(|share| share * (element.mass + element.added)), own);
-        Start { centre: centroid(&corners), volume: self.whole(&corners), frame: matrix(frame) }
+        Start { centre: centroid(&corners), length: plane::area(&corners).sqrt(), frame: matrix(frame) }
     }
 
     fn run(&self, pass: Pass, law: &Law, density: f64, settings: &PassSettings) -> PassOutcome {

@@ -209,11 +209,15 @@ impl Formulation for Beam {
         density * self.section.area * length
     }
 
-    fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start {
+    fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
         let along = subtract(element.corners[1], element.corners[0]);
         self.rest(along, own);
         let y = self.y_axis(along);
-        Start { centre: centroid(&element.corners), volume: element.mass / density, frame: columns(axes(&along, &y).e) }
+        Start {
+            centre: centroid(&element.corners),
+            length: dot(along, along).sqrt(),
+            frame: columns(axes(&along, &y).e),
+        }
     }
 
     fn run(&self, pass: Pass, law: &Law, _: f64, settings: &PassSettings) -> PassOutcome {

@@ -265,8 +265,7 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         let thickness = element.mass / (density * geometry.area());
         unstressed::<S, C, R>(&geometry, thickness, own);
         let (turn, _) = geometry.turn(&geometry.reference());
-        let volume = element.mass / density;
-        Start { centre: centroid(&corners), volume, frame: geometry.material_axes(turn) }
+        Start { centre: centroid(&corners), length: geometry.area().sqrt(), frame: geometry.material_axes(turn) }
     }
 
     fn run(&self, pass: Pass, law: &Law, _: f64, settings: &PassSettings) -> PassOutcome {

@@ -95,7 +95,7 @@ impl Formulation for Truss {
         let length = dot(along, along).sqrt();
         let volume = element.mass / density;
         (own[rows::LENGTH], own[rows::AREA]) = (length, volume / length);
-        Start { centre: centroid(&element.corners), volume, frame: frame_along(along) }
+        Start { centre: centroid(&element.corners), length, frame: frame_along(along) }
     }
 
     fn run(&self, pass: Pass, law: &Law, _: f64, settings: &PassSettings) -> PassOutcome {
