@@ -19,6 +19,8 @@ pub struct Files {
     pub restart: PathBuf,
     /// Its appearance asks the run to stop, `.shutdown`.
     pub shutdown: PathBuf,
+    /// Locked while a run writes the others, `.lock`; it goes with the run.
+    pub lock: PathBuf,
 }
 
 /// `base` with a suffix appended; what looks like a suffix of `base` stays.
@@ -37,6 +39,7 @@ impl Files {
             history: with_suffix(base, ".h"),
             restart: with_suffix(base, ".rsout"),
             shutdown: with_suffix(base, ".shutdown"),
+            lock: with_suffix(base, ".lock"),
         }
     }
 }
@@ -48,7 +51,7 @@ impl Files {
         let pieces = (0..pieces).map(|rank| piece_path(&self.plot, pieces, rank));
         let results = pieces.chain([self.plot.clone(), self.history.clone()]);
         let results = results.flat_map(|path| names_in_writing(&path));
-        results.chain([self.print.clone(), self.shutdown.clone()]).collect()
+        results.chain([self.print.clone(), self.shutdown.clone(), self.lock.clone()]).collect()
     }
 
     /// Results of earlier runs of this name that a run which begins anew on so many ranks would leave beside its own, where they would

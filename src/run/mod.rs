@@ -3,6 +3,7 @@
 mod endless;
 mod files;
 mod identity;
+mod lock;
 mod memory;
 mod parts;
 mod plots;
@@ -14,6 +15,7 @@ mod writer;
 pub use endless::Endless;
 pub use files::{Files, keep_old_print_files, last_part_of, part_of};
 pub use identity::{differences, other_form, told};
+pub use lock::Lock;
 pub use memory::processor;
 pub use parts::Parts;
 pub use report::{Display, Quiet};
