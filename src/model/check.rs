@@ -1,6 +1,6 @@
 //! A problem against its mesh: everything that the deck names exists, and every block has a material.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     Analysis, Contact, ContactMaterials, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
@@ -29,6 +29,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         unused_factors(card, mesh, &mut found);
         sides_without_faces(card, mesh, &mut found);
+        both_faces_of_shells(card, mesh, &mut found);
         elements_of_others(card, mesh, &mut found);
     }
     blocks_without_material(problem, mesh, &mut found);
@@ -266,6 +267,32 @@ fn sides_without_faces(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
         report
             .at(card.place(field), "this acts on faces, and not on these")
             .help("sides 1 and 2 of a shell are its faces; PRESCRIBED FORCE loads the nodes of an edge"),
+    );
+}
+
+/// Warns of side sets that hold both faces of shells, as those have that are picked by where their nodes are.
+fn both_faces_of_shells(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let outcome = match card.name.as_str() {
+        "PRESSURE" => "it pushes on both faces, which cancels",
+        "SILENT BC" => "its dashpots act on both faces, and count twice",
+        _ => return,
+    };
+    let Some(set) = card.maybe_integer("side_set").and_then(|id| mesh.side_set(id)) else { return };
+    let is_shell = |element: u32| mesh.shape_of(element).is_some_and(Shape::is_surface);
+    let of = |wanted: u8| {
+        let elements = set.sides.iter().filter(move |&&(element, side)| side == wanted && is_shell(element));
+        elements.map(|(element, _)| *element).collect::<BTreeSet<u32>>()
+    };
+    let (top, bottom) = (of(0), of(1));
+    let mut twice = top.intersection(&bottom).peekable();
+    let Some(&&first) = twice.peek() else { return };
+    let (count, number) = (twice.count(), mesh.element_ids[first as usize]);
+    let which = if count == 1 { "a shell".to_owned() } else { format!("{count} shells") };
+    let message = format!("{}: side set {} holds both faces of {which}, element {number} first", card.name, set.id);
+    found.push(
+        Diagnostic::warning(message)
+            .at(card.place("side_set"), outcome)
+            .help("sides 1 and 2 of a shell are its faces: name one of them; in a recipe SIDE SET NORMAL does"),
     );
 }
 

@@ -388,6 +388,26 @@ fn a_pressure_on_edges_of_shells_is_told_to_do_nothing() {
     assert!(refused.contains("all 2 sides of side set 100 are edges"), "{refused}");
 }
 
+/// What is picked by where its nodes are holds both faces of a shell, on which pressures cancel.
+#[test]
+fn a_pressure_on_both_faces_of_shells_is_told_to_cancel() {
+    let warnings = |set: &str, load: &str| {
+        let sheet = "SHEET, 1, 0., 0., 0., 1., 1., 0., 2, 1\n";
+        let mesh = urto::mesher::make(&format!("{sheet}SIDE SET {set}\n"), "t.mesh", 1).expect("a mesh");
+        let deck = format!(
+            "TERMINATION TIME, 1.\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nSHELL THICKNESS, 1, 0.1\nPRESSURE, 100, 1\n\
+             {load}MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n"
+        );
+        let problem = examine(Source::new("t.i", deck), Some(&mesh)).expect("a problem");
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    let told = |command| format!("{command}: side set 100 holds both faces of 2 shells, element 1 first");
+    assert_eq!(warnings("NORMAL, 100, 0., 0., 1.", ""), Vec::<String>::new());
+    assert_eq!(warnings("NORMAL, 100, 0., 0., -1.", ""), Vec::<String>::new());
+    assert_eq!(warnings("PLANE, 100, Z, 0.", ""), [told("PRESSURE")]);
+    assert_eq!(warnings("BOX, 100, , , , , , 1.", "SILENT BC, 100\n"), [told("PRESSURE"), told("SILENT BC")]);
+}
+
 #[test]
 fn all_stands_for_every_block_of_contact() {
     let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
