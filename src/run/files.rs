@@ -73,6 +73,12 @@ impl Files {
         states_beside(&self.restart).into_iter().chain(unfinished).chain([self.restart.clone()]).collect()
     }
 
+    /// Whether the run has histories, in its first part or in one that went on.
+    pub fn has_histories(&self) -> bool {
+        let there_is = |number: &u32| *number == 1 || part_of(&self.plot, *number).exists();
+        (1..=9999).take_while(there_is).any(|number| part_of(&self.history, number).exists())
+    }
+
     /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
     /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
     pub fn continuing(base: &Path) -> Files {
