@@ -98,6 +98,17 @@ pub fn part_of(first: &Path, number: u32) -> PathBuf {
     if number == 1 { first.to_owned() } else { with_suffix(first, &format!("-s{number:04}")) }
 }
 
+/// The first of them by the name of any: `run.e` of `run.e-s0002`; other names as they are.
+pub fn first_part_of(named: &Path) -> PathBuf {
+    let parted = named.to_str().and_then(|name| name.rsplit_once("-s"));
+    let is_number = |number: &str| number.len() == 4 && number.bytes().all(|digit| digit.is_ascii_digit());
+    let of_run = |first: &Path| ["e", "h"].iter().any(|suffix| first.extension().is_some_and(|own| own == *suffix));
+    match parted {
+        Some((first, number)) if is_number(number) && of_run(Path::new(first)) => PathBuf::from(first),
+        _ => named.to_owned(),
+    }
+}
+
 /// The last of them that is there, whole; `first` where none follows.
 pub fn last_part_of(first: &Path) -> PathBuf {
     let parts = (2..=9999).map(|number| part_of(first, number)).take_while(|path| path.is_file());
@@ -121,4 +132,19 @@ pub fn keep_old_print_files(print: &Path) -> std::io::Result<()> {
     }
     let free = (1..).map(|n| with_suffix(print, &format!(".{n}"))).find(|path| !path.exists());
     free.map_or(Ok(()), |path| std::fs::rename(print, path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_part_tells_the_first() {
+        for (named, first) in
+            [("a/m.e-s0002", "a/m.e"), ("m.h-s0013", "m.h"), ("m.e", "m.e"), ("m-s0002", "m-s0002"), ("m.e-s2", "m.e-s2")]
+        {
+            assert_eq!(first_part_of(Path::new(named)), Path::new(first));
+        }
+        assert_eq!(first_part_of(&part_of(Path::new("m.e"), 7)), Path::new("m.e"));
+    }
 }

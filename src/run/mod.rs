@@ -13,7 +13,7 @@ mod table;
 mod writer;
 
 pub use endless::Endless;
-pub use files::{Files, keep_old_print_files, last_part_of, part_of};
+pub use files::{Files, first_part_of, keep_old_print_files, last_part_of, part_of};
 pub use identity::{differences, other_form, told};
 pub use lock::Lock;
 pub use memory::processor;
