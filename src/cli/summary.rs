@@ -196,7 +196,9 @@ fn ending(outcome: Result<&Ended, &RunError>) -> (&'static str, Option<String>) 
 fn reached(outcome: Result<&Ended, &RunError>) -> (Option<u64>, Option<f64>) {
     match outcome {
         Ok(Ended { steps: step, time, .. })
-        | Err(RunError::Stopped { step, time, .. } | RunError::Underway { step, time, .. }) => (Some(*step), Some(*time)),
+        | Err(RunError::Stopped { step, time, .. } | RunError::Underway { step, time, .. }) => {
+            (Some(*step), Some(*time))
+        }
         Err(_) => (None, None),
     }
 }

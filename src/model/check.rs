@@ -10,7 +10,11 @@ use super::{
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::{Mesh, Shape, locate::locate},
+    mesh::{
+        Mesh, Shape,
+        check::{Doubled, doubled},
+        locate::locate,
+    },
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -52,6 +56,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
         contact_there(card, problem, mesh, &mut found);
     }
     choices_without_effect(problem, mesh, &mut found);
+    elements_twice(mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
@@ -85,6 +90,20 @@ fn choices_without_effect(problem: &Problem, mesh: &Mesh, found: &mut Diagnostic
             found.push(Diagnostic::warning(message).at(card.record, "this is for hexahedra"));
         }
     }
+}
+
+/// Warns of solids and shells that are in the mesh twice, as a part is that was exported or copied twice and then joined.
+fn elements_twice(mesh: &Mesh, found: &mut Diagnostics) {
+    let Some(Doubled { count, first }) = doubled(mesh) else { return };
+    let [one, other] = first.map(|place| {
+        let block = mesh.elements().nth(place as usize).map_or(0, |(block, _)| mesh.blocks[block].id);
+        format!("element {} of block {block}", mesh.element_ids[place as usize])
+    });
+    let which = if count == 1 { "1 element has".to_owned() } else { format!("{count} elements have") };
+    found.push(
+        Diagnostic::warning(format!("{which} the same nodes as another one: {other} those of {one}"))
+            .help("mass and stiffness are there twice; take one of the two out of the mesh, unless both are meant"),
+    );
 }
 
 /// Whether deck and mesh have the same number of dimensions, and no body of revolution crosses its axis; reports it.

@@ -140,9 +140,13 @@ mod tests {
 
     #[test]
     fn any_part_tells_the_first() {
-        for (named, first) in
-            [("a/m.e-s0002", "a/m.e"), ("m.h-s0013", "m.h"), ("m.e", "m.e"), ("m-s0002", "m-s0002"), ("m.e-s2", "m.e-s2")]
-        {
+        for (named, first) in [
+            ("a/m.e-s0002", "a/m.e"),
+            ("m.h-s0013", "m.h"),
+            ("m.e", "m.e"),
+            ("m-s0002", "m-s0002"),
+            ("m.e-s2", "m.e-s2"),
+        ] {
             assert_eq!(first_part_of(Path::new(named)), Path::new(first));
         }
         assert_eq!(first_part_of(&part_of(Path::new("m.e"), 7)), Path::new("m.e"));

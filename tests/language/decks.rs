@@ -388,6 +388,23 @@ fn a_pressure_on_edges_of_shells_is_told_to_do_nothing() {
     assert!(refused.contains("all 2 sides of side set 100 are edges"), "{refused}");
 }
 
+/// A part that is in the mesh twice has its mass twice.
+#[test]
+fn elements_that_are_there_twice_are_told() {
+    let told = |mesh: &Mesh| {
+        let text = format!("{LEAST}MATERIAL, 2, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n");
+        let problem = examine(Source::new("t.i", text), Some(mesh)).expect("a problem");
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    let mut mesh = two_blocks();
+    assert_eq!(told(&mesh), Vec::<String>::new());
+    let first = mesh.blocks[0].nodes[..8].to_vec();
+    mesh.blocks[1].nodes.extend(first);
+    mesh.element_ids.push(17);
+    let words = "1 element has the same nodes as another one: element 17 of block 2 those of element 1 of block 1";
+    assert_eq!(told(&mesh), [words]);
+}
+
 /// What is picked by where its nodes are holds both faces of a shell, on which pressures cancel.
 #[test]
 fn a_pressure_on_both_faces_of_shells_is_told_to_cancel() {
