@@ -322,8 +322,9 @@ fn behind_the_plane(plane: &RigidSurface, card: &Card, mesh: &Mesh, found: &mut 
         let x = mesh.coordinates[node as usize];
         (0..3).map(|i| (x[i] - plane.point[i]) * plane.normal[i]).sum()
     };
-    let extent = nodes.iter().map(|&node| gap(node).abs()).fold(0.0, f64::max)
-        + (0..3).map(|i| plane.point[i].abs()).fold(0.0, f64::max);
+    // Round-off goes with the size of the coordinates, not of the gaps: they may all be next to nothing.
+    let positions = nodes.iter().map(|&node| mesh.coordinates[node as usize]).chain([plane.point]);
+    let extent = positions.flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let depths: Vec<f64> = nodes.iter().map(|&node| -gap(node)).filter(|&depth| depth > 1e-9 * extent).collect();
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     let turned = "the normal must point from the plane to the body; check its sign, and the point";

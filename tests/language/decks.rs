@@ -388,6 +388,26 @@ fn a_pressure_on_edges_of_shells_is_told_to_do_nothing() {
     assert!(refused.contains("all 2 sides of side set 100 are edges"), "{refused}");
 }
 
+/// Nodes in an oblique plane are off it by round-off, which is no depth; a real one is told.
+#[test]
+fn nodes_in_an_oblique_plane_are_not_behind_it() {
+    for degrees in [11.0_f64, 23.0, 37.0, 52.0, 71.0] {
+        let recipe = format!(
+            "BOX, 1, 0., 0., 0., 0.3, 0.7, 0.2, 3, 4, 2\nROTATE, 1, Y, {degrees}\nROTATE, 1, X, {degrees}\nSIDE SET FACE, 7, 1, BOTTOM\n"
+        );
+        let mesh = urto::mesher::make(&recipe, "t.mesh", 1).expect("a mesh");
+        let (s, c) = degrees.to_radians().sin_cos();
+        let told = |depth: f64| {
+            let text = format!("{LEAST}RIGID SURFACE, 7, 0., 0., {depth:e}, {s:e}, {:e}, {:e}\n", -s * c, c * c);
+            let problem = examine(Source::new("t.i", text), Some(&mesh)).expect("a problem");
+            problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(told(0.0), Vec::<String>::new(), "{degrees}");
+        let behind = told(1e-6);
+        assert!(behind.len() == 1 && behind[0].contains("20 of the 20 nodes of side set 7 begin behind"), "{behind:?}");
+    }
+}
+
 /// A part that is in the mesh twice has its mass twice.
 #[test]
 fn elements_that_are_there_twice_are_told() {
