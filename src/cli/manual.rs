@@ -143,6 +143,12 @@ per HISTORY TIME (else OUTPUT TIME) and global variables such as SIGZZ_1 and ACC
 .B BASE.shutdown
 When this file appears, the run writes a last state and leaves. It is removed when it was obeyed, and one
 left from before at the start.
+.TP
+.B BASE.lock
+An empty file, locked while a run writes the others and removed at its end. A second run of the same base is refused meanwhile:
+wait, or name another base with
+.BR -o .
+A run that was killed may leave the file, but not the lock; it is in nobody's way.
 .SH "EXIT STATUS"
 .TP
 .B 0

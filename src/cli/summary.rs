@@ -25,8 +25,9 @@ struct Summary {
     reason: Option<String>,
     exit_code: u8,
     begun: String,
-    steps: u64,
-    time: f64,
+    /// Null of a run that failed before its first step.
+    steps: Option<u64>,
+    time: Option<f64>,
     termination_time: f64,
     nodes: usize,
     elements: usize,
@@ -191,19 +192,21 @@ fn ending(outcome: Result<&Ended, &RunError>) -> (&'static str, Option<String>) 
     }
 }
 
-/// Steps taken and time reached.
-fn reached(outcome: Result<&Ended, &RunError>) -> (u64, f64) {
+/// Steps taken and time reached, where they are known.
+fn reached(outcome: Result<&Ended, &RunError>) -> (Option<u64>, Option<f64>) {
     match outcome {
-        Ok(ended) => (ended.steps, ended.time),
-        Err(RunError::Stopped { step, time, .. }) => (*step, *time),
-        Err(_) => (0, 0.0),
+        Ok(Ended { steps: step, time, .. })
+        | Err(RunError::Stopped { step, time, .. } | RunError::Underway { step, time, .. }) => {
+            (Some(*step), Some(*time))
+        }
+        Err(_) => (None, None),
     }
 }
 
 fn warnings(prepared: &Prepared, outcome: Result<&Ended, &RunError>) -> Vec<Warning> {
     let findings: &[Finding] = match outcome {
         Ok(ended) => &ended.findings,
-        Err(RunError::Stopped { findings, .. }) => findings,
+        Err(RunError::Stopped { findings, .. } | RunError::Underway { findings, .. }) => findings,
         Err(_) => &[],
     };
     let read = prepared.given.warning_messages().map(|label| Warning { label, step: None, time: None, words: None });

@@ -1,7 +1,7 @@
 //! Is a mesh fit to compute with? Finds what an analyst must mend, in the analyst's numbers.
 
-use super::Mesh;
 use super::hexahedron::{self, Form};
+use super::{Mesh, Shape};
 
 pub use super::hexahedron::hexahedron_volume;
 
@@ -84,6 +84,59 @@ pub fn unreferenced_nodes(mesh: &Mesh) -> Vec<u32> {
         nodes.iter().for_each(|&n| used[n as usize] = true);
     }
     (0u32..).zip(used).filter(|&(_, used)| !used).map(|(node, _)| node).collect()
+}
+
+/// Elements that have the nodes of another one of their shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Doubled {
+    /// How many there are beside the first of each.
+    pub count: usize,
+    /// Two with the same nodes, by their places: the first two of the mesh.
+    pub first: [u32; 2],
+}
+
+/// Solids and shells that lie on others with the same nodes, in any blocks; the order of the nodes does not count. Bars on the
+/// same nodes may be meant. Elements are put together by their lowest node, so that each is compared with a handful.
+pub fn doubled(mesh: &Mesh) -> Option<Doubled> {
+    let wanted = || mesh.shaped().zip(0u32..).filter(|((shape, _), _)| *shape != Shape::Bar);
+    let lowest = |nodes: &[u32]| nodes.iter().copied().min().unwrap_or(0) as usize;
+    // Where the elements of each lowest node end in the list of all, counted backwards while it is filled.
+    let mut ends = vec![0u32; mesh.coordinates.len() + 1];
+    wanted().for_each(|((_, nodes), _)| ends[lowest(nodes)] += 1);
+    let mut sum = 0;
+    for end in &mut ends {
+        sum += *end;
+        *end = sum;
+    }
+    let nothing: &[u32] = &[];
+    let mut list = vec![(Shape::Bar, nothing, 0u32); sum as usize];
+    for ((shape, nodes), element) in wanted() {
+        let end = &mut ends[lowest(nodes)];
+        *end -= 1;
+        list[*end as usize] = (shape, nodes, element);
+    }
+    let mut doubled: Option<Doubled> = None;
+    // What were ends are beginnings now.
+    for near in ends.windows(2).map(|ends| &list[ends[0] as usize..ends[1] as usize]).filter(|near| near.len() > 1) {
+        for first in same(near) {
+            let so_far = doubled.unwrap_or(Doubled { count: 0, first });
+            doubled = Some(Doubled { count: so_far.count + 1, first: so_far.first.min(first) });
+        }
+    }
+    doubled
+}
+
+/// Pairs of elements that follow each other in the order of the mesh and have the same shape and nodes.
+fn same(near: &[(Shape, &[u32], u32)]) -> Vec<[u32; 2]> {
+    let sorted = |&(shape, nodes, element): &(Shape, &[u32], u32)| {
+        let mut nodes = nodes.to_vec();
+        nodes.sort_unstable();
+        (shape, nodes, element)
+    };
+    let mut keyed: Vec<_> = near.iter().map(sorted).collect();
+    keyed.sort_unstable();
+    let pairs = keyed.windows(2).filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 == pair[1].1);
+    pairs.map(|pair| [pair[0].2, pair[1].2]).collect()
 }
 
 fn coordinates(mesh: &Mesh, problems: &mut Problems) {
@@ -244,6 +297,23 @@ mod tests {
     #[test]
     fn nodes_without_elements_are_found() {
         assert_eq!(unreferenced_nodes(&column()), [28]);
+    }
+
+    #[test]
+    fn elements_on_the_nodes_of_others_are_found() {
+        let of = |shape, id, nodes: &[u32]| Block { id, shape, nodes: nodes.to_vec(), ..Block::default() };
+        let column = column();
+        assert_eq!(doubled(&column), None);
+        // Shells and bars on the nodes of solids are none; nor are bars on each other, nor triangles on half a quadrilateral.
+        let around = |more: &[Block]| Mesh { blocks: [&column.blocks[..], more].concat(), ..column.clone() };
+        let shell = of(Shape::Quadrilateral, 5, &[0, 1, 2, 3, 4, 5, 6, 7]);
+        let others = [shell.clone(), of(Shape::Bar, 6, &[0, 1, 1, 0]), of(Shape::Triangle, 7, &[0, 1, 2])];
+        assert_eq!(doubled(&around(&others)), None);
+        // In another block and another order.
+        let again = [shell, of(Shape::Quadrilateral, 8, &[7, 4, 5, 6, 1, 2, 3, 0, 1, 0, 3, 2])];
+        assert_eq!(doubled(&around(&again)), Some(Doubled { count: 3, first: [6, 9] }));
+        let twice = Block { id: 9, ..column.blocks[0].clone() };
+        assert_eq!(doubled(&around(&[twice])), Some(Doubled { count: 6, first: [0, 6] }));
     }
 
     #[test]

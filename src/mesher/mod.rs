@@ -101,6 +101,9 @@ fn build(recipe: &Recipe, refine: usize, diagnostics: &mut Diagnostics) -> Optio
     let mut assembled = assembly.finish(&recipe.title);
     divide(recipe, &mut assembled, diagnostics);
     perturb(recipe, &mut assembled, diagnostics);
+    if !diagnostics.has_errors() {
+        geometry(&assembled.mesh, diagnostics);
+    }
     sets::fill(&mut assembled, &recipe.node_sets, &recipe.side_sets, tolerance, diagnostics);
     assembled.mesh.qa = vec![["urto mesh", env!("CARGO_PKG_VERSION"), "", ""].map(str::to_string)];
     Some(assembled.mesh)
@@ -192,6 +195,18 @@ fn perturb(recipe: &Recipe, assembled: &mut Assembled, diagnostics: &mut Diagnos
                     .at(perturb.place.span, "a smaller amplitude is needed here"),
             );
         }
+    }
+}
+
+/// What would be refused of a file of this mesh is refused of the recipe, which a run may make into a mesh without a file.
+fn geometry(mesh: &Mesh, diagnostics: &mut Diagnostics) {
+    let problems = check::geometry(mesh);
+    for problem in problems.list() {
+        let told = Diagnostic::error(problem.what.clone());
+        diagnostics.push(if problem.help.is_empty() { told } else { told.help(problem.help.clone()) });
+    }
+    if problems.unlisted() > 0 {
+        diagnostics.push(Diagnostic::error(format!("and {} more", problems.unlisted())));
     }
 }
 

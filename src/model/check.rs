@@ -1,6 +1,6 @@
 //! A problem against its mesh: everything that the deck names exists, and every block has a material.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     Analysis, Contact, ContactMaterials, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
@@ -10,7 +10,11 @@ use super::{
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
-    mesh::{Mesh, Shape, locate::locate},
+    mesh::{
+        Mesh, Shape,
+        check::{Doubled, doubled},
+        locate::locate,
+    },
 };
 
 /// Holds a problem against a mesh. Reports node sets, side sets and blocks that the mesh does not have, empty ones,
@@ -29,6 +33,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         unused_factors(card, mesh, &mut found);
         sides_without_faces(card, mesh, &mut found);
+        both_faces_of_shells(card, mesh, &mut found);
         elements_of_others(card, mesh, &mut found);
     }
     blocks_without_material(problem, mesh, &mut found);
@@ -51,6 +56,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
         contact_there(card, problem, mesh, &mut found);
     }
     choices_without_effect(problem, mesh, &mut found);
+    elements_twice(mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found
@@ -84,6 +90,20 @@ fn choices_without_effect(problem: &Problem, mesh: &Mesh, found: &mut Diagnostic
             found.push(Diagnostic::warning(message).at(card.record, "this is for hexahedra"));
         }
     }
+}
+
+/// Warns of solids and shells that are in the mesh twice, as a part is that was exported or copied twice and then joined.
+fn elements_twice(mesh: &Mesh, found: &mut Diagnostics) {
+    let Some(Doubled { count, first }) = doubled(mesh) else { return };
+    let [one, other] = first.map(|place| {
+        let block = mesh.elements().nth(place as usize).map_or(0, |(block, _)| mesh.blocks[block].id);
+        format!("element {} of block {block}", mesh.element_ids[place as usize])
+    });
+    let which = if count == 1 { "1 element has".to_owned() } else { format!("{count} elements have") };
+    found.push(
+        Diagnostic::warning(format!("{which} the same nodes as another one: {other} those of {one}"))
+            .help("mass and stiffness are there twice; take one of the two out of the mesh, unless both are meant"),
+    );
 }
 
 /// Whether deck and mesh have the same number of dimensions, and no body of revolution crosses its axis; reports it.
@@ -269,6 +289,32 @@ fn sides_without_faces(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     );
 }
 
+/// Warns of side sets that hold both faces of shells, as those have that are picked by where their nodes are.
+fn both_faces_of_shells(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let outcome = match card.name.as_str() {
+        "PRESSURE" => "it pushes on both faces, which cancels",
+        "SILENT BC" => "its dashpots act on both faces, and count twice",
+        _ => return,
+    };
+    let Some(set) = card.maybe_integer("side_set").and_then(|id| mesh.side_set(id)) else { return };
+    let is_shell = |element: u32| mesh.shape_of(element).is_some_and(Shape::is_surface);
+    let of = |wanted: u8| {
+        let elements = set.sides.iter().filter(move |&&(element, side)| side == wanted && is_shell(element));
+        elements.map(|(element, _)| *element).collect::<BTreeSet<u32>>()
+    };
+    let (top, bottom) = (of(0), of(1));
+    let mut twice = top.intersection(&bottom).peekable();
+    let Some(&&first) = twice.peek() else { return };
+    let (count, number) = (twice.count(), mesh.element_ids[first as usize]);
+    let which = if count == 1 { "a shell".to_owned() } else { format!("{count} shells") };
+    let message = format!("{}: side set {} holds both faces of {which}, element {number} first", card.name, set.id);
+    found.push(
+        Diagnostic::warning(message)
+            .at(card.place("side_set"), outcome)
+            .help("sides 1 and 2 of a shell are its faces: name one of them; in a recipe SIDE SET NORMAL does"),
+    );
+}
+
 /// Warns of a rigid surface that does not have its body in front of it.
 fn behind_the_plane(plane: &RigidSurface, card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let nodes = mesh.side_set_nodes(plane.side_set);
@@ -276,8 +322,9 @@ fn behind_the_plane(plane: &RigidSurface, card: &Card, mesh: &Mesh, found: &mut 
         let x = mesh.coordinates[node as usize];
         (0..3).map(|i| (x[i] - plane.point[i]) * plane.normal[i]).sum()
     };
-    let extent = nodes.iter().map(|&node| gap(node).abs()).fold(0.0, f64::max)
-        + (0..3).map(|i| plane.point[i].abs()).fold(0.0, f64::max);
+    // Round-off goes with the size of the coordinates, not of the gaps: they may all be next to nothing.
+    let positions = nodes.iter().map(|&node| mesh.coordinates[node as usize]).chain([plane.point]);
+    let extent = positions.flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let depths: Vec<f64> = nodes.iter().map(|&node| -gap(node)).filter(|&depth| depth > 1e-9 * extent).collect();
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     let turned = "the normal must point from the plane to the body; check its sign, and the point";

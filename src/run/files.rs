@@ -19,6 +19,8 @@ pub struct Files {
     pub restart: PathBuf,
     /// Its appearance asks the run to stop, `.shutdown`.
     pub shutdown: PathBuf,
+    /// Locked while a run writes the others, `.lock`; it goes with the run.
+    pub lock: PathBuf,
 }
 
 /// `base` with a suffix appended; what looks like a suffix of `base` stays.
@@ -37,6 +39,7 @@ impl Files {
             history: with_suffix(base, ".h"),
             restart: with_suffix(base, ".rsout"),
             shutdown: with_suffix(base, ".shutdown"),
+            lock: with_suffix(base, ".lock"),
         }
     }
 }
@@ -48,7 +51,7 @@ impl Files {
         let pieces = (0..pieces).map(|rank| piece_path(&self.plot, pieces, rank));
         let results = pieces.chain([self.plot.clone(), self.history.clone()]);
         let results = results.flat_map(|path| names_in_writing(&path));
-        results.chain([self.print.clone(), self.shutdown.clone()]).collect()
+        results.chain([self.print.clone(), self.shutdown.clone(), self.lock.clone()]).collect()
     }
 
     /// Results of earlier runs of this name that a run which begins anew on so many ranks would leave beside its own, where they would
@@ -70,6 +73,12 @@ impl Files {
         states_beside(&self.restart).into_iter().chain(unfinished).chain([self.restart.clone()]).collect()
     }
 
+    /// Whether the run has histories, in its first part or in one that went on.
+    pub fn has_histories(&self) -> bool {
+        let there_is = |number: &u32| *number == 1 || part_of(&self.plot, *number).exists();
+        (1..=9999).take_while(there_is).any(|number| part_of(&self.history, number).exists())
+    }
+
     /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
     /// alone: those of the continued run come into `base.e-s0002` and so on, which viewers string together.
     pub fn continuing(base: &Path) -> Files {
@@ -87,6 +96,17 @@ impl Files {
 /// The name of what the `number`-th start of the program writes into: `run.e`, `run.e-s0002`, ...
 pub fn part_of(first: &Path, number: u32) -> PathBuf {
     if number == 1 { first.to_owned() } else { with_suffix(first, &format!("-s{number:04}")) }
+}
+
+/// The first of them by the name of any: `run.e` of `run.e-s0002`; other names as they are.
+pub fn first_part_of(named: &Path) -> PathBuf {
+    let parted = named.to_str().and_then(|name| name.rsplit_once("-s"));
+    let is_number = |number: &str| number.len() == 4 && number.bytes().all(|digit| digit.is_ascii_digit());
+    let of_run = |first: &Path| ["e", "h"].iter().any(|suffix| first.extension().is_some_and(|own| own == *suffix));
+    match parted {
+        Some((first, number)) if is_number(number) && of_run(Path::new(first)) => PathBuf::from(first),
+        _ => named.to_owned(),
+    }
 }
 
 /// The last of them that is there, whole; `first` where none follows.
@@ -112,4 +132,23 @@ pub fn keep_old_print_files(print: &Path) -> std::io::Result<()> {
     }
     let free = (1..).map(|n| with_suffix(print, &format!(".{n}"))).find(|path| !path.exists());
     free.map_or(Ok(()), |path| std::fs::rename(print, path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_part_tells_the_first() {
+        for (named, first) in [
+            ("a/m.e-s0002", "a/m.e"),
+            ("m.h-s0013", "m.h"),
+            ("m.e", "m.e"),
+            ("m-s0002", "m-s0002"),
+            ("m.e-s2", "m.e-s2"),
+        ] {
+            assert_eq!(first_part_of(Path::new(named)), Path::new(first));
+        }
+        assert_eq!(first_part_of(&part_of(Path::new("m.e"), 7)), Path::new("m.e"));
+    }
 }

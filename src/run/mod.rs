@@ -3,6 +3,7 @@
 mod endless;
 mod files;
 mod identity;
+mod lock;
 mod memory;
 mod parts;
 mod plots;
@@ -12,8 +13,9 @@ mod table;
 mod writer;
 
 pub use endless::Endless;
-pub use files::{Files, keep_old_print_files, last_part_of, part_of};
+pub use files::{Files, first_part_of, keep_old_print_files, last_part_of, part_of};
 pub use identity::{differences, other_form, told};
+pub use lock::Lock;
 pub use memory::processor;
 pub use parts::Parts;
 pub use report::{Display, Quiet};
@@ -128,6 +130,33 @@ pub enum RunError {
     /// Another rank could not write; all leave with it, and with its words.
     #[error("{0}")]
     Elsewhere(String),
+    /// One of these, once the steps had begun.
+    #[error("{source}")]
+    Underway {
+        /// Step that was reached.
+        step: u64,
+        /// Time that was reached.
+        time: f64,
+        /// Cause.
+        source: Box<RunError>,
+        /// What the run had found out about itself.
+        findings: Vec<Finding>,
+    },
+}
+
+impl RunError {
+    /// The same with how far the run had come, where that is not told already.
+    fn at(self, solver: &Solver) -> RunError {
+        match self {
+            told @ (RunError::Stopped { .. } | RunError::Underway { .. } | RunError::Endless(_)) => told,
+            other => RunError::Underway {
+                step: solver.step,
+                time: solver.time,
+                source: Box::new(other),
+                findings: solver.findings().to_vec(),
+            },
+        }
+    }
 }
 
 /// Runs one rank to the end. Files and display are rank 0's business, but for pieces of the plot states.
@@ -146,9 +175,9 @@ pub fn run(job: &Job, comm: &mut dyn Communicator, display: &mut dyn Display) ->
     // What only setting up asks for makes room for the steps.
     drop((body, share));
     let begun = Instant::now();
-    let outcome = steps(job, &mut solver, &mut writer, comm, display);
+    let outcome = steps(job, &mut solver, &mut writer, comm, display).map_err(|error| error.at(&solver));
     display.finish();
-    writer.finish(job, &mut solver, comm, begun, outcome)
+    writer.finish(job, &mut solver, comm, begun, outcome).map_err(|error| error.at(&solver))
 }
 
 /// The step loop. Ends with what stopped the run, or with the reason why it cannot go on.

@@ -1,7 +1,7 @@
 //! Input that is not what it seems, and outputs that cannot be what they should: every one is answered with a message and
 //! an exit code, soon, and no file is lost.
 
-use crate::program::{Desk, Left, bar_deck, box_mesh, project, put_bar};
+use crate::program::{Desk, Left, bar_deck, box_mesh, project, put_bar, wait_for};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use urto::exodus::Results;
@@ -41,6 +41,26 @@ fn contents(desk: &Desk) -> Vec<(std::path::PathBuf, Vec<u8>)> {
         files.filter(|path| path.is_file()).map(|path| (path.clone(), std::fs::read(path).expect("a file"))).collect();
     contents.sort();
     contents
+}
+
+/// A second run of the same base would destroy the results of both; a killed one is in nobody's way.
+#[test]
+#[cfg(unix)]
+fn two_runs_do_not_write_the_same_results() {
+    let desk = Desk::new();
+    put_bar(&desk, 1e3, "OUTPUT TIME, 1.\n");
+    let mut first = desk.start(&["bar.i", "--ranks", "1"]);
+    assert!(wait_for(|| desk.has("bar.lock") && desk.has("bar.o") && desk.has("bar.e")), "the run does not begin");
+    let words = ["another run is writing bar.o", "another base with -o", "bar.lock"];
+    desk.urto(&["bar.i", "--ranks", "1", "--summary", "s.json"]).with(2).says(&words);
+    desk.urto(&["bar.i", "--ranks", "2", "--split"]).with(2).says(&words);
+    assert!(desk.has("bar.lock") && !desk.has("bar.o.1") && !desk.has("s.json"));
+    put_bar(&desk, SOON, "");
+    desk.urto(&["bar.i", "--ranks", "1", "-o", "other"]).with(0);
+    first.kill().expect("a process");
+    first.wait().expect("its end");
+    desk.urto(&["bar.i", "--ranks", "1"]).with(0);
+    assert!(desk.has("bar.o.1") && !desk.has("bar.lock") && !desk.has("other.lock"));
 }
 
 #[test]

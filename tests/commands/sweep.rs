@@ -1,6 +1,6 @@
 //! Studies, summaries and meshes made finer: what a script builds on.
 
-use crate::program::Desk;
+use crate::program::{Desk, URTO, put_bar};
 use serde_json::Value;
 
 /// A box in n x 2 x 2 elements that flies, and takes its speed, stiffness and length from expressions.
@@ -58,6 +58,27 @@ fn the_summary_of_a_run_that_failed_says_why() {
     assert_eq!((found["ended"].as_str(), found["exit_code"].as_u64()), (Some("failed"), Some(1)));
     assert!(found["reason"].as_str().is_some_and(|reason| reason.contains("stopped at step")), "{found}");
     assert_eq!(found["warnings"][0]["step"], Value::Null, "the warning of the deck comes first: {found}");
+}
+
+/// A run that cannot write says how far it had come; one that cannot begin says nothing of it.
+#[test]
+#[cfg(unix)]
+fn the_summary_of_a_run_that_cannot_write_says_how_far_it_came() {
+    let desk = Desk::new();
+    put_bar(&desk, 1e-3, "PLOT TIME, 1.E-7\nPLOT NODAL, VELOCITY\n");
+    // A limit on the size of files stands for the full disk.
+    let line = "ulimit -f 200; exec \"$0\" run bar.i -q --ranks 1 --summary s.json";
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", line, URTO]).current_dir(desk.path("."));
+    assert_eq!(shell.output().expect("a shell").status.code(), Some(1));
+    let found = json(&desk, "s.json");
+    assert!(found["reason"].as_str().is_some_and(|reason| reason.contains("bar.e")), "{found}");
+    assert!(found["steps"].as_u64().is_some_and(|steps| steps > 0), "{found}");
+    assert!(found["time"].as_f64().is_some_and(|time| time > 0.0), "{found}");
+    std::fs::create_dir(desk.path("folder.e")).expect("a folder");
+    desk.urto(&["run", "bar.i", "-q", "-o", "folder", "--summary", "s.json"]).with(1);
+    let found = json(&desk, "s.json");
+    assert_eq!((&found["steps"], &found["time"]), (&Value::Null, &Value::Null), "{found}");
 }
 
 #[test]

@@ -388,6 +388,63 @@ fn a_pressure_on_edges_of_shells_is_told_to_do_nothing() {
     assert!(refused.contains("all 2 sides of side set 100 are edges"), "{refused}");
 }
 
+/// Nodes in an oblique plane are off it by round-off, which is no depth; a real one is told.
+#[test]
+fn nodes_in_an_oblique_plane_are_not_behind_it() {
+    for degrees in [11.0_f64, 23.0, 37.0, 52.0, 71.0] {
+        let recipe = format!(
+            "BOX, 1, 0., 0., 0., 0.3, 0.7, 0.2, 3, 4, 2\nROTATE, 1, Y, {degrees}\nROTATE, 1, X, {degrees}\nSIDE SET FACE, 7, 1, BOTTOM\n"
+        );
+        let mesh = urto::mesher::make(&recipe, "t.mesh", 1).expect("a mesh");
+        let (s, c) = degrees.to_radians().sin_cos();
+        let told = |depth: f64| {
+            let text = format!("{LEAST}RIGID SURFACE, 7, 0., 0., {depth:e}, {s:e}, {:e}, {:e}\n", -s * c, c * c);
+            let problem = examine(Source::new("t.i", text), Some(&mesh)).expect("a problem");
+            problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(told(0.0), Vec::<String>::new(), "{degrees}");
+        let behind = told(1e-6);
+        assert!(behind.len() == 1 && behind[0].contains("20 of the 20 nodes of side set 7 begin behind"), "{behind:?}");
+    }
+}
+
+/// A part that is in the mesh twice has its mass twice.
+#[test]
+fn elements_that_are_there_twice_are_told() {
+    let told = |mesh: &Mesh| {
+        let text = format!("{LEAST}MATERIAL, 2, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n");
+        let problem = examine(Source::new("t.i", text), Some(mesh)).expect("a problem");
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    let mut mesh = two_blocks();
+    assert_eq!(told(&mesh), Vec::<String>::new());
+    let first = mesh.blocks[0].nodes[..8].to_vec();
+    mesh.blocks[1].nodes.extend(first);
+    mesh.element_ids.push(17);
+    let words = "1 element has the same nodes as another one: element 17 of block 2 those of element 1 of block 1";
+    assert_eq!(told(&mesh), [words]);
+}
+
+/// What is picked by where its nodes are holds both faces of a shell, on which pressures cancel.
+#[test]
+fn a_pressure_on_both_faces_of_shells_is_told_to_cancel() {
+    let warnings = |set: &str, load: &str| {
+        let sheet = "SHEET, 1, 0., 0., 0., 1., 1., 0., 2, 1\n";
+        let mesh = urto::mesher::make(&format!("{sheet}SIDE SET {set}\n"), "t.mesh", 1).expect("a mesh");
+        let deck = format!(
+            "TERMINATION TIME, 1.\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\nSHELL THICKNESS, 1, 0.1\nPRESSURE, 100, 1\n\
+             {load}MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n"
+        );
+        let problem = examine(Source::new("t.i", deck), Some(&mesh)).expect("a problem");
+        problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect::<Vec<_>>()
+    };
+    let told = |command| format!("{command}: side set 100 holds both faces of 2 shells, element 1 first");
+    assert_eq!(warnings("NORMAL, 100, 0., 0., 1.", ""), Vec::<String>::new());
+    assert_eq!(warnings("NORMAL, 100, 0., 0., -1.", ""), Vec::<String>::new());
+    assert_eq!(warnings("PLANE, 100, Z, 0.", ""), [told("PRESSURE")]);
+    assert_eq!(warnings("BOX, 100, , , , , , 1.", "SILENT BC, 100\n"), [told("PRESSURE"), told("SILENT BC")]);
+}
+
 #[test]
 fn all_stands_for_every_block_of_contact() {
     let blocks = "MATERIAL 2 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\nMATERIAL 3 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";

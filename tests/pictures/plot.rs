@@ -44,10 +44,14 @@ fn results_of(desk: &Desk, name: &str, times: &[f64], begun: &str) {
     }
 }
 
-fn csv(desk: &Desk, arguments: &[&str]) -> Vec<Vec<f64>> {
+fn csv_text(desk: &Desk, arguments: &[&str]) -> String {
     let all = [&["plot"], arguments, &["--csv", "-o", "out.csv"]].concat();
     desk.urto(&all).with(0);
-    let text = desk.text("out.csv");
+    desk.text("out.csv")
+}
+
+fn csv(desk: &Desk, arguments: &[&str]) -> Vec<Vec<f64>> {
+    let text = csv_text(desk, arguments);
     let number = |field: &str| if field.is_empty() { f64::NAN } else { field.parse().expect("a number") };
     text.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
 }
@@ -262,6 +266,39 @@ fn means_are_summed_over_their_intervals() {
     more(6e-5, "");
     desk.urto(&["bar.i", "-q", "--ranks", "2", "--restart", "bar.rsout"]).with(0);
     assert_eq!(changes("bar.h"), whole, "{first} states before");
+}
+
+/// What was asked for only when a run went on has values from there on, and none before.
+#[test]
+fn a_variable_of_a_later_part_begins_there() {
+    let desk = Desk::new();
+    let file = |name: &str, names: &[&str], times: &[f64]| {
+        let header = ResultsHeader {
+            mesh: &Mesh { title: "parts".to_owned(), ..Mesh::default() },
+            title: "parts".to_owned(),
+            global: names.iter().map(|name| name.to_string()).collect(),
+            nodal: Vec::new(),
+            element: Vec::new(),
+            qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+            info: vec!["$ MEANS OVER INTERVALS: ACCL".to_owned()],
+        };
+        let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
+        times.iter().for_each(|t| writer.write_state(*t, &vec![*t; names.len()], &[], &[]).expect("a state"));
+    };
+    file("run.h", &["DISPLX_1"], &[0.0, 1.0]);
+    file("run.h-s0002", &["DISPLX_1", "ACCLX_2"], &[2.0, 4.0, 6.0]);
+    let text = csv_text(&desk, &["run.h", "-v", "DISPLX_1,ACCLX_2"]);
+    assert_eq!(text, "time,DISPLX_1,ACCLX_2\n0,0,\n1,1,\n2,2,2\n4,4,4\n6,6,6\n");
+    assert_eq!(csv(&desk, &["run.h", "-v", "ACCLX_2", "--integrate"]), [[2.0, 0.0], [4.0, 8.0], [6.0, 20.0]]);
+    assert_eq!(csv(&desk, &["run.h", "-v", "DISPLX_1", "--derive"]).len(), 5);
+    desk.urto(&["plot", "run.h", "-v", "ACCLX_2", "-o", "curve.png"]).with(0);
+    desk.urto(&["plot", "run.h", "--list"]).with(0).says(&["DISPLX_1, ACCLX_2"]);
+    // Histories that the first start had none of.
+    file("late.e", &["KE"], &[0.0, 1.0]);
+    file("late.e-s0002", &["KE"], &[2.0, 3.0]);
+    file("late.h-s0002", &["VELX_1"], &[2.0, 3.0]);
+    assert_eq!(csv(&desk, &["late.h", "-v", "VELX_1"]), [[2.0, 2.0], [3.0, 3.0]]);
+    desk.urto(&["plot", "none.h", "-v", "VELX_1"]).with(2);
 }
 
 /// A state that only the end of a run was a reason for lies inside an interval over which the run that goes on has means.

@@ -7,7 +7,7 @@ use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, stopped_by, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
 use crate::output::print::{scientific, sentence, with_warnings};
-use crate::run::{self, Continuation, Display, Ended, Files, Job, Parts, Quiet, RunError};
+use crate::run::{self, Continuation, Display, Ended, Files, Job, Lock, Parts, Quiet, RunError};
 use crate::solver::{Body, Request};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -93,20 +93,33 @@ impl Prepared {
     }
 
     /// Makes room for the results: their folder, the old print log out of the way, and old results that the new ones do not replace.
-    fn make_room(&self) -> Result<(), Failure> {
+    /// Nobody else may write them as long as the lock is kept.
+    fn make_room(&self) -> Result<Lock, Failure> {
         let folder = self.files.print.parent().unwrap_or(Path::new(""));
         if !folder.as_os_str().is_empty() {
             std::fs::create_dir_all(folder)
                 .map_err(|e| Failure::run(format_args!("error: cannot make the folder {}: {e}", folder.display())))?;
         }
         writable(folder)?;
+        let lock = Lock::take(&self.files.lock).ok_or_else(|| self.taken())?;
         for path in &self.stale {
             std::fs::remove_file(path).map_err(|e| {
                 Failure::run(format_args!("error: cannot remove the old results {}: {e}", path.display()))
             })?;
         }
         run::keep_old_print_files(&self.files.print)
-            .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))
+            .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))?;
+        Ok(lock)
+    }
+
+    /// Two runs that write the same files would destroy the results of both.
+    fn taken(&self) -> Failure {
+        Failure::input(format_args!(
+            "error: another run is writing {} and what belongs to it\n\
+             help: wait until it has ended, or name another base with -o; {} is locked as long as it runs",
+            self.files.print.display(),
+            self.files.lock.display()
+        ))
     }
 
     /// Says on the terminal what will run.
@@ -193,7 +206,7 @@ fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let ranks = options.ranks.map_or(cores, |n| n as usize);
     let (prepared, body) = Prepared::new(options, ranks, "threads", Given::read)?;
-    prepared.make_room()?;
+    let _lock = prepared.make_room()?;
     prepared.announce(options.quiet);
     let wishes = listen(&prepared)?;
     let screen = Mutex::new(Some(screen(&prepared, options.quiet)));
@@ -255,17 +268,18 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
     }
     let read = |input: &options::Input| Given::read_together(input, &mut Processes(&mut world));
     let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|(prepared, body)| {
+        let mut lock = None;
         if rank == 0 {
-            prepared.make_room()?;
+            lock = Some(prepared.make_room()?);
             prepared.announce(options.quiet);
         }
         let wishes = listen(&prepared)?;
-        Ok((prepared, body, wishes))
+        Ok((prepared, body, wishes, lock))
     });
     // One process may fail to read what the others could: all leave together.
     let mut good = [if prepared.is_ok() { 1.0 } else { 0.0 }];
     world.all_min(&mut good);
-    let (prepared, body, wishes) = match prepared {
+    let (prepared, body, wishes, _lock) = match prepared {
         // Rank 0 reads the same files, so as a rule it has the words; where only another rank failed, that one tells.
         Ok(_) if good[0] == 0.0 => return all_leave(&mut world, Failure::input("")),
         Ok(prepared) => prepared,

@@ -75,7 +75,7 @@ fn customary(run: &Run) -> Result<Vec<Chosen>, PlotError> {
     let mut chosen = Vec::new();
     for name in CUSTOMARY {
         if run.names(Site::Global).iter().any(|known| known == name)
-            && run.values(name, Site::Global)?.iter().any(|&value| value != 0.0)
+            && run.values(name, Site::Global)?.iter().any(|&value| value != 0.0 && !value.is_nan())
         {
             chosen.push(Chosen { label: name.to_owned(), names: vec![name.to_owned()], site: Site::Global });
         }

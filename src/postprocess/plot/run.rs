@@ -13,6 +13,8 @@ pub struct Run {
     path: PathBuf,
     parts: Vec<Part>,
     times: Vec<f64>,
+    /// Names of variables of the whole body, at nodes and in elements: those of all parts, as a run that goes on may have others.
+    names: [Vec<String>; 3],
 }
 
 /// What one start of the program wrote: a file, or its pieces.
@@ -45,16 +47,26 @@ impl Run {
         // The name of one piece stands for them all.
         let piece = pieces_of(path).ok().filter(|(_, pieces)| pieces.iter().any(|piece| piece == path));
         let whole = piece.map_or_else(|| path.to_owned(), |(whole, _)| whole);
-        let mut parts = vec![Part::open(&whole)?];
-        for number in 2..=9999 {
+        let is_there = |path: &Path| path.exists() || any_pieces_of(path);
+        let mut parts: Vec<Part> = Vec::new();
+        for number in 1..=9999 {
             let next = part_of(&whole, number);
-            if !next.exists() && !any_pieces_of(&next) {
+            if !is_there(&next) {
+                // Histories that only a later part has been asked for: the plot files tell that the run went on.
+                let is_history = whole.extension().is_some_and(|suffix| suffix == "h");
+                if is_history && is_there(&part_of(&whole.with_extension("e"), number)) {
+                    continue;
+                }
                 break;
             }
             let part = Part::open(&next)?;
             // What an earlier run of this name was continued into lies there still, and is no part of this one.
             let stale = parts.first().and_then(Part::begun).zip(part.begun()).is_some_and(|(first, own)| own < first);
             parts.extend((!stale).then_some(part));
+        }
+        if parts.is_empty() {
+            // Says what is wrong with it.
+            parts.push(Part::open(&whole)?);
         }
         // A run that goes on from before the end of the one before replaces what that one went on to.
         for i in (1..parts.len()).rev() {
@@ -69,7 +81,8 @@ impl Run {
         if times.is_empty() {
             return Err(PlotError::NoStates(path.to_owned()));
         }
-        Ok(Run { path: path.to_owned(), parts, times })
+        let names = [Site::Global, Site::Node(0), Site::Element(0)].map(|site| names_of_all(&parts, site));
+        Ok(Run { path: path.to_owned(), parts, times, names })
     }
 
     /// The file, as it was named.
@@ -94,38 +107,38 @@ impl Run {
 
     /// Whether each value of a variable of the whole body is the mean since the state before.
     pub fn is_mean(&self, name: &str) -> bool {
-        !self.parts.is_empty() && self.parts.iter().all(|part| part.means.is_mean(name))
+        let mut own = self.parts.iter().filter(|part| is_among(part.names(Site::Global), name)).peekable();
+        own.peek().is_some() && own.all(|part| part.means.is_mean(name))
     }
 
-    /// Names of variables at a site.
+    /// Names of variables at a site, in any part.
     pub fn names(&self, site: Site) -> &[String] {
-        match (self.first(), site) {
-            (None, _) => &[],
-            (Some(file), Site::Global) => file.global_names(),
-            (Some(file), Site::Node(_)) => file.nodal_names(),
-            (Some(file), Site::Element(_)) => file.element_names(),
+        let [global, nodal, element] = &self.names;
+        match site {
+            Site::Global => global,
+            Site::Node(_) => nodal,
+            Site::Element(_) => element,
         }
     }
 
-    /// A variable's values in all states; NaN in parts that do not have it.
+    /// A variable's values in all states; NaN in parts that do not have it, or not this node or element.
     ///
     /// # Errors
     /// When no part has such a node or element, or values cannot be read.
     pub fn values(&self, name: &str, site: Site) -> Result<Vec<f64>, PlotError> {
         let mut all = Vec::with_capacity(self.times.len());
-        for part in &self.parts {
+        let mut is_there = false;
+        for part in self.parts.iter().filter(|part| part.states > 0) {
             let values = part.values(name, site)?;
-            if values.is_none() && part.states > 0 {
-                let (kind, id) = match site {
-                    Site::Global => ("global variable", 0),
-                    Site::Node(id) => ("node", id),
-                    Site::Element(id) => ("element", id),
-                };
-                return Err(PlotError::NoPlace { path: self.path.clone(), kind, id });
-            }
-            all.extend(values.into_iter().flatten().take(part.states));
+            is_there |= values.is_some();
+            all.extend(values.unwrap_or_else(|| vec![f64::NAN; part.states]).into_iter().take(part.states));
         }
-        Ok(all)
+        let (kind, id) = match site {
+            Site::Global => ("global variable", 0),
+            Site::Node(id) => ("node", id),
+            Site::Element(id) => ("element", id),
+        };
+        if is_there { Ok(all) } else { Err(PlotError::NoPlace { path: self.path.clone(), kind, id }) }
     }
 
     /// What there is to plot, in lines of text.
@@ -157,6 +170,21 @@ impl Run {
     }
 }
 
+/// Names of variables at a site in the parts whose states count, in the order in which they come up.
+fn names_of_all(parts: &[Part], site: Site) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for part in parts.iter().filter(|part| part.states > 0) {
+        let new: Vec<String> = part.names(site).iter().filter(|name| !is_among(&all, name)).cloned().collect();
+        all.extend(new);
+    }
+    all
+}
+
+/// Whether a variable is among these; case does not count.
+fn is_among(names: &[String], name: &str) -> bool {
+    names.iter().any(|known| known.eq_ignore_ascii_case(name))
+}
+
 impl Part {
     fn open(path: &Path) -> Result<Part, PlotError> {
         let whole = path.exists() || !any_pieces_of(path);
@@ -179,9 +207,19 @@ impl Part {
         self.pieces.first().and_then(|piece| piece.times().get(..self.states)).unwrap_or_default()
     }
 
+    /// Names of its variables at a site.
+    fn names(&self, site: Site) -> &[String] {
+        let Some(file) = self.pieces.first() else { return &[] };
+        match site {
+            Site::Global => file.global_names(),
+            Site::Node(_) => file.nodal_names(),
+            Site::Element(_) => file.element_names(),
+        }
+    }
+
     /// A variable's values; `None` where no piece has the node or element.
     fn values(&self, name: &str, site: Site) -> Result<Option<Vec<f64>>, PlotError> {
-        let has = |names: &[String]| names.iter().any(|known| known.eq_ignore_ascii_case(name));
+        let has = |names: &[String]| is_among(names, name);
         for piece in &self.pieces {
             let nothing = || Ok(Some(vec![f64::NAN; piece.times().len()]));
             match site {

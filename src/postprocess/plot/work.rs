@@ -18,6 +18,9 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
     subtract(curves, runs, options)?;
     let mut warnings = Vec::new();
     for curve in curves.iter_mut() {
+        if options.derive || options.integrate || options.filter.is_some() {
+            without_ends(curve);
+        }
         if options.derive {
             enough(curve)?;
             curve.y = derivative(&curve.x, &curve.y);
@@ -45,6 +48,14 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
         }
     }
     Ok(warnings)
+}
+
+/// Takes away what has no values before the first and behind the last: states of parts of a run that do not have the variable.
+fn without_ends(curve: &mut Curve) {
+    let Some(first) = curve.y.iter().position(|value| value.is_finite()) else { return };
+    let behind = curve.y.iter().rposition(|value| value.is_finite()).map_or(first, |last| last + 1);
+    curve.x = curve.x[first..behind].to_vec();
+    curve.y = curve.y[first..behind].to_vec();
 }
 
 fn enough(curve: &Curve) -> Result<(), PlotError> {

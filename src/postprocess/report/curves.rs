@@ -57,7 +57,7 @@ pub fn draw(files: &Files, options: &ReportOptions, missing: &mut Vec<String>) -
         Err(error) => missing.push(format!("{title}: {error}")),
     };
     add("Energies and time step", globals(&files.plot));
-    if files.history.exists() {
+    if files.has_histories() {
         add("Histories", histories(&files.history, options));
     }
     groups

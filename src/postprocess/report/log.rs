@@ -9,7 +9,7 @@ pub struct Log {
     pub banner: Vec<String>,
     /// Sections in their order.
     pub sections: Vec<Section>,
-    /// Warnings, each with its advice.
+    /// Warnings, each with its advice; those that the log of an earlier part of the run has told have none.
     pub warnings: Vec<[String; 2]>,
     /// The last line: how the run ended. Empty where it has not ended, or was killed.
     pub outcome: String,
@@ -26,6 +26,10 @@ pub struct Section {
 
 /// Heading of the last section.
 const END: &str = "END OF SOLUTION PHASE";
+/// Heading of the table of all warnings.
+const ALL_WARNINGS: &str = "WARNINGS OF THE RUN";
+/// How a warning among the steps begins.
+const WARNING: &str = "***** WARNING: ";
 
 impl Log {
     /// The log at a path; `None` where there is none that can be read.
@@ -37,7 +41,7 @@ impl Log {
         let mut log = Log::default();
         let mut lines = text.lines().peekable();
         while let Some(line) = lines.next() {
-            if let Some(words) = line.strip_prefix("***** WARNING: ") {
+            if let Some(words) = line.strip_prefix(WARNING) {
                 let advice = lines.peek().and_then(|next| next.trim().strip_prefix("advice: ")).unwrap_or_default();
                 log.warnings.push([words.to_owned(), advice.to_owned()]);
             } else if let Some(heading) = heading(line) {
@@ -51,7 +55,29 @@ impl Log {
         }
         let last = log.sections.last().filter(|section| section.heading == END);
         log.outcome = last.map(|section| section.lines.join(" ").trim().to_owned()).unwrap_or_default();
+        let before = log.told_before();
+        log.warnings.splice(0..0, before);
         log
+    }
+
+    /// Warnings of a run that went on which only the table at its end has: they were told in the log of the part before. What is seen
+    /// at one step is told in one log.
+    fn told_before(&self) -> Vec<[String; 2]> {
+        let told = |step: &str| self.warnings.iter().any(|[words, _]| words.starts_with(&format!("AT STEP {step},")));
+        let rows = self.section(ALL_WARNINGS).into_iter().flat_map(|section| &section.lines);
+        let row = |line: &String| {
+            let mut columns = line.split_whitespace();
+            let [step, time, _, worst] = [(); 4].map(|()| columns.next().unwrap_or_default());
+            let what = columns.collect::<Vec<_>>().join(" ");
+            let is_row = step.parse::<u64>().is_ok() && !what.is_empty();
+            (is_row && !told(step)).then(|| {
+                [
+                    format!("AT STEP {step}, TIME {time}: {what}, told in the log before this one; at most {worst}"),
+                    String::new(),
+                ]
+            })
+        };
+        rows.filter_map(row).collect()
     }
 
     /// The lines of the last section with this heading.
@@ -111,5 +137,19 @@ mod tests {
         assert_eq!(log.warnings, [["AT STEP 5, TIME 1e-3: it is hot".to_owned(), "cool it".to_owned()]]);
         assert_eq!(log.outcome, "THE RUN IS COMPLETE");
         assert_eq!(Log::of("P R O B L E M").outcome, "");
+    }
+
+    /// A run that went on tells among its steps only what it has seen itself.
+    #[test]
+    fn warnings_of_the_part_before_are_in_the_table_alone() {
+        let text = "***** WARNING: AT STEP 70, TIME 7e-3: it is hot\n  advice: cool it\n\n\
+                    \x20      W A R N I N G S   O F   T H E   R U N\n\n\
+                    \x20    STEP         TIME        SHARE      AT MOST   OF WHAT\n\
+                    \x20       5    1.000e-03    1.585e-01    2.585e-01   hourglass energy of block 7\n\
+                    \x20      70    7.000e-03    1.585e-01    1.585e-01   heat\n\n\
+                    \x20  E N D   O F   S O L U T I O N   P H A S E\n\n  THE RUN IS COMPLETE\n";
+        let [before, own] = &Log::of(text).warnings[..] else { panic!("two") };
+        assert!(before[0].starts_with("AT STEP 5, TIME 1.000e-03: hourglass energy of block 7, told"), "{before:?}");
+        assert_eq!(own, &["AT STEP 70, TIME 7e-3: it is hot".to_owned(), "cool it".to_owned()]);
     }
 }

@@ -19,7 +19,7 @@ use crate::postprocess::depiction::Depiction;
 use crate::postprocess::means::Means;
 use crate::postprocess::plot::Class;
 use crate::postprocess::view::ViewOptions;
-use crate::run::{Files, last_part_of};
+use crate::run::{Files, first_part_of, last_part_of};
 use std::path::{Path, PathBuf};
 
 /// What a report shows.
@@ -46,8 +46,9 @@ pub struct Reported {
     pub missing: Vec<String>,
 }
 
-/// The files of a run, by its base name or by the name of one of them.
+/// The files of a run, by its base name or by the name of one of them; that of a later part stands for the whole run.
 pub fn files_of(named: &Path) -> Files {
+    let named = &first_part_of(named);
     let suffixes = ["e", "o", "h", "i", "g"];
     let is_one = named.extension().is_some_and(|suffix| suffixes.iter().any(|known| suffix == *known));
     if is_one { Files::of(&named.with_extension("")) } else { Files::of(named) }

@@ -48,8 +48,9 @@ impl Record {
         Some(Record {
             ended: text("ended")?,
             reason: text("reason"),
-            steps: all["steps"].as_u64()?,
-            time: all["time"].as_f64()?,
+            // Not known of a run that failed before its first step.
+            steps: all["steps"].as_u64().unwrap_or(0),
+            time: all["time"].as_f64().unwrap_or(0.0),
             energy_error: all["energy_error"].as_f64(),
             warnings: all["warnings"].as_array()?.len(),
             seconds: all["seconds"]["all"].as_f64()?,
