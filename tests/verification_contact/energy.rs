@@ -340,16 +340,14 @@ fn contact_of_shells_gives_no_energy() {
 
 #[test]
 fn contact_of_triangles_gives_no_energy() {
-    // Found: 1, whose ends crumple within four elements.
-    try_all(0..60, triangle_scene, Allowed { crushed: 1, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
+    try_all(0..60, triangle_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
-    // Found: 8, seven folds whose nodes are pinched between leaves and a stack with half the room; 9 more whose edges dip into
-    // bulges, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 9, deep: usize::MAX, sunk: 0, cut: 0 });
+    // Found: 7 folds whose nodes are pinched between leaves; 10 more whose edges dip into bulges, see docs/verification.md.
+    try_all(120..1200, shell_scene, Allowed { crushed: 7, dipping: 10, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]
