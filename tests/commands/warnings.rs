@@ -290,9 +290,12 @@ fn pulses_that_steps_hardly_see_are_told() {
     };
     let mesh = "BOX, 1, 0., 0., 0., 1., 1., 1., 5, 5, 5\nNODE SET PLANE, 1, X, 0.\n";
     let short = desk(&deck(2e-5), mesh);
-    short.urto(&["check", "case.i"]).with(0).says(&["foretold: function 7 goes up or down and comes back within 0."]);
+    short
+        .urto(&["check", "case.i"])
+        .with(0)
+        .says(&["foretold: function 7 goes up or down and comes back within 1.08 steps"]);
     let told = short.urto(&["case.i", "-q"]).with(0);
-    assert!(told.err.contains("warning: function 7 goes up or down and comes back within 0."), "{}", told.err);
+    assert!(told.err.contains("warning: function 7 goes up or down and comes back within 1.08 steps"), "{}", told.err);
     let long = desk(&deck(8e-4), mesh).urto(&["case.i", "-q"]).with(0);
     assert!(!long.err.contains("function 7"), "{}", long.err);
 }

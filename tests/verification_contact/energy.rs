@@ -346,8 +346,8 @@ fn contact_of_triangles_gives_no_energy() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
-    // Found: 7 folds whose nodes are pinched between leaves; 10 more whose edges dip into bulges, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 7, dipping: 10, deep: usize::MAX, sunk: 0, cut: 0 });
+    // Found: 8, folds whose nodes are pinched between leaves; 7 more whose edges dip into bulges, see docs/verification.md.
+    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 7, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use crate::support::close;
 use crate::support::meshes::recipe;
 use crate::support::run::run;
-use urto::mesh::Mesh;
+use crate::support::scenes::Dice;
 
 /// Angles of the model about x and y, degrees.
 const TURNED: [f64; 2] = [37.0, 51.0];
@@ -30,48 +30,67 @@ fn sine_and_cosine(degrees: f64) -> [f64; 2] {
     [sin, cos]
 }
 
-/// Mean velocity of the nodes of block 2 after some time, as the upright model sees it, of parts that begin at a velocity on a plate whose
-/// bottom is held.
-fn velocity_after(time: f64, parts: &str, (angles, velocity): ([f64; 2], Vector), more: &str) -> Vector {
-    let mesh = plate_and(parts, angles);
-    let [x, y, z] = turned(velocity, angles);
-    let law = "ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nEND";
-    let deck = format!(
-        "TITLE\n flush\nTERMINATION TIME, {time}\nPLOT TIME, {time}\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\nNO DISPLACEMENT, X, 1\n\
-         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nINITIAL VELOCITY MATERIAL, 2, {x:?}, {y:?}, {z:?}\nMATERIAL, 1, {law}\n\
-         MATERIAL, 2, {law}\n{more}"
-    );
-    let run = run(&deck, &mesh);
-    let nodes = &mesh.node_set(2).expect("the nodes of block 2").nodes;
-    let mean = |name: &str| {
-        let all = run.end().nodal(name);
-        nodes.iter().map(|&node| all[node as usize]).sum::<f64>() / nodes.len() as f64
-    };
-    turned_back([mean("VELX"), mean("VELY"), mean("VELZ")], angles)
+/// What begins flush on a plate: lines of a recipe with blocks from 2 on, and lines of a deck with their velocities.
+struct Scene {
+    parts: String,
+    velocities: Vec<Vector>,
+    gravity: f64,
+    more: String,
 }
 
-/// A plate of 1 × 1 × 0.2 and parts of block 2 on it, turned.
-fn plate_and(parts: &str, [a, b]: [f64; 2]) -> Mesh {
-    let turn = |block: u32| format!("ROTATE, {block}, X, {a}\nROTATE, {block}, Y, {b}\n");
-    recipe(&format!(
-        "TITLE\n plate\nBOX, 1, 0., 0., 0., 1., 1., 0.2, 13, 11, 2\n{parts}NODE SET FACE, 1, 1, BOTTOM\nNODE SET BLOCK, 2, 2\n{}{}",
-        turn(1),
-        turn(2)
-    ))
+impl Scene {
+    /// Mean velocities of the nodes of its blocks after some time, as the upright model sees them. The plate of 1 × 1 × 0.2 is held at its bottom.
+    fn velocities_after(&self, time: f64, angles: [f64; 2]) -> Vec<Vector> {
+        let blocks = || 2..2 + self.velocities.len();
+        let [a, b] = angles;
+        let turn = |block: usize| format!("ROTATE, {block}, X, {a}\nROTATE, {block}, Y, {b}\n");
+        let set = |block: usize| format!("NODE SET BLOCK, {block}, {block}\n");
+        let mesh = recipe(&format!(
+            "TITLE\n plate\nBOX, 1, 0., 0., 0., 1., 1., 0.2, 13, 11, 2\n{}NODE SET FACE, 1, 1, BOTTOM\n{}{}",
+            self.parts,
+            blocks().map(set).collect::<String>(),
+            (1..2 + self.velocities.len()).map(turn).collect::<String>()
+        ));
+        let law = |block: usize| {
+            format!("MATERIAL, {block}, ELASTIC, 2700.\nYOUNGS MODULUS = 70.E9\nPOISSONS RATIO = 0.3\nEND\n")
+        };
+        let begins = |(block, velocity): (usize, &Vector)| {
+            let [x, y, z] = turned(*velocity, angles);
+            format!("INITIAL VELOCITY MATERIAL, {block}, {x:?}, {y:?}, {z:?}\n{}", law(block))
+        };
+        let [x, y, z] = turned([0.0, 0.0, -self.gravity], angles);
+        let deck = format!(
+            "TITLE\n flush\nTERMINATION TIME, {time}\nPLOT TIME, {time}\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\nNO DISPLACEMENT, X, 1\n\
+             NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nGRAVITY, {x:?}, {y:?}, {z:?}\n{}{}{}",
+            law(1),
+            blocks().zip(&self.velocities).map(begins).collect::<String>(),
+            self.more
+        );
+        let run = run(&deck, &mesh);
+        let mean = |nodes: &[u32], name: &str| {
+            let all = run.end().nodal(name);
+            nodes.iter().map(|&node| all[node as usize]).sum::<f64>() / nodes.len() as f64
+        };
+        let of = |block: usize| {
+            let nodes = &mesh.node_set(block as i64).expect("the nodes of a block").nodes;
+            turned_back(["VELX", "VELY", "VELZ"].map(|name| mean(nodes, name)), angles)
+        };
+        blocks().map(of).collect()
+    }
 }
 
 /// A block that lies on the plate strikes it and rises; along the plate it goes on. Its side walls, below whose lower border nodes of the
 /// plate lie as round-off wants, took hold of these: (7, 13) became (1.6, -2.3), at a gap of 1e-6 not.
 #[test]
 fn side_walls_take_hold_of_nothing_below_a_flush_block() {
-    let block = "BOX, 2, 0.1, 0.15, 0.2, 0.7, 0.6, 0.5, 4, 3, 3\n";
-    let after = |angles: [f64; 2]| velocity_after(5e-4, block, (angles, [7.0, 13.0, -20.0]), "");
-    let upright = after([0.0; 2]);
+    let parts = "BOX, 2, 0.1, 0.15, 0.2, 0.7, 0.6, 0.5, 4, 3, 3\n".to_string();
+    let scene = Scene { parts, velocities: vec![[7.0, 13.0, -20.0]], gravity: 0.0, more: String::new() };
+    let upright = scene.velocities_after(5e-4, [0.0; 2])[0];
     // What vibrates is left of Poisson's ratio.
     close("upright", "along x over that before", upright[0], 7.0, 0.02);
     close("upright", "along y over that before", upright[1], 13.0, 0.02);
     for angles in [TURNED, [-23.0, 61.0]] {
-        let found = after(angles);
+        let found = scene.velocities_after(5e-4, angles)[0];
         // Whether a node on the border of a face is on it, too, is up to round-off.
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             close("turned", &format!("along {name} over that upright"), found[axis], upright[axis], 1e-3);
@@ -83,13 +102,95 @@ fn side_walls_take_hold_of_nothing_below_a_flush_block() {
 /// which they were over, and (3, 8) became (1.7, 5.7).
 #[test]
 fn a_sheet_without_room_slides_on() {
-    let sheet = "SHEET, 2, 0.3, 0.15, 0.20025, 0.4, 0.5, 0., 20, 20\n";
+    let scene = Scene {
+        parts: "SHEET, 2, 0.3, 0.15, 0.20025, 0.4, 0.5, 0., 20, 20\n".to_string(),
+        velocities: vec![[3.0, 8.0, 0.0]],
+        gravity: 1000.0,
+        more: "SHELL THICKNESS, 2, 0.004\n".to_string(),
+    };
     for angles in [[0.0; 2], TURNED] {
-        let [x, y, z] = turned([0.0, 0.0, -1000.0], angles);
-        let more = format!("SHELL THICKNESS, 2, 0.004\nGRAVITY, {x:?}, {y:?}, {z:?}\n");
-        let [x, y, z] = velocity_after(1e-3, sheet, (angles, [3.0, 8.0, 0.0]), &more);
+        let [x, y, z] = scene.velocities_after(1e-3, angles)[0];
         close("sheet", "along x", x, 3.0, 1e-4);
         close("sheet", "along y", y, 8.0, 1e-4);
         assert!(z.abs() < 0.02, "{z}");
     }
+}
+
+/// One to three boxes and sheets that begin flush on the plate, on each other and side by side, each with a velocity of its own along the
+/// plate that parts it from nobody beside it, and one onto the plate.
+fn flush_scene(seed: u64) -> Scene {
+    let mut dice = Dice::of(seed);
+    let cells = |dice: &mut Dice| [dice.count(1, 5), dice.count(1, 5), dice.count(1, 3)];
+    let [x, y] = [dice.between(0.05, 0.3), dice.between(0.05, 0.3)];
+    let [width, depth, height] = [dice.between(0.2, 0.5), dice.between(0.2, 0.5), dice.between(0.1, 0.4)];
+    let mut velocity = || [dice.between(-9.0, 9.0), dice.between(-9.0, 9.0), dice.between(-20.0, 0.0)];
+    let first = velocity();
+    let (kind, second) = (seed % 4, velocity());
+    let [nx, ny, nz] = cells(&mut dice);
+    let lower = format!("BOX, 2, {x:?}, {y:?}, 0.2, {width:?}, {depth:?}, {height:?}, {nx}, {ny}, {nz}\n");
+    let [nx, ny, nz] = cells(&mut dice);
+    match kind {
+        0 => Scene { parts: lower, velocities: vec![first], gravity: 0.0, more: String::new() },
+        // Beside it, along the common wall.
+        1 => {
+            let beside =
+                format!("BOX, 3, {:?}, {y:?}, 0.2, 0.2, {depth:?}, {:?}, {nx}, {ny}, {nz}\n", x + width, 0.7 * height);
+            let velocities = vec![[0.0, first[1], first[2]], [0.0, second[1], second[2]]];
+            Scene { parts: lower + &beside, velocities, gravity: 0.0, more: String::new() }
+        }
+        // On top of it.
+        2 => {
+            let top = format!(
+                "BOX, 3, {:?}, {:?}, {:?}, {:?}, {:?}, 0.2, {nx}, {ny}, {nz}\n",
+                x + 0.1 * width,
+                y - 0.04,
+                0.2 + height,
+                0.7 * width,
+                0.8 * depth
+            );
+            Scene { parts: lower + &top, velocities: vec![first, second], gravity: 0.0, more: String::new() }
+        }
+        // A sheet with a part of its room.
+        _ => {
+            let thickness = dice.magnitude(0.002, 0.02);
+            let room = dice.between(0.0, 1.2) * 0.5 * thickness;
+            let (nx, ny) = (dice.count(3, 12), dice.count(3, 12));
+            let parts = format!("SHEET, 2, {x:?}, {y:?}, {:?}, {width:?}, {depth:?}, 0., {nx}, {ny}\n", 0.2 + room);
+            let more = format!("SHELL THICKNESS, 2, {thickness:?}\n");
+            Scene { parts, velocities: vec![[first[0], first[1], 0.0]], gravity: 1000.0, more }
+        }
+    }
+}
+
+/// Whether two bodies of a scene begin side by side.
+fn is_row(seed: u64) -> bool {
+    seed % 4 == 1
+}
+
+/// Nobody on the plate gains or loses what it has along the plate, and turned models do what upright ones do.
+#[test]
+fn random_flush_bodies_slide_on_at_any_angle() {
+    let seeds = std::env::var("URTO_SCENES").ok().and_then(|text| {
+        let (from, to) = text.split_once("..")?;
+        Some(from.parse().ok()?..to.parse().ok()?)
+    });
+    let mut wrong = Vec::new();
+    for seed in seeds.unwrap_or(0..48) {
+        let scene = flush_scene(seed);
+        let mut dice = Dice::of(seed + 1_000_000);
+        let angles = [dice.between(-180.0, 180.0), dice.between(-180.0, 180.0)];
+        let [upright, found] = [[0.0; 2], angles].map(|angles| scene.velocities_after(3e-4, angles));
+        let speeds = scene.velocities.iter().map(|velocity| velocity.iter().map(|v| v * v).sum::<f64>().sqrt());
+        let speed = speeds.fold(0.0, f64::max);
+        for ((begins, upright), found) in scene.velocities.iter().zip(&upright).zip(&found) {
+            // Side walls push bodies apart that are squeezed on the plate.
+            let along =
+                (usize::from(is_row(seed))..2).map(|axis| (upright[axis] - begins[axis]).abs()).fold(0.0, f64::max);
+            let apart = (0..3).map(|axis| (upright[axis] - found[axis]).abs()).fold(0.0, f64::max);
+            if along > 0.05 * speed || apart > 0.05 * speed {
+                wrong.push(format!("{seed}: {begins:?} becomes {upright:?}, turned by {angles:?} {found:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -64,12 +64,21 @@ impl Function {
     /// Its shortest pulse; before time 0 it counts as 0, since nothing acts then.
     fn shortest_pulse(&self) -> Option<Pulse> {
         let turns = self.turns();
-        let pulses = turns.windows(3).map(|turns| Pulse {
-            function: self.id,
-            start: turns[0].to,
-            length: turns[2].from - turns[0].to,
-        });
+        let pulses = turns.windows(3).map(|turns| self.pulse([&turns[0], &turns[1], &turns[2]]));
         pulses.min_by(|a, b| a.length.total_cmp(&b.length))
+    }
+
+    /// The pulse at a turn between two others: of the two the nearer value is where it begins and where it is over.
+    fn pulse(&self, [before, turn, after]: [&Turn; 3]) -> Pulse {
+        let heights = [before, after].map(|other| (turn.value - other.value).abs());
+        let level = if heights[0] <= heights[1] { before.value } else { after.value };
+        let from = self.points.partition_point(|(time, _)| *time < turn.from);
+        let to = self.points.partition_point(|(time, _)| *time <= turn.to);
+        let points = self.points.iter().copied();
+        let begins = points.clone().take(from).rev().chain([(0.0, 0.0)]);
+        let start = reached(begins, (turn.from, turn.value), level).max(before.to);
+        let end = reached(points.skip(to), (turn.to, turn.value), level).min(after.from);
+        Pulse { function: self.id, start, length: end - start }
     }
 
     /// Where it begins, turns and ends.
@@ -96,6 +105,19 @@ impl Function {
     }
 }
 
+/// The time at which a line through points reaches a level on its way from one of them; that of its last point where it does not.
+fn reached(points: impl Iterator<Item = (f64, f64)>, from: (f64, f64), level: f64) -> f64 {
+    let mut before = from;
+    for point in points {
+        let (height, fall) = (before.1 - level, before.1 - point.1);
+        if (point.1 - level) * (from.1 - level) <= 0.0 {
+            return before.0 + (point.0 - before.0) * (height / fall).clamp(0.0, 1.0);
+        }
+        before = point;
+    }
+    before.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,6 +135,8 @@ mod tests {
         // The second is shorter, and it stays a while.
         let two = [(0.0, 0.0), (5.0, 1.0), (6.0, 0.0), (7.0, 0.0), (7.125, -2.0), (7.25, -2.0), (7.5, 0.0)];
         assert_eq!(shortest(&two), Some((7.0, 0.5)));
+        // Down from a plateau for a moment, as by 1 of 4.
+        assert_eq!(shortest(&[(0.0, 0.0), (8.0, 4.0), (9.0, 3.0), (10.0, 4.0), (20.0, 4.0)]), Some((8.0, 2.0)));
     }
 
     #[test]

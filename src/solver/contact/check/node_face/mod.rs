@@ -291,9 +291,10 @@ impl NodeFaceCheck<'_> {
             contact.opposition = self.opposition(point, &contact.projection);
         }
         let number = |contact: &DetectedContact| self.faces.number[contact.face as usize];
+        let too_near = contacts.iter().any(|contact| contact.tolerated < 0.0);
         contacts.sort_by(|a, b| {
-            // What a point is over holds it rather than the border of the face beside that, where both are too near from the beginning.
-            let [a_beside, b_beside] = [a, b].map(|contact| contact.projection.rounded && contact.time == 0.0);
+            // What a point is over holds it rather than the border of the face beside that, where it is too near from the beginning.
+            let [a_beside, b_beside] = [a, b].map(|contact| too_near && contact.projection.rounded);
             let by_way = a_beside.cmp(&b_beside).then(a.opposition.total_cmp(&b.opposition));
             a.time.total_cmp(&b.time).then(by_way).then(number(a).cmp(&number(b)))
         });
