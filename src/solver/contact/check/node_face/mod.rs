@@ -293,8 +293,12 @@ impl NodeFaceCheck<'_> {
         let number = |contact: &DetectedContact| self.faces.number[contact.face as usize];
         let too_near = contacts.iter().any(|contact| contact.tolerated < 0.0);
         contacts.sort_by(|a, b| {
-            // What a point is over holds it rather than the border of the face beside that, where it is too near from the beginning.
-            let [a_beside, b_beside] = [a, b].map(|contact| too_near && contact.projection.rounded);
+            // What a point is over holds it rather than the border of the face beside that: of solids always, of surfaces where it is too near
+            // from the beginning.
+            let is_behind = |contact: &DetectedContact| {
+                contact.projection.rounded && (too_near || !self.faces.is_two_sided(contact.face))
+            };
+            let [a_beside, b_beside] = [is_behind(a), is_behind(b)];
             let by_way = a_beside.cmp(&b_beside).then(a.opposition.total_cmp(&b.opposition));
             a.time.total_cmp(&b.time).then(by_way).then(number(a).cmp(&number(b)))
         });
