@@ -1,5 +1,6 @@
 //! What a path leads to: whether it is a file at all, and whether two paths lead to one file.
 
+use std::fs::File;
 use std::io;
 use std::path::Path;
 
@@ -26,16 +27,26 @@ pub type Identity = (u64, u64);
 pub type Identity = std::path::PathBuf;
 
 /// The identity of the file that a path leads to; `None` where there is none.
-#[cfg(unix)]
 pub fn identity(path: &Path) -> Option<Identity> {
-    use std::os::unix::fs::MetadataExt;
-    std::fs::metadata(path).ok().map(|file| (file.dev(), file.ino()))
+    #[cfg(unix)]
+    return std::fs::metadata(path).ok().map(numbers);
+    #[cfg(not(unix))]
+    path.canonicalize().ok()
 }
 
-/// The identity of the file that a path leads to; `None` where there is none.
-#[cfg(not(unix))]
-pub fn identity(path: &Path) -> Option<Identity> {
-    path.canonicalize().ok()
+/// The identity of an open file, by which one tells whether a path still leads to it; `None` where files have no numbers: there an open
+/// file cannot be removed.
+pub fn identity_of_open(file: &File) -> Option<Identity> {
+    #[cfg(unix)]
+    return file.metadata().ok().map(numbers);
+    #[cfg(not(unix))]
+    None
+}
+
+#[cfg(unix)]
+fn numbers(about: std::fs::Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    (about.dev(), about.ino())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
-    Analysis, Contact, ContactMaterials, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
+    Analysis, Contact, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
     conditions::boundary::direction,
     interactions::{rigid, tied},
     problem::those_there_are,
@@ -214,11 +214,7 @@ fn contact_there(card: &Card, problem: &Problem, mesh: &Mesh, found: &mut Diagno
 
 /// Whether faces or nodes of a block may touch something.
 fn takes_part(contact: &Contact, id: i64, block: usize, mesh: &Mesh) -> bool {
-    let named = match &contact.materials {
-        Some(ContactMaterials::All) => true,
-        Some(ContactMaterials::Blocks(blocks)) => blocks.contains(&id),
-        None => false,
-    };
+    let named = contact.names(id);
     let blocks: Vec<usize> = mesh.elements().map(|(block, _)| block).collect();
     let of_block = |&(element, _): &(u32, u8)| blocks.get(element as usize) == Some(&block);
     let mut sets = contact.surfaces.iter().flat_map(|pair| pair.side_sets).filter_map(|id| mesh.side_set(id));

@@ -1,6 +1,6 @@
 //! One run at a time writes the files of a base name.
 
-use crate::common::files::{Identity, identity};
+use crate::common::files::{identity, identity_of_open};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ impl Lock {
         // Who held the file that was opened may have removed it since: then it is no longer the one that others find.
         while let Some(file) = open(path) {
             match file.try_lock() {
-                Ok(()) if opened(&file).is_some_and(|own| identity(path) != Some(own)) => continue,
+                Ok(()) if identity_of_open(&file).is_some_and(|own| identity(path) != Some(own)) => continue,
                 Ok(()) => return Some(Lock { path: path.to_owned(), file: Some(file) }),
                 Err(TryLockError::WouldBlock) => return None,
                 Err(TryLockError::Error(_)) => break,
@@ -44,19 +44,6 @@ fn open(path: &Path) -> Option<File> {
         return None;
     }
     OpenOptions::new().write(true).create(true).truncate(false).open(path).ok()
-}
-
-/// The identity of an open file, where files have numbers.
-#[cfg(unix)]
-fn opened(file: &File) -> Option<Identity> {
-    use std::os::unix::fs::MetadataExt;
-    file.metadata().ok().map(|about| (about.dev(), about.ino()))
-}
-
-/// Elsewhere an open file cannot be removed.
-#[cfg(not(unix))]
-fn opened(_: &File) -> Option<Identity> {
-    None
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! Every scene is a recipe and a deck that follow from a seed, small enough for thousands of runs.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 /// A scene to run.
 pub struct Scene {
@@ -14,6 +15,16 @@ pub struct Scene {
     pub deck: String,
     /// Whether there is friction.
     pub friction: bool,
+}
+
+/// The seeds that `URTO_SCENES` asks for, or else these; and whether it asks.
+pub fn asked_for(seeds: Range<u64>) -> (Range<u64>, bool) {
+    let asked = std::env::var("URTO_SCENES").ok().and_then(|text| {
+        let (from, to) = text.split_once("..")?;
+        Some(from.parse().ok()?..to.parse().ok()?)
+    });
+    let is_asked = asked.is_some();
+    (asked.unwrap_or(seeds), is_asked)
 }
 
 /// Numbers that look random and follow from a seed (splitmix64: Steele, Lea and Flood 2014).

@@ -8,7 +8,7 @@ use crate::support::joined_scenes::{rigid_scene, settings_scene, struck_joint_sc
 use crate::support::meshes::recipe;
 use crate::support::penetration::Skin;
 use crate::support::run::model;
-use crate::support::scenes::{Scene, scene};
+use crate::support::scenes::{Scene, asked_for, scene};
 use crate::support::shell_scenes::{shell_scene, triangle_scene};
 use crate::support::surfaces::Surfaces;
 use std::ops::Range;
@@ -214,16 +214,6 @@ struct Allowed {
     sunk: usize,
     /// The same of points of edges, where CONTACT EDGES is ALL.
     cut: usize,
-}
-
-/// The seeds that `URTO_SCENES` asks for, or else these; and whether it asks.
-fn asked_for(seeds: Range<u64>) -> (Range<u64>, bool) {
-    let asked = std::env::var("URTO_SCENES").ok().and_then(|text| {
-        let (from, to) = text.split_once("..")?;
-        Some(from.parse().ok()?..to.parse().ok()?)
-    });
-    let is_asked = asked.is_some();
-    (asked.unwrap_or(seeds), is_asked)
 }
 
 /// Runs the scenes of some seeds.

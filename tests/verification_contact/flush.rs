@@ -4,7 +4,7 @@
 use crate::support::close;
 use crate::support::meshes::recipe;
 use crate::support::run::run;
-use crate::support::scenes::Dice;
+use crate::support::scenes::{Dice, asked_for};
 
 /// Angles of the model about x and y, degrees.
 const TURNED: [f64; 2] = [37.0, 51.0];
@@ -170,12 +170,9 @@ fn is_row(seed: u64) -> bool {
 /// Nobody on the plate gains or loses what it has along the plate, and turned models do what upright ones do.
 #[test]
 fn random_flush_bodies_slide_on_at_any_angle() {
-    let seeds = std::env::var("URTO_SCENES").ok().and_then(|text| {
-        let (from, to) = text.split_once("..")?;
-        Some(from.parse().ok()?..to.parse().ok()?)
-    });
+    let (seeds, _) = asked_for(0..48);
     let mut wrong = Vec::new();
-    for seed in seeds.unwrap_or(0..48) {
+    for seed in seeds {
         let scene = flush_scene(seed);
         let mut dice = Dice::of(seed + 1_000_000);
         let angles = [dice.between(-180.0, 180.0), dice.between(-180.0, 180.0)];

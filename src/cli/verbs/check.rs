@@ -6,7 +6,7 @@ use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
 use crate::common::vector::{dot, subtract};
 use crate::mesh::{Block, Dimension, Mesh, Shape, plane};
-use crate::model::{ContactMaterials, Model, StepEstimate};
+use crate::model::{Model, StepEstimate};
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
@@ -150,11 +150,7 @@ fn heavy_turning(mesh: &Mesh, body: &Body, index: usize) -> Option<String> {
 /// That a block which touches is narrower than bars that touch are long, and so may go between the nodes with which they touch; for each
 /// block of bars the narrowest.
 fn between_bars(mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
-    let touches = |block: &&Block| match &model.contact.materials {
-        None => false,
-        Some(ContactMaterials::All) => true,
-        Some(ContactMaterials::Blocks(ids)) => ids.contains(&block.id),
-    };
+    let touches = |block: &&Block| model.contact.names(block.id);
     let (bars, others): (Vec<&Block>, Vec<&Block>) =
         mesh.blocks.iter().filter(touches).partition(|block| block.shape == Shape::Bar);
     let position = |node: u32| body.positions[node as usize];

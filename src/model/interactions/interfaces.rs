@@ -38,6 +38,15 @@ impl Contact {
     pub fn is_some(&self) -> bool {
         self.materials.is_some() || !self.surfaces.is_empty()
     }
+
+    /// Whether CONTACT MATERIAL names a block, by its number.
+    pub fn names(&self, block: i64) -> bool {
+        match &self.materials {
+            None => false,
+            Some(ContactMaterials::All) => true,
+            Some(ContactMaterials::Blocks(ids)) => ids.contains(&block),
+        }
+    }
 }
 
 /// The blocks that CONTACT MATERIAL names.

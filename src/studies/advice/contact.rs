@@ -3,7 +3,6 @@
 use super::{Advice, Promise, Scene};
 use crate::comm::Communicator;
 use crate::common::numbers::scientific;
-use crate::model::ContactMaterials;
 use crate::solver::Section;
 use crate::solver::contact::{LOOSER, Looser, Seen};
 
@@ -71,16 +70,8 @@ fn surfaces(scene: &Scene, seen: &Seen, has_edges: bool, list: &mut Vec<Advice>)
 
 /// Places of the blocks that CONTACT MATERIAL names.
 fn chosen(scene: &Scene) -> Vec<usize> {
-    match &scene.model.contact.materials {
-        None => Vec::new(),
-        Some(ContactMaterials::All) => (0..scene.mesh.blocks.len()).collect(),
-        Some(ContactMaterials::Blocks(ids)) => {
-            let mut chosen: Vec<usize> = ids.iter().filter_map(|id| scene.mesh.block_index(*id)).collect();
-            chosen.sort_unstable();
-            chosen.dedup();
-            chosen
-        }
-    }
+    let blocks = scene.mesh.blocks.iter().enumerate();
+    blocks.filter(|(_, block)| scene.model.contact.names(block.id)).map(|(place, _)| place).collect()
 }
 
 fn numbers(scene: &Scene, places: &[usize]) -> String {

@@ -4,7 +4,7 @@ use super::steps;
 use super::walls::thin_blocks;
 use crate::common::numbers::scientific;
 use crate::mesh::{Block, Mesh};
-use crate::model::{ContactMaterials, Model, Pulse};
+use crate::model::{Model, Pulse};
 use crate::solver::Solver;
 
 /// How much farther than the fastest of its nodes at the start something may go: bodies spring back.
@@ -47,11 +47,7 @@ fn apart(mesh: &Mesh, model: &Model, solver: &Solver) -> Vec<String> {
         || !model.prescribed_forces.is_empty()
         || !model.pressures.is_empty()
         || !model.gravities.is_empty();
-    let chosen = |block: &&Block| match &model.contact.materials {
-        None => false,
-        Some(ContactMaterials::All) => true,
-        Some(ContactMaterials::Blocks(ids)) => ids.contains(&block.id),
-    };
+    let chosen = |block: &&Block| model.contact.names(block.id);
     let blocks: Vec<&Block> = mesh.blocks.iter().filter(chosen).filter(|block| !block.is_empty()).collect();
     // What an equation of state drives has no speed yet.
     if driven || model.has_fluids() || blocks.len() < 2 {

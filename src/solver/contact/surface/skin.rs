@@ -4,7 +4,7 @@ use super::exclusions::Exclusions;
 use super::layout::Layout;
 use super::touching::Touching;
 use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh};
-use crate::model::{Contact, ContactEdges, ContactMaterials, Model};
+use crate::model::{Contact, ContactEdges, Model};
 use crate::solver::Body;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::geometry::faces::Faces;
@@ -51,13 +51,7 @@ impl Skin {
     /// Finds the surfaces. `more` are nodes that are points although they may not be on any face.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, more: Vec<u32>) -> Skin {
         let contact = &model.contact;
-        let chosen: Vec<bool> = (mesh.blocks.iter())
-            .map(|block| match &contact.materials {
-                None => false,
-                Some(ContactMaterials::All) => true,
-                Some(ContactMaterials::Blocks(ids)) => ids.contains(&block.id),
-            })
-            .collect();
+        let chosen: Vec<bool> = mesh.blocks.iter().map(|block| contact.names(block.id)).collect();
         Skin {
             element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),

@@ -295,11 +295,10 @@ impl NodeFaceCheck<'_> {
         contacts.sort_by(|a, b| {
             // What a point is over holds it rather than the border of the face beside that: of solids always, of surfaces where it is too near
             // from the beginning.
-            let is_behind = |contact: &DetectedContact| {
+            let from_border = |contact: &DetectedContact| {
                 contact.projection.rounded && (too_near || !self.faces.is_two_sided(contact.face))
             };
-            let [a_beside, b_beside] = [is_behind(a), is_behind(b)];
-            let by_way = a_beside.cmp(&b_beside).then(a.opposition.total_cmp(&b.opposition));
+            let by_way = from_border(a).cmp(&from_border(b)).then(a.opposition.total_cmp(&b.opposition));
             a.time.total_cmp(&b.time).then(by_way).then(number(a).cmp(&number(b)))
         });
         let mut kept = 0;
