@@ -18,6 +18,18 @@ pub fn regular(path: &Path) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidInput, format!("this is {what}, not a file")))
 }
 
+/// Refuses names of what is no file, before a new file takes the name: as the superuser one would replace a device, and every
+/// program that uses it would read our file instead.
+///
+/// # Errors
+/// With what it is instead.
+pub fn replaceable(path: &Path) -> io::Result<()> {
+    match regular(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
 /// What two paths have in common that lead to one file, through symbolic and hard links and whatever their names: the
 /// device and the number of the file on it.
 #[cfg(unix)]
@@ -61,6 +73,8 @@ mod tests {
         std::fs::write(&file, "").unwrap();
         assert!(regular(&file).is_ok());
         assert_eq!(regular(folder.path()).unwrap_err().to_string(), "this is a folder, not a file");
+        assert!(replaceable(&file).is_ok() && replaceable(&folder.path().join("b")).is_ok());
+        assert!(replaceable(folder.path()).is_err());
         #[cfg(unix)]
         assert_eq!(
             regular(Path::new("/dev/zero")).unwrap_err().to_string(),

@@ -65,6 +65,23 @@ fn two_runs_do_not_write_the_same_results() {
 
 #[test]
 #[cfg(unix)]
+fn no_output_takes_the_place_of_a_device() {
+    use std::os::unix::fs::FileTypeExt;
+    use std::os::unix::net::UnixListener;
+    let desk = desk_with_a_recipe();
+    put_bar(&desk, SOON, "");
+    desk.urto(&["bar.i", "-q", "--ranks", "2", "--split"]).with(0);
+    // Anybody can make a socket; to what a device is, programs have no other right than the superuser's.
+    let _open = UnixListener::bind(desk.path("socket")).expect("a socket");
+    let words = ["cannot write socket", "a pipe, a socket or a device, not a file"];
+    desk.urto(&["mesh", "r.mesh", "-o", "socket"]).with(1).says(&words);
+    desk.urto(&["join", "bar.e", "-o", "socket"]).with(1).says(&words);
+    let kind = std::fs::metadata(desk.path("socket")).expect("still there").file_type();
+    assert!(kind.is_socket() && !desk.has("socket.part"));
+}
+
+#[test]
+#[cfg(unix)]
 fn no_output_is_written_over_an_input() {
     use std::os::unix::fs::symlink;
     let desk = desk_with_a_recipe();

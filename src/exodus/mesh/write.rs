@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use netcdf::types::NcTypeDescriptor;
 use netcdf::{FileMut, Options};
 
+use crate::common::files;
 use crate::exodus::file::arrays::Character;
 use crate::exodus::file::error::ResultsError;
 use crate::exodus::file::names::{self, Family};
@@ -45,6 +46,7 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<(), ResultsError> {
 
 /// Writes a complete file without states, first under another name.
 pub(in crate::exodus) fn write_file(path: &Path, mesh: &Mesh, contents: &Contents) -> Result<(), ResultsError> {
+    files::replaceable(path).map_err(ResultsError::io("write", path))?;
     let unfinished = beside(path);
     let written = Writer::create(&unfinished, mesh, contents).and_then(|mut writer| {
         writer.define()?;

@@ -3,6 +3,7 @@
 use super::gather::Gathering;
 use super::read::{Told, told};
 use super::{Sizes, parts_of_name, piece_path};
+use crate::common::files;
 use crate::exodus::file::error::ResultsError;
 use crate::exodus::file::names;
 use crate::exodus::results::Results;
@@ -207,6 +208,7 @@ impl Common {
 /// # Errors
 /// When a piece cannot be read or does not fit the others, or the whole cannot be written; then there is no file.
 pub fn join(pieces: &[PathBuf], output: &Path) -> Result<Joined, JoinError> {
+    files::replaceable(output).map_err(ResultsError::io("write", output))?; // What is no file must not be removed, either.
     let mut opened = Opened::default();
     for path in pieces {
         opened.add(path, pieces)?;
