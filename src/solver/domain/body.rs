@@ -45,6 +45,9 @@ pub struct Body {
     pub block_material: Vec<usize>,
     /// Overlaps between contact surfaces that were taken out of the mesh by moving nodes.
     pub overlap: Overlap,
+    /// Nodes of surfaces and bars that begin nearer to faces than they touch, ascending, each with the part of that distance for which there
+    /// is room.
+    pub rooms: Vec<(u32, f64)>,
     /// Nodes of surfaces that are tied to others.
     pub tied: Tied,
     /// Rigid bodies, in the order of the deck.
@@ -142,6 +145,7 @@ impl Body {
             faces: Vec::new(),
             block_material,
             overlap: Overlap::default(),
+            rooms: Vec::new(),
             tied: Tied::default(),
             rigid: Vec::new(),
             block_body: rigid::bodies_of_blocks(mesh, model),

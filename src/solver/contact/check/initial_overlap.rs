@@ -22,6 +22,7 @@ use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use crate::solver::contact::surface::pairings::{Pairing, Pairings};
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::elements::Touch;
+use std::collections::BTreeMap;
 
 /// Overlap below this part of a face's size is round-off of the mesh's coordinates.
 const NOTHING: f64 = 1e-9;
@@ -149,7 +150,8 @@ impl DeepOverlap {
     }
 }
 
-/// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition.
+/// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition. Where the room is less
+/// than thicknesses, the body is told.
 pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     if !model.contact.is_some() {
         return Overlap::default();
@@ -160,7 +162,9 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         return overlap;
     }
     let layout = Skin::new(mesh, model, body, Vec::new()).layout();
-    Overlap { crowded: crowded(mesh, model, body, &layout), ..overlap }
+    let (crowded, rooms) = crowded(mesh, model, body, &layout);
+    body.rooms = rooms;
+    Overlap { crowded, ..overlap }
 }
 
 /// Lets all points be where they are in the body, and stay there.
@@ -172,11 +176,12 @@ fn stand_still(motion: &mut NodeMotion, body: &Body, layout: &Layout) {
     }
 }
 
-/// What thicknesses have no room for.
-fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded {
+/// What thicknesses have no room for, and the room of the nodes over faces that are too near, see [`Body::rooms`].
+fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded, Vec<(u32, f64)>) {
     let mut crowded = Crowded { least: 1.0, ..Crowded::default() };
+    let mut rooms = BTreeMap::new();
     if layout.faces.node_reach.iter().all(|&reach| reach == 0.0) {
-        return crowded;
+        return (crowded, Vec::new());
     }
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     stand_still(&mut motion, body, layout);
@@ -187,12 +192,19 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Crowded 
         if distance > 0.0 && room >= 0.0 && contact.projection.gap < -STUCK * size {
             crowded.nodes += usize::from(point != last);
             last = point;
-            if room / distance < crowded.least {
-                (crowded.least, crowded.node) = (room / distance, layout.nodes[point as usize]);
+            let part = room / distance;
+            if part < crowded.least {
+                (crowded.least, crowded.node) = (part, layout.nodes[point as usize]);
+            }
+            let members = layout.faces.corners[contact.face as usize].into_iter().chain([point]);
+            let members = members.filter(|_| !contact.projection.rounded);
+            for member in members.filter(|&member| layout.faces.node_reach[member as usize] > 0.0) {
+                let least = rooms.entry(layout.nodes[member as usize]).or_insert(part);
+                *least = part.min(*least);
             }
         }
     }
-    crowded
+    (crowded, rooms.into_iter().collect())
 }
 
 /// Moves nodes of the body out of the faces that they begin behind, without regard to thicknesses.

@@ -39,6 +39,8 @@ pub struct Faces {
     pub reach: Vec<f64>,
     /// Distance from each point at which it touches: half the thickness of its thickest shell, the radius of a bar. A length.
     pub node_reach: Vec<f64>,
+    /// Part of the distance at which they touch for which the mesh leaves room at each point; empty where there is room for all.
+    room: Vec<f64>,
     /// Whether the face is one of both sides of a surface.
     two_sided: Vec<bool>,
     /// Which of its edges are on the border of the surface, a bit for each corner at which one begins.
@@ -115,6 +117,9 @@ impl Faces {
             if let Some(place) = some.node_reach.get_mut(point(old) as usize) {
                 *place = reach;
             }
+        }
+        for (old, &part) in (0..).zip(&self.room).filter(|(_, part)| **part < 1.0) {
+            some.limit_room(point(old), part);
         }
         for &face in chosen {
             let face = face as usize;
@@ -234,6 +239,23 @@ impl Faces {
     #[inline]
     pub fn distance(&self, point: u32, face: u32) -> f64 {
         self.node_reach[point as usize] + self.reach[face as usize]
+    }
+
+    /// Says for what part of the distance at which it touches a point has room; one that is not there is passed over.
+    pub fn limit_room(&mut self, point: u32, part: f64) {
+        let points = self.node_reach.len();
+        if (point as usize) < points {
+            self.room.resize(points, 1.0);
+            self.room[point as usize] = part;
+        }
+    }
+
+    /// How near a point beside a face comes to its border before that is in its way, a length. What the mesh has put nearer to something
+    /// than they touch is as thin to what comes from beside: with its whole thickness it would be stopped by the next node of what it lies on.
+    pub fn rim(&self, point: u32, face: u32) -> f64 {
+        let room = |point: u32| self.room.get(point as usize).copied().unwrap_or(1.0);
+        let least = self.corners[face as usize].map(room).into_iter().fold(room(point), f64::min);
+        least * self.distance(point, face)
     }
 
     /// Depth behind a face at the start, a length, which it never exceeds.

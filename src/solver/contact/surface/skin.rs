@@ -41,6 +41,8 @@ pub struct Skin {
     /// Which edges may touch edges.
     edges_wanted: ContactEdges,
     exclusions: Arc<Exclusions>,
+    /// See [`Body::rooms`].
+    rooms: Vec<(u32, f64)>,
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
     touching: Touching,
     /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
@@ -68,6 +70,7 @@ impl Skin {
             }),
             edges_wanted: if mesh.dimension == Dimension::Two { ContactEdges::None } else { contact.control.edges },
             exclusions: Arc::new(Exclusions::new(mesh, model)),
+            rooms: body.rooms.clone(),
             free: Vec::new(),
             chosen,
         }
@@ -139,6 +142,9 @@ impl Skin {
             let point = layout.point(node) as usize;
             faces.node_reach[point] = faces.node_reach[point].max(radius);
             blocks[point].get_or_insert(block);
+        }
+        for &(node, part) in &self.rooms {
+            faces.limit_room(layout.point(node), part);
         }
         layout.faces = Arc::new(faces);
         let faces = &layout.faces;

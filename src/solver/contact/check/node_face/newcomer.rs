@@ -26,6 +26,9 @@ impl NodeFaceCheck<'_> {
             return None;
         }
         let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
+        if end.rounded && end.gap + self.faces.distance(point, face) > self.faces.rim(point, face) {
+            return None;
+        }
         if !self.may_have_come_over(point, face, &end) || self.is_on_other_side(point, face) {
             return None;
         }
