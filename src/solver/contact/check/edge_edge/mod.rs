@@ -55,6 +55,13 @@ const BEYOND_MIDDLE: f64 = 0.05;
 /// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
 const STEEP: f64 = 0.8;
 
+/// Cosine of the angle between two planes that count as one.
+const FLUSH: f64 = 0.99;
+
+/// An edge this part of a face's size below its plane is in the plane. Not more: in folds, faces that merely come near each other's planes must
+/// not be taken for a seam.
+const SEAM: f64 = 5e-4;
+
 /// Two edges in contact, remembered from step to step: their numbers, and in which direction the normal force pushes the first
 /// along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -342,7 +349,7 @@ impl EdgeCheck<'_> {
             Some(past) => EdgeContact { sense, tolerated: past.tolerated.max(gap).min(tolerated), ..*past },
             None => {
                 let before = self.gap_before((pair, half), &end, sense)?;
-                if gap >= tolerated || before <= -SUNK * scale {
+                if gap >= tolerated || before <= -SUNK * scale || self.slides_over_rim((pair, half), &end, -gap) {
                     return None;
                 }
                 EdgeContact { pair, sense, tolerated: before.min(tolerated), carried: Carried::NOTHING }
@@ -353,6 +360,36 @@ impl EdgeCheck<'_> {
             return None;
         }
         Some((now, self.constraint((pair, half), &end, &now, beyond, pairing)))
+    }
+
+    /// Whether an edge that is so deep behind the faces of a line slides flush on a face around an end of the line, beyond the rim there, and is
+    /// less deep behind that. Then that face holds it: what slides from one body onto the next is in by what contact tolerates.
+    fn slides_over_rim(&self, (pair, half): ([u32; 2], usize), end: &Crossing, depth: f64) -> bool {
+        let ([first, _], outwards) = (self.ends(pair, half), self.outwards(pair[1]));
+        let at = add(first[0], scaled(subtract(first[1], first[0]), end.places[0]));
+        let of = |face: u32| {
+            let corners = self.faces.end(face, self.motion);
+            let normal = area_normal(&corners);
+            (corners, normal, dot(normal, normal))
+        };
+        let own = self.edges[pair[0] as usize].faces.map(of);
+        self.edges[pair[1] as usize].ends.iter().any(|&point| {
+            let end = self.motion.end(point);
+            self.faces.around(point).iter().any(|&face| {
+                let (corners, normal, square) = of(face);
+                let cosine = dot(normal, outwards);
+                let turns = cosine * cosine < STEEP * STEEP * square * dot(outwards, outwards);
+                let is_flush = |&(_, own, of_own): &([[f64; 3]; 4], [f64; 3], f64)| {
+                    let cosine = dot(own, normal);
+                    cosine < 0.0 && cosine * cosine > FLUSH * FLUSH * square * of_own
+                };
+                turns
+                    && dot(subtract(centre(&corners), end), outwards) < 0.0
+                    && own.iter().any(is_flush)
+                    && dot(subtract(at, end), normal)
+                        > -depth.min(SEAM * self.faces.size[face as usize]) * square.sqrt()
+            })
+        })
     }
 
     /// Gap of an edge over a line at the beginning of the step, in the sense of its end.
