@@ -19,7 +19,7 @@ pub use laws::{
     Elastic, ElasticPlastic, ElasticPlasticHydrodynamic, Hydrodynamic, JohnsonCook, Law, LowDensityFoam, MATERIALS,
     MooneyRivlin, OrthotropicCrush, PiecewisePlastic, PowerHardening, Soil, Viscoplastic,
 };
-pub use property::{Curve, Given, Refusal};
+pub use property::{Caution, Curve, Given, Refusal};
 
 /// Everything the deck, the manual and the plot file need to know of a law, or of another thing with properties.
 pub struct Entry<T = Law> {
