@@ -19,7 +19,8 @@ const fn coefficient(keyword: &'static str) -> Property {
 }
 
 parameters! {
-    /// p_H = ρ₀c₀² η/(1 − sη)²: the shock speed is c₀ + s times the particle speed. In tension p_H = ρ₀c₀² η.
+    /// p_H = ρ₀c₀² η/(1 − sη)²: the shock speed is c₀ + s times the particle speed. In tension p_H = ρ₀c₀² η, beyond sη = 0.95
+    /// its tangent there.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct UsUp {
         /// Bulk sound speed c₀.
@@ -80,20 +81,28 @@ pub(super) static POWER_SERIES: Entry<EquationOfState> = Entry {
     build: |given| stiff(EquationOfState::PowerSeries(PowerSeries::read(given)?), "INITIAL ENERGY"),
 };
 
-/// 1 − sη is not below this: there, at many times the bulk modulus, the Hugoniot ends.
+/// 1 − sη is not below this: the pole of the Hugoniot is near, and pressures are hundreds of times the bulk modulus. From there on
+/// it goes along its tangent, so that what has locked does not become softer.
 const LIMIT: f64 = 0.05;
 
 impl UsUp {
+    /// The compression η beyond which the tangent stands for the Hugoniot; infinite where there is no pole.
+    pub(super) fn end(&self) -> f64 {
+        if self.slope > 0.0 { (1.0 - LIMIT) / self.slope } else { f64::INFINITY }
+    }
+
     #[inline(always)]
     pub(super) fn terms<V: Lanes>(&self, volume: V) -> Terms<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let modulus = V::splat(self.density * self.speed * self.speed);
         let compression = one - volume;
-        let pressed = compression.max(zero) * V::splat(self.slope);
-        let inverse = one / (one - pressed).max(V::splat(LIMIT));
+        let on_curve = compression.min(V::splat(self.end()));
+        let pressed = on_curve.max(zero) * V::splat(self.slope);
+        let inverse = one / (one - pressed);
         let square = inverse * inverse;
-        let hugoniot = modulus * compression * square;
-        terms(compression, hugoniot, modulus * (one + pressed) * square * inverse, self.gamma)
+        let slope = modulus * (one + pressed) * square * inverse;
+        let hugoniot = modulus * on_curve * square + slope * (compression - on_curve);
+        terms(compression, hugoniot, slope, self.gamma)
     }
 }
 
