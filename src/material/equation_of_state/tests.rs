@@ -115,6 +115,25 @@ fn hugoniot_goes_on_along_its_tangent() {
     assert!(point.energy.abs() < 1e-5 * taken, "{:e} of {taken:e} are left", point.energy);
 }
 
+/// K₁η + K₂η² with K₂ < 0 has its maximum ¼ K₁²/−K₂ at η = K₁/−2K₂; none is told beyond 0.9, and of K₁η + K₂η² + K₃η³ none where
+/// K₂² < 3 K₁K₃.
+#[test]
+fn a_hugoniot_that_turns_over_is_told() {
+    let told = |coefficients: [f64; 5]| {
+        let entry = EQUATIONS_OF_STATE.iter().find(|entry| entry.name == "MG POWER SERIES").expect("it is there");
+        let values: Vec<f64> = coefficients.into_iter().chain([0.0, 0.0]).collect();
+        let given = super::super::Given::new(&values, 1.0);
+        assert!((entry.build)(&given).is_ok());
+        given.cautions.take().iter().map(|c| format!("{} {}", c.keyword, c.reason)).collect::<String>()
+    };
+    let text = told([200.0, -900.0, 0.0, 0.0, 0.0]);
+    assert!(text.starts_with("K2 is -9e2") && text.contains("of 0.1111:") && text.contains("1.1111e1"), "{text}");
+    assert_eq!(told([200.0, -110.0, 0.0, 0.0, 0.0]), "");
+    assert_eq!(told([200.0, -500.0, 417.0, 0.0, 0.0]), "");
+    // 200 - 1000 h + 1245 h^2 = 0 at h = (1000 - sqrt(4000))/2490 = 0.37620
+    assert!(told([200.0, -500.0, 415.0, 0.0, 0.0]).contains("of 0.3762:"));
+}
+
 /// A shock in one step of a point: with the viscous stress that closes the momentum balance, q + ½(0 + p) = p, hence the
 /// energy ½ p (1 − v), the step ends on the Hugoniot.
 #[test]
