@@ -143,7 +143,7 @@ fn energy_of_bulk_viscosity_heats() {
     let pressure = 8930.0 * 3940.0f64.powi(2) * eta / (1.0 - 1.489 * eta).powi(2);
     let step = Step::<f64> {
         strain: crate::material::point::sym([-eta, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        stretch: crate::material::point::sym([volume, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        biot_strain: crate::material::point::sym([-eta, 0.0, 0.0, 0.0, 0.0, 0.0]),
         volume,
         middle_volume: 1.0,
         energy: 0.0,

@@ -8,7 +8,7 @@ use super::property::STRESS;
 use super::{
     Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Sym3, ln};
+use crate::lanes::{Lanes, Matrix3, Sym3, ln_one_plus};
 
 parameters! {
     /// Pressure from a function of the largest compression so far, unloading with a constant bulk modulus; deviator returned
@@ -140,7 +140,7 @@ impl Kernel for SoilKernel<'_> {
     fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, zero, one) = (self.law, V::splat(0.0), V::splat(1.0));
         // (i) pressure: on the virgin curve where the compression is the largest so far, else unloaded from it
-        let now = -ln(step.volume);
+        let now = -ln_one_plus(step.dilatation());
         let largest = V::load(&state[0], part).max(now);
         let virgin = interpolate(&law.curve.points, largest);
         let unloaded = virgin - V::splat(law.bulk) * (largest - now);
