@@ -1,7 +1,9 @@
 //! MOONEY RIVLIN: rubber, from a stored energy; NEO HOOKEAN is the same with C01 = 0.
 
 use super::property::STRESS;
-use super::{Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Step, Stiffness};
+use super::{
+    Entry, Given, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, Step, Stiffness,
+};
 use crate::lanes::{Lanes, Matrix3, Sym3, power};
 
 parameters! {
@@ -35,9 +37,28 @@ pub(super) static ENTRY: Entry = Entry {
             let reason = format!("is {c10}, which with C01 = {c01} makes a shear modulus that is not positive");
             return Err(Refusal { keyword: "C10", reason });
         }
+        warn_of_unbounded_energy(&law, given);
         Ok(Law::MooneyRivlin(law))
     },
 };
+
+/// With a negative constant W falls without end: Ī₁ ~ λ² leads in uniaxial tension, Ī₂ ~ λ⁴ in equibiaxial. What is free at its
+/// sides changes the sign of its stress where C₁₀ + C₀₁/λ, or C₁₀ + C₀₁λ², is 0.
+fn warn_of_unbounded_energy(law: &MooneyRivlin, given: &Given) {
+    let MooneyRivlin { c10, c01, .. } = *law;
+    let (keyword, value, motion, stretch) = match (c10 < 0.0, c01 < 0.0) {
+        (true, _) => ("C10", c10, "uniaxial", -c01 / c10),
+        (_, true) => ("C01", c01, "equibiaxial", (-c10 / c01).sqrt()),
+        _ => return,
+    };
+    let reason = format!(
+        "is {value}, with which the stored energy is not bounded below: in {motion} tension the stress changes its sign at a \
+         stretch of {stretch:.4}"
+    );
+    let help = "C10 >= 0 and C01 >= 0 are safe at every stretch (Drucker, Ball); others only within those that they were \
+                fitted to";
+    given.warn(keyword, reason, help);
+}
 
 impl MooneyRivlin {
     /// Of small strains: μ = 2 (C₁₀ + C₀₁).
@@ -176,6 +197,31 @@ mod tests {
         let i2 = 0.5 * (i1 * i1 - (unit * unit).trace());
         let stored = C10 * (i1 - 3.0) + C01 * (i2 - 3.0) + 0.5 * 2e10 * (j - 1.0).powi(2);
         close("energy", point.energy, stored, 1e-5);
+    }
+
+    /// The stresses of the two tests above, 2 (λ² − 1/λ)(C₁₀ + C₀₁/λ) and 2 (λ² − λ⁻⁴)(C₁₀ + C₀₁λ²), vanish where it is told.
+    #[test]
+    fn an_energy_without_a_bound_is_told() {
+        let told = |c10: f64, c01: f64| {
+            let values = [c10, c01, 1e-3];
+            let given = Given::new(&values, 1.0);
+            assert!((ENTRY.build)(&given).is_ok());
+            given.cautions.take().iter().map(|c| format!("{} {}", c.keyword, c.reason)).collect::<String>()
+        };
+        // sqrt(4/3.9) = 1.01274; 0.5/0.4 = 1.25
+        let text = told(4.0, -3.9);
+        assert!(
+            text.starts_with("C01 is -3.9,")
+                && text.ends_with("equibiaxial tension the stress changes its sign at a stretch of 1.0127"),
+            "{text}"
+        );
+        let text = told(-0.4, 0.5);
+        assert!(
+            text.starts_with("C10 is -0.4,")
+                && text.ends_with("uniaxial tension the stress changes its sign at a stretch of 1.2500"),
+            "{text}"
+        );
+        assert_eq!(told(0.4, 0.1) + &told(0.0, 0.1) + &told(0.4, 0.0), "");
     }
 
     /// In single precision small strains keep their digits at a bulk modulus of a thousand shear moduli: Hooke's law, up to squares of

@@ -5,6 +5,7 @@
 
 use super::plastic::compose;
 use super::property::STRESS;
+use super::strength;
 use super::{
     Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
@@ -68,7 +69,11 @@ pub(in crate::material) static ENTRY: Entry = Entry {
         StateVariable { name: "NUM", meaning: "Number of the function's segment that the largest compression is in." },
     ],
     origin: Origin::Recalled,
-    build: |given| Ok(Law::Soil(checked(Soil::read(given)?)?)),
+    build: |given| {
+        let law = checked(Soil::read(given)?)?;
+        strength::check(&law, given)?;
+        Ok(Law::Soil(law))
+    },
 };
 
 /// A soil whose function is one of pressure over compression.
