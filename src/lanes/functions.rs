@@ -93,6 +93,14 @@ pub fn ln<V: Lanes>(x: V) -> V {
     n * high + (f + (tail + n * low)) + x * V::splat(0.0)
 }
 
+/// ln(1 + x), to two units in the last place also where x is small: what 1 + x loses of x is added.
+#[inline(always)]
+pub fn ln_one_plus<V: Lanes>(x: V) -> V {
+    let one = V::splat(1.0);
+    let sum = one + x;
+    ln(sum) + (x - (sum - one)) / sum.max(V::splat(V::TINY))
+}
+
 /// xᵖ of x ≥ 0 for a fixed p > 0; the relative error is about p ln x units in the last place. Zero stays zero as
 /// far as p lets it: x counts as at least the smallest normal number.
 #[inline(always)]
@@ -127,6 +135,20 @@ mod tests {
         assert_eq!([exp(0.0), ln(1.0), exp(-1e9), exp(1e9)], [1.0, 0.0, exp(-708.0), exp(708.0)]);
         assert!(exp(f64::NAN).is_nan() && ln(f64::NAN).is_nan() && ln(f64::INFINITY).is_nan());
         assert!(ln(0.0) < -708.0 && ln(-1.0) < -708.0);
+    }
+
+    /// Down to strains that 1 + x does not see, in both precisions; the logarithm of 0 is the least there is.
+    #[test]
+    fn logarithm_of_one_and_little_keeps_its_digits() {
+        for x in [1e-30, 1e-9, -3e-7, 1e-5, -0.01, 0.3, -0.9, 20.0] {
+            let exact = libm::log1p(x);
+            assert!((ln_one_plus(x) - exact).abs() <= 4.0 * f64::EPSILON * exact.abs(), "{x:e}");
+            let single = x as f32;
+            let exact = libm::log1p(f64::from(single));
+            let found = f64::from(ln_one_plus(single));
+            assert!((found - exact).abs() <= 4.0 * f64::from(f32::EPSILON) * exact.abs(), "{x:e}: {found:e}");
+        }
+        assert!(ln_one_plus(-1.0) < -708.0);
     }
 
     #[test]

@@ -70,7 +70,7 @@ mod tensor;
 #[cfg(test)]
 mod tests;
 
-pub use functions::{exp, ln, power};
+pub use functions::{exp, ln, ln_one_plus, power};
 pub use portable::Pair;
 pub use tensor::{Matrix3, Sym3, multiply, multiply_transposed};
 

@@ -94,6 +94,15 @@ impl<V: Lanes> Sym3<V> {
         self.xx * b.xx + self.yy * b.yy + self.zz * b.zz + (shear + shear)
     }
 
+    /// det(I + a) − 1, the sum of the three invariants of a: with all digits of a small a.
+    #[inline(always)]
+    pub fn volume_change(self) -> V {
+        let Sym3 { xx, yy, zz, xy, yz, zx } = self;
+        let minors = (xx * yy - xy * xy) + (yy * zz - yz * yz) + (zz * xx - zx * zx);
+        let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
+        self.trace() + (minors + determinant)
+    }
+
     /// R a Rᵀ, the tensor carried from the rotated frame into the fixed one.
     #[inline(always)]
     pub fn rotate(self, r: &Matrix3<V>) -> Self {

@@ -19,7 +19,7 @@ pub use laws::{
     Elastic, ElasticPlastic, ElasticPlasticHydrodynamic, Hydrodynamic, JohnsonCook, Law, LowDensityFoam, MATERIALS,
     MooneyRivlin, OrthotropicCrush, PiecewisePlastic, PowerHardening, Soil, Viscoplastic,
 };
-pub use property::{Curve, Given, Refusal};
+pub use property::{Caution, Curve, Given, Refusal};
 
 /// Everything the deck, the manual and the plot file need to know of a law, or of another thing with properties.
 pub struct Entry<T = Law> {
@@ -119,8 +119,8 @@ pub struct Start {
 pub struct Step<V> {
     /// Strain increment Δt d, seen in the frame.
     pub strain: Sym3<V>,
-    /// Right stretch U at the end of the step, seen in the frame.
-    pub stretch: Sym3<V>,
+    /// Biot strain U − I of the right stretch U at the end of the step, seen in the frame: without the one a small strain has all digits.
+    pub biot_strain: Sym3<V>,
     /// V/V₀ at the end of the step; 1 for laws without [`Kernel::VOLUME`].
     pub volume: V,
     /// V/V₀ in the middle of the step.
@@ -135,6 +135,27 @@ pub struct Step<V> {
     pub time: f64,
     /// Δt; zero in the evaluation of the initial state.
     pub time_step: f64,
+}
+
+/// What V/V₀ may be off by in single precision, as it is made of rounded positions: some last digits of one.
+const ROUNDED_VOLUME: f64 = 4.0 * f32::EPSILON as f64;
+
+impl<V: Lanes> Step<V> {
+    /// J − 1, the change of volume over the initial volume.
+    ///
+    /// V/V₀ − 1 has no more digits than V/V₀, which is few in single precision. There det U − 1 has those of the strain; but U is
+    /// integrated, and V/V₀ is not. So what they differ by counts where it is more than V/V₀ may be off by.
+    #[inline(always)]
+    pub fn dilatation(&self) -> V {
+        let of_volume = self.volume - V::splat(1.0);
+        if !V::SINGLE {
+            return of_volume;
+        }
+        let of_stretch = self.biot_strain.volume_change();
+        let difference = of_volume - of_stretch;
+        let rounding = difference.max(V::splat(-ROUNDED_VOLUME)).min(V::splat(ROUNDED_VOLUME));
+        of_stretch + (difference - rounding)
+    }
 }
 
 /// Stored by laws with [`Kernel::EQUATION`], as the last of their rows: power of the corner forces at the end of the step, with

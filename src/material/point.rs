@@ -27,9 +27,9 @@ pub(super) const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.
 impl Step<f64> {
     /// A small increment from a point at rest, for laws that look at nothing else.
     pub(super) fn of(strain: Tensor) -> Step<f64> {
-        let unit = sym([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+        let none = sym([0.0; 6]);
         let [volume, middle_volume, energy, swept, time, time_step] = [1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        Step { strain: sym(strain), stretch: unit, volume, middle_volume, energy, swept, time, time_step }
+        Step { strain: sym(strain), biot_strain: none, volume, middle_volume, energy, swept, time, time_step }
     }
 }
 
@@ -108,7 +108,7 @@ impl KernelVisitor for Increment<'_> {
         let mean_of_start = sym(point.stress).zip(sym([0.0; 6]), |a, b| 0.5 * (a + b)).add_diagonal(point.viscous);
         let step = Step {
             strain: sym(strain),
-            stretch: sym(flat(point.stretch)),
+            biot_strain: sym(flat(point.stretch)).add_diagonal(-1.0),
             volume: if K::VOLUME { point.stretch.determinant() } else { f64::NAN },
             middle_volume: middle,
             energy: point.energy + mean_of_start.contract(sym(strain)) * middle,
@@ -148,7 +148,7 @@ fn spread(t: Sym3<f64>) -> Sym3<Pair<f64>> {
 fn pairs(step: &Step<f64>) -> Step<Pair<f64>> {
     Step {
         strain: spread(step.strain),
-        stretch: spread(step.stretch),
+        biot_strain: spread(step.biot_strain),
         volume: Pair::splat(step.volume),
         middle_volume: Pair::splat(step.middle_volume),
         energy: Pair::splat(step.energy),

@@ -1,7 +1,7 @@
 //! The vocabulary in which a law describes itself.
 
 use super::equation_of_state::{DetonationPoint, EquationOfState};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 /// Dimension of stresses and moduli.
@@ -30,13 +30,20 @@ pub struct Given<'a> {
     pub equation_wanted: Cell<bool>,
     /// Where explosives are lit.
     pub detonation: &'a [DetonationPoint],
+    /// What the law warns of.
+    pub cautions: RefCell<Vec<Caution>>,
 }
 
 impl Given<'_> {
     /// Values and density alone, for what is made without a deck or needs no more.
     pub fn new(values: &[f64], density: f64) -> Given<'_> {
-        let equation_wanted = Cell::new(false);
-        Given { values, density, function: &|_| None, equation: None, equation_wanted, detonation: &[] }
+        let (equation_wanted, cautions) = (Cell::new(false), RefCell::new(Vec::new()));
+        Given { values, density, function: &|_| None, equation: None, equation_wanted, detonation: &[], cautions }
+    }
+
+    /// Warns of a value: the reason is the end of a sentence that begins with the keyword.
+    pub fn warn(&self, keyword: &'static str, reason: String, help: &str) {
+        self.cautions.borrow_mut().push(Caution { keyword, reason, help: help.to_owned() });
     }
 
     /// The equation of state, for a law that cannot do without.
@@ -65,6 +72,17 @@ impl Given<'_> {
             (self.function)(id as i64).ok_or_else(|| refusal(format!("is {id}, but there is no FUNCTION {id}")))?;
         Ok(Curve { id: id as i64, points: points.into() })
     }
+}
+
+/// Why parameter values that do make a law may not make the one that is meant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Caution {
+    /// Keyword of the property to look at.
+    pub keyword: &'static str,
+    /// What is odd about it, as the end of a sentence that begins with the keyword.
+    pub reason: String,
+    /// What follows from it, or what to try.
+    pub help: String,
 }
 
 /// Why parameter values that are each in range do not make a law together.

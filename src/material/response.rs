@@ -134,7 +134,15 @@ impl KernelVisitor for Increment<'_> {
         let before = Sym3 { xx, yy, zz, xy, yz, zx };
         let step = Step {
             strain,
-            stretch: Sym3 { xx: u[(0, 0)], yy: u[(1, 1)], zz: u[(2, 2)], xy: u[(0, 1)], yz: u[(1, 2)], zx: u[(2, 0)] },
+            biot_strain: Sym3 {
+                xx: u[(0, 0)],
+                yy: u[(1, 1)],
+                zz: u[(2, 2)],
+                xy: u[(0, 1)],
+                yz: u[(1, 2)],
+                zx: u[(2, 0)],
+            }
+            .add_diagonal(-1.0),
             volume: if K::VOLUME { u.determinant() } else { 1.0 },
             middle_volume: middle,
             energy: point.energy + 0.5 * before.contract(strain) * middle,

@@ -134,7 +134,18 @@ fn dust() -> Desk {
     desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 0.1, 3, 3, 1\n")
 }
 
-fn scenes() -> [Scene; 9] {
+/// A cube of a solid with a steep Hugoniot that is pressed to half of its volume, beyond 0.95/2.5.
+fn pressed_beyond_its_hugoniot() -> Desk {
+    desk(
+        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 5.E-3\nOUTPUT TIME, 0.1\nFUNCTION, 1\n0., 0.\n1., -0.5\nEND\nNO DISPLACEMENT, X, 1\n\
+         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 2\n\
+         PRESCRIBED DISPLACEMENT, X, 2, 1, 1.\nMATERIAL, 1, HYDRODYNAMIC, 1.E6\nPRESSURE CUTOFF = -3.\nEND\n\
+         EQUATION OF STATE, 1, MG US-UP\nC0 = 0.014\nS = 2.5\nGAMMA = 0.\nEND\n",
+        "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n",
+    )
+}
+
+fn scenes() -> [Scene; 10] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -176,6 +187,11 @@ fn scenes() -> [Scene; 9] {
             dust(),
             "elements of block 1 that are gone from the start",
             &["DEATH takes 9 elements of block 1 away at the first state"],
+        ),
+        scene(
+            pressed_beyond_its_hugoniot(),
+            "compression of block 1 beyond its Hugoniot",
+            &["1 element of block 1 has been", "beyond 1 - V/V0 = 0.3800", "element 1 at ("],
         ),
         scene(
             dust(),

@@ -210,6 +210,59 @@ fn every_law_with_the_same_bits_on_any_ranks() {
     between("single, every law", "worst energy balance", runs[0].worst_balance(), 0.0, 1e-5);
 }
 
+/// One element at a last state of SIGXX and SIGYY, drawn along x by a strain, along y by another, and held along z.
+fn drawn([along_x, along_y]: [f64; 2], law: &str) -> [f64; 2] {
+    let mesh = recipe(
+        "TITLE\n ELEMENT\nBOX, 1, 0., 0., 0., 0.7, 1.1, 0.9, 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 0.7\n\
+         NODE SET PLANE, 3, Y, 0.\nNODE SET PLANE, 4, Y, 1.1\nNODE SET PLANE, 5, Z, 0.\nNODE SET PLANE, 5, Z, 0.9\n",
+    );
+    let deck = format!(
+        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 5.E-3\nPLOT TIME, 1.\nPLOT ELEMENT, STRESS\nBULK VISCOSITY, 0., 0.\n\
+         FUNCTION, 1\n0., 0.\n1., 1.\nEND\nFUNCTION, 7\n0., 0.\n0.4, 20.\nEND\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 3\n\
+         NO DISPLACEMENT, Z, 5\nPRESCRIBED DISPLACEMENT, X, 2, 1, {:e}\nPRESCRIBED DISPLACEMENT, Y, 4, 1, {:e}\n{law}",
+        0.7 * along_x,
+        1.1 * along_y
+    );
+    let end = run(&in_single(&deck), &mesh).whole();
+    ["SIGXX", "SIGYY"].map(|name| end.end().element(name)[0])
+}
+
+/// Rubber with K = 1000 μ in pure shear at constant volume, λ and 1/λ: the deviator of 2 (C₁₀ + C₀₁ I₁) b − 2 C₀₁ b² and no pressure.
+#[test]
+fn small_strains_of_rubber() {
+    let (c10, c01) = (0.4, 0.1);
+    let law = "MATERIAL, 1, MOONEY RIVLIN, 1.E8\nC10 = 0.4\nC01 = 0.1\nBULK MODULUS = 1000.\nEND\n";
+    for strain in [1e-5, 1e-4, 1e-3, 1e-2] {
+        let l = 1.0 + strain;
+        let b = [l * l, 1.0 / (l * l), 1.0];
+        let first: f64 = b.iter().sum();
+        let full = b.map(|b| 2.0 * ((c10 + c01 * first) * b - c01 * b * b));
+        let mean = full.iter().sum::<f64>() / 3.0;
+        let found = drawn([strain, 1.0 / l - 1.0], law);
+        for i in 0..2 {
+            close("small strains of rubber, single", &format!("stress at {strain:e}"), found[i], full[i] - mean, 1e-4);
+        }
+    }
+}
+
+/// Soil with a modulus of 50 in p = f(−ln V/V₀) and 2μ = 60, pressed with held sides: σ = −(50 + 40) ε, and −(50 − 20) ε across.
+#[test]
+fn small_strains_of_soil() {
+    let law = "MATERIAL, 1, SOIL N FOAMS, 1.E8\nTWO MU = 60.\nBULK MODULUS = 100.\nA0 = 5.\nPRESSURE CUTOFF = 0.2\nFUNCTION ID = 7\nEND\n";
+    for strain in [1e-6, 1e-5, 1e-4, 1e-2] {
+        let found = drawn([-strain, 0.0], law);
+        let logarithmic = -libm::log1p(-strain);
+        close("small strains of soil, single", &format!("stress at {strain:e}"), found[0], -90.0 * logarithmic, 2e-5);
+        close(
+            "small strains of soil, single",
+            &format!("stress across at {strain:e}"),
+            found[1],
+            -30.0 * logarithmic,
+            2e-5,
+        );
+    }
+}
+
 /// A run that goes on from a state is the one that never stopped, to the bit.
 #[test]
 fn restarts_keep_what_is_carried() {

@@ -79,6 +79,14 @@ impl EquationOfState {
         State { pressure, bulk: volume * (pressure * b - a_slope - b_slope * energy) }
     }
 
+    /// The compression 1 − V/V₀ beyond which the pressure is no longer that of the formula but its tangent there, if there is such.
+    pub fn end_of_formula(&self) -> Option<f64> {
+        match self {
+            EquationOfState::UsUp(equation) => Some(equation.end()).filter(|end| *end < 1.0),
+            _ => None,
+        }
+    }
+
     /// Pressure and bulk modulus of the initial state.
     pub(super) fn initial(&self) -> State<f64> {
         self.state(1.0, self.initial_energy())

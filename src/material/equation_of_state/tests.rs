@@ -84,6 +84,56 @@ fn hugoniot_of_copper() {
     close("flyer", copper().state(volume, 0.5 * 48.48e9 * (1.0 - volume)).pressure, 48.48e9, 1e-3);
 }
 
+/// Near its pole, at η = 0.95/s, the Hugoniot goes on along its tangent: p = ρ₀c₀² [η/0.05² + (1 + 0.95)/0.05³ (η − 0.95/s)] from
+/// there on, with η = 0.95/s in the first term. The modulus by volume, −dp/dv, stays what it is at the end.
+#[test]
+fn hugoniot_goes_on_along_its_tangent() {
+    let (density, c0, s) = (1e6, 0.014, 2.5);
+    let equation = equation("MG US-UP", density, &[("C0", c0), ("S", s), ("GAMMA", 0.0)]);
+    let (modulus, end) = (density * c0 * c0, 0.95 / s);
+    close("end", equation.end_of_formula().unwrap_or(0.0), end, 1e-15);
+    let curve = |eta: f64| modulus * eta / (1.0 - s * eta).powi(2);
+    let tangent = |eta: f64| modulus * (end / 0.0025 + 1.95 / 1.25e-4 * (eta - end));
+    for (eta, pressure) in [(0.3, curve(0.3)), (0.379, curve(0.379)), (0.381, tangent(0.381)), (0.5, tangent(0.5))] {
+        close("pressure", equation.state(1.0 - eta, 0.0).pressure, pressure, 1e-11);
+    }
+    for eta in [0.380_001, 0.4, 0.9] {
+        let state = equation.state(1.0 - eta, 0.0);
+        close("modulus", state.bulk / (1.0 - eta), modulus * 1.95 / 1.25e-4, 1e-11);
+    }
+    // With heat the pressure still follows p_H and E: at E = 1/2 p_H eta it is p_H.
+    let hot = super::super::point::equation("MG US-UP", density, &[("C0", c0), ("S", s), ("GAMMA", 2.0)]);
+    close("Hugoniot", hot.state(0.55, 0.5 * tangent(0.45) * 0.45).pressure, tangent(0.45), 1e-11);
+    // There and back the point gives what it took.
+    let mut point = fluid(equation, 0.0);
+    point.strain_in(20_000, [f64::ln(0.5), 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let taken = point.energy;
+    let area =
+        modulus * (f64::ln(0.05) / (s * s) + end / (0.05 * s)) + 0.5 * (tangent(end) + tangent(0.5)) * (0.5 - end);
+    close("work", taken, area, 1e-5);
+    point.strain_in(20_000, [f64::ln(2.0), 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert!(point.energy.abs() < 1e-5 * taken, "{:e} of {taken:e} are left", point.energy);
+}
+
+/// K₁η + K₂η² with K₂ < 0 has its maximum ¼ K₁²/−K₂ at η = K₁/−2K₂; none is told beyond 0.9, and of K₁η + K₂η² + K₃η³ none where
+/// K₂² < 3 K₁K₃.
+#[test]
+fn a_hugoniot_that_turns_over_is_told() {
+    let told = |coefficients: [f64; 5]| {
+        let entry = EQUATIONS_OF_STATE.iter().find(|entry| entry.name == "MG POWER SERIES").expect("it is there");
+        let values: Vec<f64> = coefficients.into_iter().chain([0.0, 0.0]).collect();
+        let given = super::super::Given::new(&values, 1.0);
+        assert!((entry.build)(&given).is_ok());
+        given.cautions.take().iter().map(|c| format!("{} {}", c.keyword, c.reason)).collect::<String>()
+    };
+    let text = told([200.0, -900.0, 0.0, 0.0, 0.0]);
+    assert!(text.starts_with("K2 is -9e2") && text.contains("of 0.1111:") && text.contains("1.1111e1"), "{text}");
+    assert_eq!(told([200.0, -110.0, 0.0, 0.0, 0.0]), "");
+    assert_eq!(told([200.0, -500.0, 417.0, 0.0, 0.0]), "");
+    // 200 - 1000 h + 1245 h^2 = 0 at h = (1000 - sqrt(4000))/2490 = 0.37620
+    assert!(told([200.0, -500.0, 415.0, 0.0, 0.0]).contains("of 0.3762:"));
+}
+
 /// A shock in one step of a point: with the viscous stress that closes the momentum balance, q + ½(0 + p) = p, hence the
 /// energy ½ p (1 − v), the step ends on the Hugoniot.
 #[test]
@@ -93,7 +143,7 @@ fn energy_of_bulk_viscosity_heats() {
     let pressure = 8930.0 * 3940.0f64.powi(2) * eta / (1.0 - 1.489 * eta).powi(2);
     let step = Step::<f64> {
         strain: crate::material::point::sym([-eta, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        stretch: crate::material::point::sym([volume, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        biot_strain: crate::material::point::sym([-eta, 0.0, 0.0, 0.0, 0.0, 0.0]),
         volume,
         middle_volume: 1.0,
         energy: 0.0,

@@ -4,7 +4,7 @@ use super::properties::Properties;
 use crate::model::problem::{Draft, Setter};
 use crate::{
     deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, Status, language, spelling},
-    material::{DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
+    material::{Caution, DetonationPoint, EQUATIONS_OF_STATE, Entry, EquationOfState, Given, Law, MATERIALS, Refusal},
 };
 
 /// MATERIAL: the law of one element block.
@@ -44,6 +44,7 @@ fn material(card: &Card, draft: &mut Draft) {
     let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(point).collect();
     let given = Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
     let law = (entry.build)(&given);
+    let cautions = given.cautions.take();
     if let (Some(equation_card), false, Ok(_)) = (equation_card, given.equation_wanted.get(), &law) {
         let message = format!("EQUATION OF STATE {block}: {} does not use one", entry.name);
         let wanted = "HYDRODYNAMIC and EP HYDRODYNAMIC do";
@@ -51,7 +52,10 @@ fn material(card: &Card, draft: &mut Draft) {
         draft.report(diagnostic.help(wanted));
     }
     match law {
-        Ok(law) => draft.model.materials.push(BlockMaterial { block, density, law }),
+        Ok(law) => {
+            draft.model.materials.push(BlockMaterial { block, density, law });
+            warned(card, &cautions, draft);
+        }
         Err(refusal) => refused(card, &refusal, draft),
     }
 }
@@ -64,8 +68,12 @@ fn equation_cards(deck: &Deck, block: i64) -> impl Iterator<Item = &Card> {
 fn equation_of_state(card: &Card, density: f64, draft: &mut Draft) -> Option<EquationOfState> {
     let entry = equation_entry(card, draft)?;
     let values = Properties::new(card, entry, EQUATIONS_OF_STATE).values(card, draft)?;
-    match (entry.build)(&Given::new(&values, density)) {
-        Ok(equation) => Some(equation),
+    let given = Given::new(&values, density);
+    match (entry.build)(&given) {
+        Ok(equation) => {
+            warned(card, &given.cautions.take(), draft);
+            Some(equation)
+        }
         Err(refusal) => {
             refused(card, &refusal, draft);
             None
@@ -168,8 +176,21 @@ pub(in crate::model) fn refuse_lawless(draft: &mut Draft) {
 /// Reports values that do not make a law together.
 fn refused(card: &Card, refusal: &Refusal, draft: &mut Draft) {
     let message = format!("{} {}: {} {}", card.name, card.integer("block"), refusal.keyword, refusal.reason);
-    let row = card.rows.iter().find(|row| spelling::agreement(&row.fields, refusal.keyword).is_some());
-    draft.report(Diagnostic::error(message).at(row.map_or(card.record, Row::span), ""));
+    draft.report(Diagnostic::error(message).at(line_of(card, refusal.keyword), ""));
+}
+
+/// Reports values that make a law which may not be the one that is meant.
+fn warned(card: &Card, cautions: &[Caution], draft: &mut Draft) {
+    for Caution { keyword, reason, help } in cautions {
+        let message = format!("{} {}: {keyword} {reason}", card.name, card.integer("block"));
+        draft.report(Diagnostic::warning(message).at(line_of(card, keyword), "").help(help));
+    }
+}
+
+/// The line of a group that gives a property, or its first one where there is none.
+fn line_of(card: &Card, keyword: &str) -> Span {
+    let row = card.rows.iter().find(|row| spelling::agreement(&row.fields, keyword).is_some());
+    row.map_or(card.record, Row::span)
 }
 
 /// Looks at the properties of a material whose first line has a mistake, if its model is clear all the same, so that

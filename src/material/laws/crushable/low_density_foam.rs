@@ -106,10 +106,10 @@ struct FoamKernel<'a> {
 impl FoamKernel<'_> {
     /// Largest principal stress of the skeleton.
     #[inline(always)]
-    fn strength<V: Lanes>(&self, volume_strain: V, stretch: &Sym3<V>) -> V {
+    fn strength<V: Lanes>(&self, volume_strain: V, biot_strain: &Sym3<V>) -> V {
         let law = self.law;
-        let shape = stretch.deviator();
-        let size = V::splat(SHAPE) * (stretch.trace() * V::splat(1.0 / 3.0));
+        let shape = biot_strain.deviator();
+        let size = V::splat(SHAPE) * (V::splat(1.0) + biot_strain.trace() * V::splat(1.0 / 3.0));
         let has_shape = V::select_less(size * size, shape.contract(shape), V::splat(1.0), V::splat(0.0));
         let strength =
             V::splat(law.b) * (V::splat(1.0) + V::splat(law.c) * volume_strain) + V::splat(law.a) * has_shape;
@@ -162,14 +162,14 @@ impl Kernel for FoamKernel<'_> {
 
     #[inline(always)]
     fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
-        let (law, one) = (self.law, V::splat(1.0));
+        let law = self.law;
         // (i) the skeleton's own stress, and its trial with ν = 0
         let skeleton = stress.add_diagonal(-V::load(&state[0], part));
         let young = V::splat(law.young);
         let trial = skeleton.zip(step.strain, |s, e| s + young * e);
         // (ii) principal stresses are cut off
-        let volume_strain = step.volume - one;
-        let (clipped, factor) = clip(&trial, self.strength(volume_strain, &step.stretch));
+        let volume_strain = step.dilatation();
+        let (clipped, factor) = clip(&trial, self.strength(volume_strain, &step.biot_strain));
         // (iii) air
         let left = (step.volume - V::splat(law.solid)).max(V::splat(LEAST_AIR));
         let air = V::splat(law.trapped()) * volume_strain / left;

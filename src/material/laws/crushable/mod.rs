@@ -6,3 +6,4 @@ use super::*;
 pub mod low_density_foam;
 pub mod orthotropic_crush;
 pub mod soil;
+mod strength;

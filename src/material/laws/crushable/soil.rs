@@ -5,10 +5,11 @@
 
 use super::plastic::compose;
 use super::property::STRESS;
+use super::strength;
 use super::{
     Curve, Entry, Kernel, KernelVisitor, Law, Moduli, Origin, Property, Range, Refusal, Response, StateVariable, Step,
 };
-use crate::lanes::{Lanes, Matrix3, Sym3, ln};
+use crate::lanes::{Lanes, Matrix3, Sym3, ln_one_plus};
 
 parameters! {
     /// Pressure from a function of the largest compression so far, unloading with a constant bulk modulus; deviator returned
@@ -68,7 +69,11 @@ pub(in crate::material) static ENTRY: Entry = Entry {
         StateVariable { name: "NUM", meaning: "Number of the function's segment that the largest compression is in." },
     ],
     origin: Origin::Recalled,
-    build: |given| Ok(Law::Soil(checked(Soil::read(given)?)?)),
+    build: |given| {
+        let law = checked(Soil::read(given)?)?;
+        strength::check(&law, given)?;
+        Ok(Law::Soil(law))
+    },
 };
 
 /// A soil whose function is one of pressure over compression.
@@ -140,7 +145,7 @@ impl Kernel for SoilKernel<'_> {
     fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {
         let (law, zero, one) = (self.law, V::splat(0.0), V::splat(1.0));
         // (i) pressure: on the virgin curve where the compression is the largest so far, else unloaded from it
-        let now = -ln(step.volume);
+        let now = -ln_one_plus(step.dilatation());
         let largest = V::load(&state[0], part).max(now);
         let virgin = interpolate(&law.curve.points, largest);
         let unloaded = virgin - V::splat(law.bulk) * (largest - now);

@@ -4,6 +4,7 @@
 
 use super::elastic::{Hooke, POISSONS_RATIO, YOUNGS_MODULUS};
 use super::elastic_plastic::YIELD_STRESS;
+use super::fracture;
 use super::plastic::{Flow, compose, radial_return, weakened_tension};
 use super::property::STRESS;
 use super::{
@@ -102,7 +103,7 @@ pub(in crate::material) static ENTRY: Entry = Entry {
     state: &[
         StateVariable { name: "EQPS", meaning: "Equivalent plastic strain." },
         StateVariable { name: "TEMP", meaning: "Temperature." },
-        StateVariable { name: "DAMAGE", meaning: "Damage; from 1 on there is neither shear strength nor tension." },
+        StateVariable { name: "DAMAGE", meaning: "Damage, up to 1; there is then neither shear strength nor tension." },
         StateVariable { name: "EQPSDOT", meaning: "Rate of the equivalent plastic strain in the last step." },
     ],
     origin: Origin::Recalled,
@@ -113,11 +114,17 @@ pub(in crate::material) static ENTRY: Entry = Entry {
             let reason = format!("is {melt}, below the reference temperature {reference}");
             return Err(Refusal { keyword: "MELT TEMPERATURE", reason });
         }
+        fracture::check(&law, given)?;
         Ok(Law::JohnsonCook(law))
     },
 };
 
 impl JohnsonCook {
+    /// Whether plastic work raises a temperature that matters.
+    pub(super) fn heats(&self) -> bool {
+        self.melt_temperature > self.reference_temperature && self.heat_fraction > 0.0 && self.specific_heat > 0.0
+    }
+
     pub(in crate::material) fn moduli(&self) -> Moduli {
         Moduli::from_young(self.young, self.poisson)
     }
@@ -185,8 +192,11 @@ impl<V: Lanes> Flow<V> for Strength<'_, V> {
 /// Below this plastic strain there is none.
 const SMALLEST_STRAIN: f64 = 1e-30;
 
-/// Strains at fracture are not below this, so that damage stays a number.
+/// Strains at fracture are not below this, so that damage stays a number; see `fracture` for what makes them so small.
 const SMALLEST_FRACTURE_STRAIN: f64 = 1e-6;
+
+/// Damage goes no farther than this: 1, and so little more that DEATH, block, DAMAGE, MAX, 1. takes the element.
+const FAILED: f64 = 1.000_001;
 
 impl JohnsonCookKernel<'_> {
     /// 1/ε_f, ε_f = (D₁ + D₂ exp(D₃ σ_m/σ̄))(1 + D₄ ln ε̇*)(1 + D₅ T*).
@@ -235,7 +245,7 @@ impl Kernel for JohnsonCookKernel<'_> {
         }
         if self.damaged && V::any_less(zero, back.increment) {
             let inverse = self.inverse_fracture_strain(mean, von_mises, back.increment * rate, hot);
-            (damage + back.increment * inverse).store(&mut state[2], part);
+            (damage + back.increment * inverse).min(V::splat(FAILED)).store(&mut state[2], part);
         }
         (back.increment * V::splat(frequency)).store(&mut state[3], part);
         Response::returned(back.factor)
@@ -367,6 +377,10 @@ mod tests {
         assert_eq!(point.returned, 0.0);
         point.strain([-2e-3, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert!(point.mean() < 0.0 && point.von_mises() < 1.0);
+        // What has failed flows on, and its damage is 1; DEATH with MAX, 1. must still see it above.
+        point.strain_in(100, [1.0, -0.5, -0.5, 0.0, 0.0, 0.0]);
+        assert!(point.eqps() > 1.0 && point.state("DAMAGE") > 1.0);
+        close("damage after failure", point.state("DAMAGE"), 1.0, 1.1e-6);
     }
 
     /// Extreme 22: heated to the melting point the strength is nothing, and stays a number.

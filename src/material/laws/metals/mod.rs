@@ -4,6 +4,7 @@
 use super::*;
 
 pub mod elastic_plastic;
+mod fracture;
 pub mod johnson_cook;
 pub mod piecewise_plastic;
 pub mod plastic;

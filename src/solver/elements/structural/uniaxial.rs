@@ -54,7 +54,8 @@ pub fn update<V: Lanes, K: Kernel>(
         let wide = stretch_across * (V::splat(1.0) + lateral);
         let step = Step {
             strain: Sym3 { xx: along, yy: lateral, zz: lateral, xy: zero, yz: zero, zx: zero },
-            stretch: Sym3 { xx: stretch_along, yy: wide, zz: wide, xy: zero, yz: zero, zx: zero },
+            biot_strain: Sym3 { xx: stretch_along, yy: wide, zz: wide, xy: zero, yz: zero, zx: zero }
+                .add_diagonal(V::splat(-1.0)),
             volume: stretch_along * wide * wide,
             middle_volume: stretch_along * wide * wide,
             energy: zero,

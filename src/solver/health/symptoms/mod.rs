@@ -1,5 +1,6 @@
 //! What a run may suffer from, one file each: a measure, a threshold, words and advice.
 
+mod beyond_hugoniot;
 mod brief;
 pub mod contact;
 mod corners;
@@ -40,7 +41,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 16] = [
+pub static SYMPTOMS: [Symptom; 17] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -57,6 +58,7 @@ pub static SYMPTOMS: [Symptom; 16] = [
     brief::SYMPTOM,
     tied_held::SYMPTOM,
     short_pulse::SYMPTOM,
+    beyond_hugoniot::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

@@ -168,7 +168,7 @@ impl<K: Kernel> EightPointStep<K> {
             let motion = Step {
                 strain,
                 // Laws that look at these are refused.
-                stretch: strain,
+                biot_strain: strain,
                 volume: one,
                 middle_volume: one,
                 energy: zero,

@@ -130,11 +130,11 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (i) velocity gradient and hourglass rates at mid-step, (ii) frame, stretch and strain increment
     let middle = Middle::of([&x, &v], settings);
-    let (motion, stretch) = turn::<V, K>(&middle.velocity_gradient, state, part, settings);
+    let (motion, biot_strain) = turn::<V, K>(&middle.velocity_gradient, state, part, settings);
 
     // (iii) stress
     let volumes = [middle.volume(), V::splat(settings.density) / given.material];
-    let seen = seen_by_law::<V, K>(&x, &start, volumes, (motion.strain, stretch), settings);
+    let seen = seen_by_law::<V, K>(&x, &start, volumes, (motion.strain, biot_strain), settings);
     let answer = answer(*law, seen, state, part, settings);
     let mut work = answer.power_of(motion.strain) * middle.volume();
 
@@ -234,7 +234,7 @@ impl<V: Lanes> Middle<V> {
     }
 }
 
-/// Carries frame and stretch over the step: the motion, and the stretch at its end.
+/// Carries frame and stretch over the step: the motion, and the Biot strain at its end.
 #[inline(always)]
 fn turn<V: Lanes, K: Kernel>(
     velocity_gradient: &Matrix3<V>,
@@ -252,7 +252,7 @@ fn turn<V: Lanes, K: Kernel>(
         kinematics::advance(velocity_gradient, &mut frame, &mut stretch, time_step, settings.second_order_spin);
     store(frame, state, rows::FRAME, part);
     store(stretch.to_array(), state, rows::STRETCH, part);
-    (motion, stretch)
+    (motion, stretch.add_diagonal(V::splat(-1.0)))
 }
 
 /// What a law may look at, given the volume in the middle of the step and one over that at the start of all.
@@ -261,7 +261,7 @@ fn seen_by_law<V: Lanes, K: Kernel>(
     x: &[Modes<V>; 3],
     start: &Option<Start<V>>,
     [middle_volume, inverse_volume]: [V; 2],
-    (strain, stretch): (Sym3<V>, Sym3<V>),
+    (strain, biot_strain): (Sym3<V>, Sym3<V>),
     settings: &Settings,
 ) -> Step<V> {
     let (energy, swept) = match start {
@@ -270,7 +270,7 @@ fn seen_by_law<V: Lanes, K: Kernel>(
     };
     Step {
         strain,
-        stretch,
+        biot_strain,
         volume: if K::VOLUME { volume(x) * inverse_volume } else { V::splat(1.0) },
         middle_volume: middle_volume * inverse_volume,
         energy,

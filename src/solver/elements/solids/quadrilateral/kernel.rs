@@ -266,7 +266,7 @@ fn seen_by_law<V: Lanes>(
     };
     Step {
         strain: turned.strain,
-        stretch: turned.stretch,
+        biot_strain: turned.stretch.add_diagonal(V::splat(-1.0)),
         volume: volume * inverse_volume,
         middle_volume: middle_volume * inverse_volume,
         energy,

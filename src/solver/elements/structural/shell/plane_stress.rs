@@ -59,7 +59,7 @@ pub fn update<V: Lanes, K: Kernel>(
         }
         let step = Step {
             strain: Sym3 { zz: normal, ..strain },
-            stretch: Sym3 { xx: one, yy: one, zz: one, xy: zero, yz: zero, zx: zero },
+            biot_strain: Sym3 { xx: zero, yy: zero, zz: zero, xy: zero, yz: zero, zx: zero },
             volume: one,
             middle_volume: one,
             energy: zero,

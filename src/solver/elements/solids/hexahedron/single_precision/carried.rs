@@ -68,7 +68,7 @@ fn add<V: Lanes, const N: usize>(
     store(&carried, state, behind, part);
 }
 
-/// See [`kinematics::advance`]: carries frame and stretch over a step; the motion, and the stretch at its end.
+/// See [`kinematics::advance`]: carries frame and stretch over a step; the motion, and the Biot strain at its end.
 #[inline(always)]
 pub fn advance<V: Lanes, K: Kernel>(
     velocity_gradient: &Matrix3<V>,
@@ -88,8 +88,7 @@ pub fn advance<V: Lanes, K: Kernel>(
     let mut numbers = beyond_one.to_array();
     add(&mut numbers, &growth.to_array(), [rows::STRETCH, behind + STRETCH], state, part);
     let [xx, yy, zz, xy, yz, zx] = numbers;
-    let stretch = Sym3 { xx, yy, zz, xy, yz, zx }.add_diagonal(one);
-    (kinematics::motion(strain, &old, &frame), stretch)
+    (kinematics::motion(strain, &old, &frame), Sym3 { xx, yy, zz, xy, yz, zx })
 }
 
 /// The strain of a step, and what stresses could not take in of those before.
