@@ -1,4 +1,4 @@
-//! Beams: frequencies, a strip rolled up, a plastic hinge, a beam that spins; masses at nodes; a frame with a roof.
+//! Beams: frequencies, shear along both axes of an I, a strip rolled up, a plastic hinge, a beam that spins; masses at nodes; a frame with a roof.
 
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, run, run_on};
@@ -220,6 +220,33 @@ fn torsion_of_long_beams_is_as_slow_as_the_manual_says() {
             close("torsion", &what, found, exact * x.sin() / x / turned.sqrt(), 0.003);
             close("torsion", &format!("{what} by the manual"), found, part * exact, 0.008);
         }
+    }
+}
+
+/// B6: a short cantilever of an I, loaded along either axis of its section: PL³/3EI + PL/κGA by Timoshenko, where the web carries the
+/// shear along z and the flanges, 5/6 of them, along y. The load rises over some
+/// fifteen periods of the beam, and the mean over eight counts.
+#[test]
+fn b6_an_i_shears_along_both_axes() {
+    let ([h, b, f, w], length, force) = ([0.2f64, 0.2f64, 0.02f64, 0.01f64], 0.4f64, 1000.0);
+    let web = h - 2.0 * f;
+    let along_y = ("Y", (2.0 * f * b.powi(3) + web * w.powi(3)) / 12.0, 5.0 / 6.0 * 2.0 * b * f);
+    let along_z = ("Z", (b * h.powi(3) - (b - w) * web.powi(3)) / 12.0, web * w);
+    let mesh = recipe(
+        "TITLE\n beam\nLINE, 1, 0., 0., 0., 0.4, 0., 0., 8\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 0.4\n",
+    );
+    for (axis, moment, area) in [along_y, along_z] {
+        let deck = format!(
+            "TITLE\n shear\nTERMINATION TIME, 0.03\nPLOT TIME, 1.E-4\nPLOT NODAL, DISPLACEMENT\n\
+             BEAM SECTION, 1, I, {h}, {b}, {f}, {w}, 0., 1., 0.\n{CLAMPED}{STEEL}\
+             FUNCTION, 1\n0., 0.\n0.02, 1.\n0.03, 1.\nEND\nPRESCRIBED FORCE, {axis}, 2, 1, {force}\n"
+        );
+        let bent = run(&deck, &mesh);
+        let late: Vec<_> = bent.states.iter().filter(|state| state.time > 0.02).collect();
+        let mean = late.iter().map(|state| state.nodal(&format!("DISPL{axis}"))[8]).sum::<f64>() / late.len() as f64;
+        let expected = force * (length.powi(3) / 3.0 / 210e9 / moment + length / (area * 210e9 / 2.6));
+        close("B6", &format!("tip of an I along {axis} [m]"), mean, expected, 0.01);
+        between("B6", "worst energy balance", bent.worst_balance(), 0.0, 1e-6);
     }
 }
 
