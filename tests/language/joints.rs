@@ -1,4 +1,4 @@
-//! Joints that carry no moments: what a deck and its mesh are warned of.
+//! Joints that carry no moments, and bars that go through bars: what a deck and its mesh are warned of.
 
 use urto::{deck::Source, model::examine};
 
@@ -60,4 +60,24 @@ fn joints_that_carry_moments_are_not_told() {
     // Held in place only, along a second line: together they hold all.
     let held = "SHELL THICKNESS, 2, 0.01\nNO DISPLACEMENT, Z, 1\n";
     assert_eq!(warnings(held, &on_edge, &[1, 2]), Vec::<String>::new());
+}
+
+/// Bars that may meet bars are told once; not those that are built together, or kept apart.
+#[test]
+fn bars_that_go_through_bars_are_told() {
+    let crossing = "LINE, 1, -1., 0., 0., 1., 0., 0., 8\nLINE, 2, 0., -1., 0.1, 0., 1., 0.1, 8\n";
+    let joined = "LINE, 1, -1., 0., 0., 1., 0., 0., 8\nLINE, 2, 0., -1., 0., 0., 1., 0., 8\n";
+    let areas = "TRUSS AREA, 1, 0.01\nTRUSS AREA, 2, 0.01\n";
+    let of = |commands: &str, recipe: &str| warnings(&format!("{areas}{commands}"), recipe, &[1, 2]);
+    let words = "CONTACT MATERIAL: bars go through bars, those of block 2 through those of block 1";
+    assert_eq!(of("CONTACT MATERIAL\n", crossing), [words]);
+    for (commands, recipe) in [
+        ("CONTACT MATERIAL\n", joined),
+        ("CONTACT MATERIAL\nCONTACT EXCLUSION, 2, 1\n", crossing),
+        ("CONTACT MATERIAL\nCONTACT EXCLUSION, ALL, 1\n", crossing),
+        ("CONTACT MATERIAL, 1\n", crossing),
+        ("", crossing),
+    ] {
+        assert_eq!(of(commands, recipe), Vec::<String>::new(), "{commands}");
+    }
 }
