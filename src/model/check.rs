@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{
     Analysis, Contact, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
     conditions::boundary::direction,
-    interactions::{rigid, tied},
+    interactions::{contact, rigid, tied},
+    joints,
     problem::those_there_are,
 };
 use crate::{
@@ -57,6 +58,8 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     }
     choices_without_effect(problem, mesh, &mut found);
     elements_twice(mesh, &mut found);
+    joints::check(problem, mesh, &mut found);
+    contact::check(problem, mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
     found

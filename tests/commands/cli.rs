@@ -177,6 +177,31 @@ fn check_says_what_may_go_through_between_the_nodes_of_bars() {
     assert!(!fine.out.contains("bars touch"), "{}", fine.out);
 }
 
+/// A beam that stands on a plate, and not one that lies in it or whose end is held.
+#[test]
+fn check_says_where_beams_stand_on_shells() {
+    let desk = Desk::new();
+    let plate = "SHEET, 1, -0.5, -0.5, 0., 1., 1., 0., 4, 4\n";
+    let law = "ELASTIC, 1.\nYOUNGS MODULUS = 1.E4\nPOISSONS RATIO = 0.3\nEND";
+    let told = |end: &str, more: &str| {
+        desk.put(
+            "stud.mesh",
+            &format!("TITLE\n stud\n{plate}LINE, 2, 0., 0., 0., {end}, 4\nMERGE\nNODE SET POINT, 1, 0., 0., 0.\n"),
+        );
+        desk.put("stud.i", &format!(
+            "TITLE\n stud\nTERMINATION TIME, 1.E-3\nSHELL THICKNESS, 1, 0.02\nBEAM SECTION, 2, ROD, 0.03\n{more}MATERIAL, 1, {law}\n\
+             MATERIAL, 2, {law}\nEXIT\n"
+        ));
+        let left = desk.urto(&["check", "stud.i", "--strict"]).with(0);
+        left.out
+            .contains("beams stand on shells at node 13 at (0.0000e0, 0.0000e0, 0.0000e0): a torque about the normal")
+    };
+    assert!(told("0., 0., 0.5", ""));
+    assert!(told("0.2, 0., 0.5", ""));
+    assert!(!told("0.5, 0., 0.2", ""));
+    assert!(!told("0., 0., 0.5", "NO ROTATION, Z, 1\n"));
+}
+
 #[test]
 fn check_foretells_and_runs_nothing() {
     let desk = Desk::new();

@@ -1,6 +1,7 @@
 //! The command language and what is written about it: decks, recipes, manual pages, the tutorial.
 
 mod decks;
+mod joints;
 mod man;
 mod recipes;
 mod tutorial;

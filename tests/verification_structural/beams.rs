@@ -1,4 +1,4 @@
-//! Beams: frequencies, a strip rolled up, a plastic hinge, a beam that spins; masses at nodes; a frame with a roof.
+//! Beams: frequencies, shear along both axes of an I, joints with solids, a strip rolled up, a plastic hinge, a beam that spins; masses at nodes; a frame with a roof.
 
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, run, run_on};
@@ -221,6 +221,61 @@ fn torsion_of_long_beams_is_as_slow_as_the_manual_says() {
             close("torsion", &format!("{what} by the manual"), found, part * exact, 0.008);
         }
     }
+}
+
+/// B6: a short cantilever of an I, loaded along either axis of its section: PL³/3EI + PL/κGA by Timoshenko, where the web carries the
+/// shear along z and the flanges, 5/6 of them, along y. The load rises over some
+/// fifteen periods of the beam, and the mean over eight counts.
+#[test]
+fn b6_an_i_shears_along_both_axes() {
+    let ([h, b, f, w], length, force) = ([0.2f64, 0.2f64, 0.02f64, 0.01f64], 0.4f64, 1000.0);
+    let web = h - 2.0 * f;
+    let along_y = ("Y", (2.0 * f * b.powi(3) + web * w.powi(3)) / 12.0, 5.0 / 6.0 * 2.0 * b * f);
+    let along_z = ("Z", (b * h.powi(3) - (b - w) * web.powi(3)) / 12.0, web * w);
+    let mesh = recipe(
+        "TITLE\n beam\nLINE, 1, 0., 0., 0., 0.4, 0., 0., 8\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 0.4\n",
+    );
+    for (axis, moment, area) in [along_y, along_z] {
+        let deck = format!(
+            "TITLE\n shear\nTERMINATION TIME, 0.03\nPLOT TIME, 1.E-4\nPLOT NODAL, DISPLACEMENT\n\
+             BEAM SECTION, 1, I, {h}, {b}, {f}, {w}, 0., 1., 0.\n{CLAMPED}{STEEL}\
+             FUNCTION, 1\n0., 0.\n0.02, 1.\n0.03, 1.\nEND\nPRESCRIBED FORCE, {axis}, 2, 1, {force}\n"
+        );
+        let bent = run(&deck, &mesh);
+        let late: Vec<_> = bent.states.iter().filter(|state| state.time > 0.02).collect();
+        let mean = late.iter().map(|state| state.nodal(&format!("DISPL{axis}"))[8]).sum::<f64>() / late.len() as f64;
+        let expected = force * (length.powi(3) / 3.0 / 210e9 / moment + length / (area * 210e9 / 2.6));
+        close("B6", &format!("tip of an I along {axis} [m]"), mean, expected, 0.01);
+        between("B6", "worst energy balance", bent.worst_balance(), 0.0, 1e-6);
+    }
+}
+
+/// B7: a beam on one node of a solid block has nothing against turning there, as the warning says: with a force at its tip it turns as
+/// a rod does about its end. Where the block is a RIGID BODY it is clamped: PL³/3EI. The load rises for three periods of the clamped beam,
+/// which leaves no swinging, and the mean over two counts.
+#[test]
+fn b7_a_rigid_block_clamps_a_beam_that_a_solid_leaves_hinged() {
+    let mesh = recipe(
+        "TITLE\n beam\nBOX, 1, -0.4, -0.2, -0.2, 0.4, 0.4, 0.4, 2, 2, 2\nLINE, 2, 0., 0., 0., 1., 0., 0., 10\nMERGE\n\
+         NODE SET PLANE, 1, X, -0.4\nNODE SET POINT, 2, 1., 0., 0.\n",
+    );
+    let law = STEEL.trim_start_matches("MATERIAL, 1,");
+    let clamped = 100.0 / 3.0 / 210e9 / (0.04f64.powi(4) / 12.0);
+    let deflection = |rigid: &str| {
+        let deck = format!(
+            "TITLE\n joint\nTERMINATION TIME, 0.15\nPLOT TIME, 5.E-4\nPLOT NODAL, DISPLACEMENT\nBEAM SECTION, 2, RECTANGLE, 0.04, 0.04\n\
+             NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n{rigid}{STEEL}MATERIAL, 2,{law}\
+             FUNCTION, 1\n0., 0.\n0.09, 1.\n0.15, 1.\nEND\nPRESCRIBED FORCE, Z, 2, 1, -100.\n"
+        );
+        let bent = run(&deck, &mesh);
+        let tip = mesh.distinct_nodes(2)[0] as usize;
+        let late: Vec<_> = bent.states.iter().filter(|state| state.time > 0.09).collect();
+        -late.iter().map(|state| state.nodal("DISPLZ")[tip]).sum::<f64>() / late.len() as f64
+    };
+    close("B7", "tip of a beam on a rigid block [m]", deflection("RIGID BODY, 1\n"), clamped, 0.01);
+    // Free to turn with ρA/3 under a moment that rises for 0.09 s and stays for the 0.06 s over which the mean is taken.
+    let turned = 100.0 / (7850.0 * 0.0016 / 3.0) * (0.0081 / 6.0 + 0.09 * 0.06 / 4.0 + 0.0036 / 6.0);
+    close("B7", "tip of a beam on one node of a solid [m]", deflection(""), turned, 0.02);
 }
 
 /// A mass at the end of a light beam: it swings as on a spring 3EI/L³.

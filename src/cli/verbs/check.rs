@@ -6,7 +6,7 @@ use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
 use crate::common::vector::{dot, subtract};
 use crate::mesh::{Block, Dimension, Mesh, Shape, plane};
-use crate::model::{Model, StepEstimate};
+use crate::model::{self, Model, StepEstimate};
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
@@ -96,6 +96,7 @@ fn modelled(given: &Given, body: &Body) -> String {
     }
     out += &(0..mesh.blocks.len()).filter_map(|index| heavy_turning(mesh, body, index)).collect::<String>();
     out += &between_bars(mesh, model, body).concat();
+    out += &soft_in_torsion(mesh, model).unwrap_or_default();
     for (number, rigid) in body.rigid.iter().enumerate() {
         out +=
             &format!("  rigid body {}: {} nodes, mass {}\n", number + 1, rigid.nodes.len(), scientific(rigid.mass, 4));
@@ -177,6 +178,16 @@ fn between_bars(mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
         )
     })
     .collect()
+}
+
+/// That beams stand on shells, where they do: a note only, since most of them carry no torque.
+fn soft_in_torsion(mesh: &Mesh, model: &Model) -> Option<String> {
+    let (count, first) = model::studs(model, mesh)?;
+    let where_else = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+    Some(format!(
+        "  beams stand on shells at {first}{where_else}: a torque about the normal of shells is carried far too softly, and the more so the \
+         finer they are; join beams that carry one over several nodes, or with a RIGID BODY\n"
+    ))
 }
 
 /// Prepares the run, takes a few steps without writing anything, and says what the whole would take.

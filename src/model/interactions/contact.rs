@@ -1,13 +1,16 @@
 //! Contact and rigid planes.
 
+use std::collections::BTreeSet;
+
 use super::interfaces::{
     ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap, ContactSearch, ContactSurface,
     Friction, RigidSurface,
 };
 use super::tied::{self, Tie};
 use crate::common::vector::unit;
-use crate::deck::{Card, Diagnostic, spelling};
-use crate::model::problem::{Draft, Setter};
+use crate::deck::{Card, Diagnostic, Diagnostics, spelling};
+use crate::mesh::{Block, Mesh, Shape};
+use crate::model::problem::{Draft, Problem, Setter};
 
 pub(in crate::model) const COMMANDS: &[Setter] = &[
     ("RIGID SURFACE", rigid_surface),
@@ -38,6 +41,36 @@ fn contact_material(card: &Card, draft: &mut Draft) {
         }
         (None, _) => ContactMaterials::Blocks(named),
     });
+}
+
+/// Warns of blocks of bars that may meet others: nodes touch faces, and bars have none. Those that share nodes are built together.
+pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let contact = &problem.model.contact;
+    let Some(card) = problem.deck.cards_of("CONTACT MATERIAL").next() else { return };
+    let is_bar = |block: &&Block| block.shape == Shape::Bar && contact.names(block.id);
+    let bars: Vec<(&Block, BTreeSet<u32>)> =
+        mesh.blocks.iter().filter(is_bar).map(|block| (block, block.nodes.iter().copied().collect())).collect();
+    let pairs = (0..bars.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+    let mut meeting = pairs
+        .map(|pair| pair.map(|i| &bars[i]))
+        .filter(|[(one, own), (other, of_other)]| !contact.keeps_apart(one.id, other.id) && own.is_disjoint(of_other));
+    let Some([(one, _), (other, _)]) = meeting.next() else { return };
+    let more = match meeting.count() {
+        0 => String::new(),
+        more => format!(", and {more} more pairs of blocks"),
+    };
+    let message = format!(
+        "CONTACT MATERIAL: bars go through bars, those of block {} through those of block {}{more}",
+        other.id, one.id
+    );
+    found.push(
+        Diagnostic::warning(message)
+            .at(card.record, "bars touch with their nodes, and nodes touch the faces of solids and shells only")
+            .help(format!(
+                "make one of the two of solids or shells; where they do not meet, CONTACT EXCLUSION, {}, {} says so",
+                one.id, other.id
+            )),
+    );
 }
 
 /// Friction from the fields `friction`, `high_speed` and `decay`.

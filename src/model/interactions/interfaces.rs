@@ -47,6 +47,14 @@ impl Contact {
             Some(ContactMaterials::Blocks(ids)) => ids.contains(&block),
         }
     }
+
+    /// Whether CONTACT EXCLUSION keeps two different blocks from touching each other.
+    pub fn keeps_apart(&self, one: i64, other: i64) -> bool {
+        let is_of = |named: &Option<i64>, block: i64| named.is_none_or(|named| named == block);
+        self.exclusions.iter().any(|[first, second]| {
+            second.is_some() && [[one, other], [other, one]].iter().any(|[a, b]| is_of(first, *a) && is_of(second, *b))
+        })
+    }
 }
 
 /// The blocks that CONTACT MATERIAL names.

@@ -26,6 +26,8 @@ pub struct Facts {
     pub energy_floor: f64,
     /// Internal energy that gases and explosives hold at the start.
     pub stored_energy: f64,
+    /// Time at which the run ends.
+    pub termination_time: f64,
     /// Part of the largest energy supplied at which a gain of contact ends the run.
     pub contact_limit: f64,
     /// Overlaps of the mesh.
@@ -55,8 +57,10 @@ pub struct Watch {
     facts: Facts,
     /// Largest energy supplied so far.
     pub supplied: f64,
-    /// The same when everything was looked at last.
-    supplied_before: f64,
+    /// The same when everything was looked at, at the ends of the last two intervals of [`WINDOW`].
+    supplied_before: [f64; 2],
+    /// Time at the end of the last one.
+    interval_end: f64,
     /// What is worth a warning, in the order in which it was seen.
     findings: Vec<Finding>,
     /// How many of these have been handed out.
@@ -75,13 +79,17 @@ pub struct Exam<'a> {
     pub totals: Totals,
     /// Largest energy supplied so far, not below the one that is worth words.
     pub supplied: f64,
-    /// Whether it has grown so much since the last look that what it will be compared with is yet to come.
+    /// Whether it has grown so much of late that what it will be compared with is yet to come.
     pub begins: bool,
 }
 
-/// Supplied energy that has grown by this factor from look to look is that of a beginning: of loads that rise, of fits that
-/// are pressed.
+/// Supplied energy that has grown by this factor within one or two intervals is that of a beginning: of loads that rise, of fits
+/// that are pressed.
 const BEGINS: f64 = 2.0;
+
+/// Length of an interval as a part of the termination time. By looks that follow each other closely nothing grows, however soft a
+/// load begins. What a load supplies that rises in proportion to time through all of a run ceases to be a beginning after four of ten.
+const WINDOW: f64 = 0.1;
 
 impl Watch {
     /// What there is to know of a run before its first step.
@@ -94,13 +102,14 @@ impl Watch {
             blocks: mesh.blocks.iter().zip(masses).map(block).collect(),
             energy_floor: energy::energy_floor(body, model),
             stored_energy: energy::stored_energy(body, model),
+            termination_time: model.termination_time,
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
             tied_held: tied_held(mesh, body),
             pulse: model.shortest_pulse(),
         };
-        Watch { facts, supplied: initial_energy, supplied_before: initial_energy, ..Watch::default() }
+        Watch { facts, supplied: initial_energy, supplied_before: [initial_energy; 2], ..Watch::default() }
     }
 
     /// What has been found so far.
@@ -119,9 +128,15 @@ impl Watch {
         self.supplied.max(self.facts.energy_floor)
     }
 
-    /// Looks for the symptoms that are due.
-    fn look(&mut self, solver: &Solver, totals: Totals, due: When, comm: &mut dyn Communicator) {
-        let begins = self.base() > BEGINS * self.supplied_before && !solver.is_at_end();
+    /// Looks for the symptoms that are due; of a run that ends, for all that may be its reason.
+    fn look(&mut self, solver: &Solver, totals: Totals, due: When, ends: bool, comm: &mut dyn Communicator) {
+        // Lines are due at about a tenth as often as not: by the nearest boundary each of them counts for the same interval in any run.
+        let interval = |time: f64| (time / (WINDOW * self.facts.termination_time)).round();
+        if due == When::Lines && interval(solver.time) > interval(self.interval_end) {
+            self.supplied_before = [self.supplied_before[1], self.base()];
+            self.interval_end = solver.time;
+        }
+        let begins = self.base() > BEGINS * self.supplied_before[0] && !ends;
         let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base(), begins };
         for symptom in SYMPTOMS.iter().filter(|symptom| symptom.when.is_due(due, solver.step)) {
             for evidence in (symptom.measure)(&exam, comm) {
@@ -135,16 +150,16 @@ impl Watch {
                 self.causes.extend(is_cause.then_some(found));
             }
         }
-        if due == When::Lines {
-            self.supplied_before = self.base();
-        }
     }
 
     /// Visits the state between two steps.
     pub fn visit_state(&mut self, archive: &mut dyn Archive) {
-        let Watch { facts: _, supplied, supplied_before, findings, told, causes } = self;
+        let Watch { facts: _, supplied, supplied_before: [earlier, before], interval_end, findings, told, causes } =
+            self;
         archive.number("SUPPLIED", supplied);
-        archive.number("SUPPLIEDBEFORE", supplied_before);
+        archive.number("SUPPLIEDEARLIER", earlier);
+        archive.number("SUPPLIEDBEFORE", before);
+        archive.number("SUPPLIEDTIME", interval_end);
         // Empty lists leave no trace in a file; this says that there was somebody who looked.
         let mut count = findings.len() as u64;
         archive.count("FINDINGS", &mut count);
@@ -208,23 +223,23 @@ impl Solver {
 
     fn examine(&mut self, due: When, comm: &mut dyn Communicator) -> Result<(), Stop> {
         self.complete_contact(comm);
-        let totals = self.look_for(due, comm);
+        let totals = self.look_for(due, self.is_at_end(), comm);
         self.check_energies(&totals, comm).map_err(|stop| self.because(stop))
     }
 
-    fn look_for(&mut self, due: When, comm: &mut dyn Communicator) -> Totals {
+    fn look_for(&mut self, due: When, ends: bool, comm: &mut dyn Communicator) -> Totals {
         let totals = self.totals(comm);
         let mut watch = std::mem::take(&mut self.watch);
         let supplied = self.initial_energy + watch.facts.stored_energy + totals.external.max(0.0) + totals.press_fit;
         watch.supplied = watch.supplied.max(supplied);
-        watch.look(self, totals, due, comm);
+        watch.look(self, totals, due, ends, comm);
         self.watch = watch;
         totals
     }
 
     /// Looks a last time at a run that cannot go on, and names what came first.
     pub(in crate::solver) fn post_mortem(&mut self, stop: Stop, comm: &mut dyn Communicator) -> Stop {
-        self.look_for(When::Lines, comm);
+        self.look_for(When::Lines, true, comm);
         self.because(stop)
     }
 

@@ -58,8 +58,7 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
         // A gas that has expanded has lost internal energy; what it has done counts.
         let share = hourglass / internal.abs();
         // The first waves of loads that rise are all edges; what they leave is small against what follows.
-        let matters = !exam.begins || share > SYMPTOM.cause;
-        let counts = matters && hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
+        let counts = !exam.begins && hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
         counts.then_some(Evidence { share, amount: hourglass, of: internal, block: block.id, ..Evidence::default() })
     };
     blocks.iter().zip(sums.chunks_exact(2)).filter_map(evidence).collect()

@@ -16,8 +16,10 @@ pub struct BeamStep<K> {
     pub moduli: Moduli,
     /// Time of the present positions, and the step that led there.
     pub times: [f64; 2],
-    /// Area, second moments about y and z, torsion constant at the start; shear correction.
-    pub section: [f64; 5],
+    /// Area, second moments about y and z, torsion constant at the start.
+    pub section: [f64; 4],
+    /// Shear corrections along y and z.
+    pub shear_corrections: [f64; 2],
     /// Number of fibres.
     pub count: usize,
     /// y, z and area of each at the start.
@@ -212,37 +214,38 @@ impl<K: Kernel> BeamStep<K> {
         [twist, along_y, along_z]: [V; 3],
         [length, square, wider]: [V; 3],
     ) -> [V; 3] {
-        let [_, iy, iz, torsion, _] = self.section;
+        let torsion = self.section[3];
         let twisting = V::splat(0.5 * self.moduli.two_mu * torsion) * square * square;
-        let [sy, sz] = self.shear_stiffness(length, [iz, iy], square);
+        let [sy, sz] = self.shear_stiffness(length, square);
         let larger = wider * wider;
         [t * larger * wider + twisting * twist, qy * larger + sy * along_y, qz * larger + sz * along_z]
     }
 
-    /// 1/(1/κGA + L²/12EI) for both second moments, of a section that has changed its area by a factor `square`: with what bending
+    /// 1/(1/κGA + L²/12EI) along y, with I about z, and along z, with I about y, of a section that has changed its area by a factor `square`: with what bending
     /// adds, one element is exact under forces at its ends (residual flexibility, MacNeal 1978).
     #[inline(always)]
-    fn shear_stiffness<V: Lanes>(&self, length: V, moments: [f64; 2], square: V) -> [V; 2] {
+    fn shear_stiffness<V: Lanes>(&self, length: V, square: V) -> [V; 2] {
+        let [area, iy, iz, _] = self.section;
         let [young, mu] = young_and_shear(self.moduli);
-        let area = V::splat(1.0 / (self.section[4] * mu * self.section[0]));
+        let [along_y, along_z] = self.shear_corrections.map(|correction| V::splat(1.0 / (correction * mu * area)));
         let flexible = length * length / square;
         [
-            square / (area + flexible * V::splat(1.0 / (12.0 * young * moments[0]))),
-            square / (area + flexible * V::splat(1.0 / (12.0 * young * moments[1]))),
+            square / (along_y + flexible * V::splat(1.0 / (12.0 * young * iz))),
+            square / (along_z + flexible * V::splat(1.0 / (12.0 * young * iy))),
         ]
     }
 
     /// 2/ω with the largest ω² of stretching 2EA/Lm, shear 2S/Lm + LS/2I, bending 2EI/LI and torsion 2GJ/LI, m and I those of a node.
     #[inline(always)]
     fn stable_step<V: Lanes>(&self, length: V, state: &[V::Row], part: usize, mass: V) -> V {
-        let [area, iy, iz, torsion, _] = self.section;
+        let [area, iy, iz, torsion] = self.section;
         let [young, mu] = young_and_shear(self.moduli);
         let two = V::splat(2.0);
         let node = mass * V::splat(0.5);
         let wide = exp(V::load(&state[rows::LATERAL], part));
         let square = wide * wide;
         let inertia = node * V::load(&state[rows::INERTIA], part);
-        let [sy, sz] = self.shear_stiffness(length, [iz, iy], square);
+        let [sy, sz] = self.shear_stiffness(length, square);
         let stretching = two * V::splat(young * area) * square / (length * node);
         let shear = sy.max(sz) * (two / (length * node) + length / (two * inertia));
         let turning = two * V::splat((young * iy.max(iz)).max(mu * torsion)) * square * square / (length * inertia);

@@ -168,11 +168,12 @@ impl Beam {
     /// Rotary inertia of a node over its mass, by which no rotation is faster than the beam stretches: that about its line, or more
     /// where the beam is long.
     fn inertia(&self, length: f64) -> f64 {
-        let Section { area, moments: [iy, iz], torsion, shear_correction, .. } = self.section;
+        let Section { area, moments: [iy, iz], torsion, shear_corrections: [along_y, along_z], .. } = self.section;
         let [young, mu] = young_and_shear(self.moduli);
-        let stiffness =
-            |moment: f64| 1.0 / (1.0 / (shear_correction * mu * area) + length * length / (12.0 * young * moment));
-        let shear = stiffness(iy).max(stiffness(iz));
+        let stiffness = |correction: f64, moment: f64| {
+            1.0 / (1.0 / (correction * mu * area) + length * length / (12.0 * young * moment))
+        };
+        let shear = stiffness(along_y, iz).max(stiffness(along_z, iy));
         let own = 0.25 * length * length * shear / (young * area - shear);
         own.max((iy + iz) / area).max(mu / young * torsion / area)
     }
@@ -341,14 +342,15 @@ impl KernelVisitor for OfLaw<'_> {
     type Output = PassOutcome;
 
     fn visit<K: Kernel>(self, law: K) -> PassOutcome {
-        let Section { area, moments: [iy, iz], torsion, shear_correction, fibres: own, .. } = &self.beam.section;
+        let Section { area, moments: [iy, iz], torsion, shear_corrections, fibres: own, .. } = &self.beam.section;
         let mut fibres = [[0.0; 3]; MOST_FIBRES];
         fibres.iter_mut().zip(own).for_each(|(place, fibre)| *place = *fibre);
         self.pass.over(&BeamStep {
             law,
             moduli: self.beam.moduli,
             times: self.times,
-            section: [*area, *iy, *iz, *torsion, *shear_correction],
+            section: [*area, *iy, *iz, *torsion],
+            shear_corrections: *shear_corrections,
             count: own.len(),
             fibres,
         })
