@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Model, Problem, conditions::boundary::Unknown};
+use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{cross, dot, normalized, subtract};
 use crate::deck::{Diagnostic, Diagnostics};
 use crate::mesh::{Block, Dimension, Mesh, Shape};
@@ -34,13 +35,9 @@ fn turns(block: &Block, model: &Model) -> bool {
     let is_membrane =
         || model.section("INTEGRATION POINTS", block.id).is_some_and(|section| section.number("points") < 1.5);
     match block.shape {
-        Shape::Bar => model.section("BEAM SECTION", block.id).is_some() && !is_rigid(block, model),
-        shape => shape.is_surface() && !is_rigid(block, model) && !is_membrane(),
+        Shape::Bar => model.section("BEAM SECTION", block.id).is_some() && !model.is_rigid(block.id),
+        shape => shape.is_surface() && !model.is_rigid(block.id) && !is_membrane(),
     }
-}
-
-fn is_rigid(block: &Block, model: &Model) -> bool {
-    model.rigid_bodies.iter().flatten().any(|id| *id == block.id)
 }
 
 /// What is at each node.
@@ -48,7 +45,7 @@ fn nodes(model: &Model, mesh: &Mesh) -> Vec<At> {
     let mut at = vec![At::default(); mesh.coordinates.len()];
     let mut mark = |nodes: &[u32], what: fn(&mut At)| nodes.iter().for_each(|&node| what(&mut at[node as usize]));
     for block in &mesh.blocks {
-        if is_rigid(block, model) {
+        if model.is_rigid(block.id) {
             mark(&block.nodes, |at| at.rotation = true);
         } else if turns(block, model) {
             mark(&block.nodes, |at| at.turns = true);
@@ -71,32 +68,13 @@ fn nodes(model: &Model, mesh: &Mesh) -> Vec<At> {
     at
 }
 
-/// Parts of the mesh that hang together by elements whose nodes turn, as trees of their nodes.
-struct Parts(Vec<u32>);
-
-impl Parts {
-    fn of(model: &Model, mesh: &Mesh) -> Parts {
-        let mut parts = Parts((0u32..).take(mesh.coordinates.len()).collect());
-        for nodes in mesh.blocks.iter().filter(|block| turns(block, model)).flat_map(Block::elements) {
-            nodes.windows(2).for_each(|pair| parts.join(pair[0], pair[1]));
-        }
-        parts
+/// Parts of the mesh that hang together by elements whose nodes turn, as sets of nodes.
+fn parts(model: &Model, mesh: &Mesh) -> DisjointSets {
+    let mut parts = DisjointSets::new(mesh.coordinates.len());
+    for nodes in mesh.blocks.iter().filter(|block| turns(block, model)).flat_map(Block::elements) {
+        nodes.windows(2).for_each(|pair| parts.join(pair[0], pair[1]));
     }
-
-    /// The node that stands for the part of a node.
-    fn root(&mut self, mut node: u32) -> u32 {
-        while self.0[node as usize] != node {
-            let above = self.0[self.0[node as usize] as usize];
-            self.0[node as usize] = above;
-            node = above;
-        }
-        node
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let [a, b] = [a, b].map(|node| self.root(node));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
+    parts
 }
 
 /// The ends of the line on which nodes lie, twice the same for a single place; none where they span a plane.
@@ -125,9 +103,9 @@ pub(super) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
         return;
     }
     let at = nodes(model, mesh);
-    let mut parts = Parts::of(model, mesh);
+    let mut parts = parts(model, mesh);
     let holds = (0u32..).zip(&at).filter(|(_, at)| at.turns && (at.solid || at.place || at.rotation));
-    let mut holds: Vec<(u32, u32)> = holds.map(|(node, _)| (parts.root(node), node)).collect();
+    let mut holds: Vec<(u32, u32)> = holds.map(|(node, _)| (parts.least(node), node)).collect();
     holds.sort_unstable();
     let mut hinges: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
     for part in holds.chunk_by(|one, other| one.0 == other.0) {
@@ -141,13 +119,19 @@ pub(super) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
 }
 
 /// Tells of hinges by the ends of their lines, once for all parts of the same blocks.
-fn tell(mesh: &Mesh, model: &Model, parts: &mut Parts, hinges: &BTreeMap<u32, [u32; 2]>, found: &mut Diagnostics) {
+fn tell(
+    mesh: &Mesh,
+    model: &Model,
+    parts: &mut DisjointSets,
+    hinges: &BTreeMap<u32, [u32; 2]>,
+    found: &mut Diagnostics,
+) {
     if hinges.is_empty() {
         return;
     }
     let mut blocks_of: BTreeMap<u32, BTreeSet<i64>> = BTreeMap::new();
     for block in mesh.blocks.iter().filter(|block| turns(block, model)) {
-        for root in block.elements().map(|nodes| parts.root(nodes[0])).filter(|root| hinges.contains_key(root)) {
+        for root in block.elements().map(|nodes| parts.least(nodes[0])).filter(|root| hinges.contains_key(root)) {
             blocks_of.entry(root).or_default().insert(block.id);
         }
     }

@@ -110,6 +110,11 @@ impl Model {
         self.sections.iter().rfind(|section| section.command == command && section.block == block)
     }
 
+    /// Whether RIGID BODY names a block, by its number.
+    pub fn is_rigid(&self, block: i64) -> bool {
+        self.rigid_bodies.iter().flatten().any(|rigid| *rigid == block)
+    }
+
     /// Whether any material is a fluid: see [`Law::is_fluid`](crate::material::Law::is_fluid).
     pub fn has_fluids(&self) -> bool {
         self.materials.iter().any(|material| material.law.is_fluid())

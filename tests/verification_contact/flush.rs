@@ -200,6 +200,12 @@ fn is_row(seed: u64) -> bool {
     seed % 4 == 1
 }
 
+/// Angles by which the model of a scene is turned, degrees.
+fn angles_of(seed: u64) -> [f64; 2] {
+    let mut dice = Dice::of(seed + 1_000_000);
+    [dice.between(-180.0, 180.0), dice.between(-180.0, 180.0)]
+}
+
 /// Nobody on the plate gains or loses what it has along the plate, and turned models do what upright ones do.
 #[test]
 fn random_flush_bodies_slide_on_at_any_angle() {
@@ -207,8 +213,7 @@ fn random_flush_bodies_slide_on_at_any_angle() {
     let mut wrong = Vec::new();
     for seed in seeds {
         let scene = flush_scene(seed);
-        let mut dice = Dice::of(seed + 1_000_000);
-        let angles = [dice.between(-180.0, 180.0), dice.between(-180.0, 180.0)];
+        let angles = angles_of(seed);
         let [upright, found] = [[0.0; 2], angles].map(|angles| scene.velocities_after(3e-4, angles));
         let speeds = scene.velocities.iter().map(|velocity| velocity.iter().map(|v| v * v).sum::<f64>().sqrt());
         let speed = speeds.fold(0.0, f64::max);
@@ -260,8 +265,7 @@ fn random_blocks_slide_over_flush_joints() {
     let mut wrong = Vec::new();
     for seed in seeds {
         let scene = joint_scene(seed);
-        let mut dice = Dice::of(seed + 1_000_000);
-        let angles = if seed % 2 == 0 { [0.0; 2] } else { [dice.between(-180.0, 180.0), dice.between(-180.0, 180.0)] };
+        let angles = if seed % 2 == 0 { [0.0; 2] } else { angles_of(seed) };
         let ([begins, after], speed) =
             ([scene.velocities[1], scene.velocities_after(3e-3, angles)[1]], scene.velocities[1][0]);
         if (0..2).any(|axis| (after[axis] - begins[axis]).abs() > 0.01 * speed) || after[2].abs() > 0.01 * speed {

@@ -1,5 +1,6 @@
 //! MERGE: nodes of different parts that coincide become one.
 
+use crate::common::disjoint_sets::DisjointSets;
 use std::ops::Range;
 
 /// For every node the node it becomes, which is itself or one with a smaller index at the same place.
@@ -13,7 +14,7 @@ pub fn representatives(coordinates: &[[f64; 3]], parts: &[Range<usize>], toleran
         places.extend(nodes.map(|node| (grid.cell(coordinates[node]), node as u32, part)));
     }
     places.sort_unstable();
-    let mut becomes: Vec<u32> = (0..coordinates.len() as u32).collect();
+    let mut joined = DisjointSets::new(coordinates.len());
     for &(_, node, part) in &places {
         let here = coordinates[node as usize];
         for cell in grid.cells_around(here, tolerance) {
@@ -21,27 +22,12 @@ pub fn representatives(coordinates: &[[f64; 3]], parts: &[Range<usize>], toleran
             for &(_, other, _) in places[first..].iter().take_while(|p| p.0 == cell).filter(|p| p.2 < part) {
                 let there = coordinates[other as usize];
                 if (0..3).all(|axis| (here[axis] - there[axis]).abs() <= tolerance) {
-                    unite(&mut becomes, node, other);
+                    joined.join(node, other);
                 }
             }
         }
     }
-    for node in 0..becomes.len() as u32 {
-        becomes[node as usize] = root(&becomes, node);
-    }
-    becomes
-}
-
-fn root(becomes: &[u32], mut node: u32) -> u32 {
-    while becomes[node as usize] != node {
-        node = becomes[node as usize];
-    }
-    node
-}
-
-fn unite(becomes: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (root(becomes, a), root(becomes, b));
-    becomes[a.max(b) as usize] = a.min(b);
+    joined.into_least()
 }
 
 /// Space cut into cubes, a few tolerances wide so that most nodes are far from their borders.

@@ -11,7 +11,7 @@ fn rigid_body(card: &Card, draft: &mut Draft) {
     let mut blocks: Vec<i64> = Vec::new();
     for item in card.items("block") {
         let (Some(block), Some(span)) = (item.value.integer(), item.span) else { continue };
-        if blocks.contains(&block) || draft.model.rigid_bodies.iter().flatten().any(|other| *other == block) {
+        if blocks.contains(&block) || draft.model.is_rigid(block) {
             draft.report(
                 Diagnostic::error(format!("RIGID BODY: block {block} is of a rigid body already"))
                     .at(span, "named for the second time")
@@ -44,19 +44,19 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
                 .help("hold or drive all nodes of the block with NO DISPLACEMENT or PRESCRIBED VELOCITY"),
         );
     }
-    let rigid = |block: i64| model.rigid_bodies.iter().any(|blocks| blocks.contains(&block));
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         let Some((_, why, help)) = SENSELESS.iter().find(|(name, ..)| *name == card.name) else { continue };
         for item in card.items("block") {
-            if let (Some(block), Some(span)) = (item.value.integer().filter(|block| rigid(*block)), item.span) {
+            if let (Some(block), Some(span)) = (item.value.integer().filter(|block| model.is_rigid(*block)), item.span)
+            {
                 let message = format!("{}: block {block} is of a RIGID BODY: {why}", card.name);
                 found.push(Diagnostic::error(message).at(span, "this block is rigid").help(*help));
             }
         }
     }
-    silent(problem, mesh, rigid, found);
+    silent(problem, mesh, found);
     shared_nodes(problem, mesh, found);
-    let all_rigid = mesh.blocks.iter().all(|block| rigid(block.id));
+    let all_rigid = mesh.blocks.iter().all(|block| model.is_rigid(block.id));
     if all_rigid && !model.time_step.longest.is_finite() {
         found.push(
             Diagnostic::error("RIGID BODY: all blocks are rigid, so that nothing bounds the time step")
@@ -67,7 +67,7 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
 }
 
 /// Waves do not leave what is rigid.
-fn silent(problem: &Problem, mesh: &Mesh, rigid: impl Fn(i64) -> bool, found: &mut Diagnostics) {
+fn silent(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     let mut of_element: Vec<i64> = Vec::new();
     for card in problem.deck.cards_of("SILENT BC").filter(|card| card.complete) {
         let Some(set) = mesh.side_set(card.integer("side_set")) else { continue };
@@ -75,7 +75,7 @@ fn silent(problem: &Problem, mesh: &Mesh, rigid: impl Fn(i64) -> bool, found: &m
             of_element = mesh.blocks.iter().flat_map(|block| std::iter::repeat_n(block.id, block.len())).collect();
         }
         let blocks = set.sides.iter().filter_map(|(element, _)| of_element.get(*element as usize));
-        if let Some(block) = blocks.copied().find(|block| rigid(*block)) {
+        if let Some(block) = blocks.copied().find(|block| problem.model.is_rigid(*block)) {
             found.push(
                 Diagnostic::error(format!("SILENT BC: block {block} is of a RIGID BODY: no wave runs in it"))
                     .at(card.record, "faces of a rigid block")

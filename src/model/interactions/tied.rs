@@ -51,9 +51,11 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
     }
     let mut block_of_element = Vec::with_capacity(mesh.element_count());
     mesh.blocks.iter().for_each(|block| block_of_element.extend(std::iter::repeat_n(block, block.len())));
-    let rigid = |block: &Block| problem.model.rigid_bodies.iter().any(|blocks| blocks.contains(&block.id));
     let mut rigid_nodes: Vec<u32> = Vec::new();
-    mesh.blocks.iter().filter(|block| rigid(block)).for_each(|block| rigid_nodes.extend(&block.nodes));
+    mesh.blocks
+        .iter()
+        .filter(|block| problem.model.is_rigid(block.id))
+        .for_each(|block| rigid_nodes.extend(&block.nodes));
     rigid_nodes.sort_unstable();
     for card in &cards {
         for field in ["first", "second"] {
@@ -62,9 +64,9 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
             let mut of_set: Vec<&Block> = blocks.collect();
             of_set.sort_by_key(|block| block.id);
             of_set.dedup_by_key(|block| block.id);
-            of_set.iter().for_each(|block| untieable(block, (card, field), rigid, problem, found));
+            of_set.iter().for_each(|block| untieable(block, (card, field), problem, found));
             // Faces of the rigid blocks themselves have been told.
-            if !of_set.iter().any(|block| rigid(block)) {
+            if !of_set.iter().any(|block| problem.model.is_rigid(block.id)) {
                 shared_with_rigid(&rigid_nodes, (card, field), mesh, found);
             }
         }
@@ -73,19 +75,13 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
 }
 
 /// Only faces of solids are tied that neither are rigid nor may go.
-fn untieable(
-    block: &Block,
-    (card, field): (&Card, &str),
-    rigid: impl Fn(&Block) -> bool,
-    problem: &Problem,
-    found: &mut Diagnostics,
-) {
+fn untieable(block: &Block, (card, field): (&Card, &str), problem: &Problem, found: &mut Diagnostics) {
     let (model, id) = (&problem.model, block.id);
     let dies = model.deaths.iter().any(|death| death.block == id)
         || model.deletions.iter().any(|deletion| deletion.block == id);
     let (why, help) = if block.shape != Shape::Hexahedron {
         ("its elements are no solids", "shells and bars are joined by shared nodes")
-    } else if rigid(block) {
+    } else if model.is_rigid(id) {
         ("it is rigid", "what is to move with a RIGID BODY shares its nodes")
     } else if dies {
         ("its elements may be taken away", "let the parts share their nodes, or keep DEATH to other blocks")

@@ -56,7 +56,7 @@ pub fn idle_rotations(mesh: &Mesh, model: &Model) -> Vec<i64> {
     };
     let turning: BTreeSet<u32> = mesh.blocks.iter().filter(turns).flat_map(|block| &block.nodes).copied().collect();
     // A rigid body turns with any of its nodes.
-    let is_rigid = |block: &&crate::mesh::Block| model.rigid_bodies.iter().any(|body| body.contains(&block.id));
+    let is_rigid = |block: &&crate::mesh::Block| model.is_rigid(block.id);
     let rigid: BTreeSet<u32> = mesh.blocks.iter().filter(is_rigid).flat_map(|block| &block.nodes).copied().collect();
     let can_turn = |node: &u32| turning.contains(node) || rigid.contains(node);
     let idle = |set: &&i64| mesh.node_set(**set).is_some_and(|own| !own.nodes.iter().any(can_turn));

@@ -54,7 +54,7 @@ fn never_flowed(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
         let words = format!("block {} never flowed", block.id);
         let instead = format!("MATERIAL, {}, ELASTIC{}", block.id, without(scene, block.id));
         // Elements of rigid bodies have no work.
-        let is_rigid = scene.model.rigid_bodies.iter().flatten().any(|rigid| *rigid == block.id);
+        let is_rigid = scene.model.is_rigid(block.id);
         let cost = (!is_rigid).then_some((Section::Elements, block.len() as f64 / elements));
         list.push(Advice::spare(words, instead, *promise, cost));
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::bars::at;
 use super::section::Between;
 use super::subject::Face;
+use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract, unit};
 
 /// A fold as sharp as this lengthens the fibre in its edge no more, so that folded sheets grow no spikes.
@@ -132,11 +133,8 @@ impl Edges {
 
     /// For each corner of each shell the number of its fibre: corners of neighbours at a node have one.
     fn fibres(&self, shells: &[Shell]) -> Vec<usize> {
-        let mut fibres: Vec<usize> = (0..4 * shells.len()).collect();
-        let mut join = |a: usize, b: usize| {
-            let (a, b) = (root(&mut fibres, a), root(&mut fibres, b));
-            fibres[a.max(b)] = a.min(b);
-        };
+        let mut fibres = DisjointSets::new(4 * shells.len());
+        let mut join = |a: usize, b: usize| fibres.join(a as u32, b as u32);
         for (i, shell) in shells.iter().enumerate() {
             for place in 0..4 {
                 let next = (place + 1) % 4;
@@ -148,16 +146,8 @@ impl Edges {
                 }
             }
         }
-        (0..fibres.len()).map(|place| root(&mut fibres, place)).collect()
+        fibres.into_least().into_iter().map(|fibre| fibre as usize).collect()
     }
-}
-
-fn root(parents: &mut [usize], mut place: usize) -> usize {
-    while parents[place] != place {
-        parents[place] = parents[parents[place]];
-        place = parents[place];
-    }
-    place
 }
 
 /// Turns shells over so that neighbours have the same top, as far as there is one.

@@ -2,6 +2,7 @@
 
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
 use crate::model::{ContactOverlap, Model};
@@ -196,8 +197,11 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
             if part < crowded.least {
                 (crowded.least, crowded.node) = (part, layout.nodes[point as usize]);
             }
+            // What is beside a face and near its border says nothing of the room over it.
+            if contact.projection.rounded {
+                continue;
+            }
             let members = layout.faces.corners[contact.face as usize].into_iter().chain([point]);
-            let members = members.filter(|_| !contact.projection.rounded);
             for member in members.filter(|&member| layout.faces.node_reach[member as usize] > 0.0) {
                 let least = rooms.entry(layout.nodes[member as usize]).or_insert(part);
                 *least = part.min(*least);
@@ -362,22 +366,11 @@ fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
 
 /// For each node one of its body's: elements that share nodes are one body.
 fn bodies_of(body: &Body) -> Vec<u32> {
-    fn root(parent: &mut [u32], mut node: u32) -> u32 {
-        while parent[node as usize] != node {
-            parent[node as usize] = parent[parent[node as usize] as usize];
-            node = parent[node as usize];
-        }
-        node
-    }
-    let mut parent: Vec<u32> = (0..body.positions.len() as u32).collect();
+    let mut joined = DisjointSets::new(body.positions.len());
     for nodes in body.element_nodes.iter() {
-        let first = root(&mut parent, nodes[0]);
-        for &node in &nodes[1..] {
-            let other = root(&mut parent, node);
-            parent[other as usize] = first;
-        }
+        nodes[1..].iter().for_each(|&node| joined.join(nodes[0], node));
     }
-    (0..body.positions.len() as u32).map(|node| root(&mut parent, node)).collect()
+    joined.into_least()
 }
 
 /// Distance of a point to the nearest of some faces behind which it is.

@@ -5,3 +5,6 @@ pub mod embedded;
 pub mod initial_overlap;
 pub mod node_face;
 pub mod planes;
+
+/// Cosine of the angle between two planes that count as one.
+const FLUSH: f64 = 0.99;

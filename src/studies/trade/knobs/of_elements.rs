@@ -14,8 +14,8 @@ const WORK_OF_SECOND_ORDER: f64 = 1.02;
 
 /// All knobs that the elements of a scene have.
 pub fn variants(model: &Model, mesh: &Mesh) -> Vec<Variant> {
-    let rigid = |block: &Block| model.rigid_bodies.iter().any(|body| body.contains(&block.id));
-    let blocks: Vec<&Block> = mesh.blocks.iter().filter(|block| !block.is_empty() && !rigid(block)).collect();
+    let blocks: Vec<&Block> =
+        mesh.blocks.iter().filter(|block| !block.is_empty() && !model.is_rigid(block.id)).collect();
     let mut all: Vec<Variant> = estimate(model, &blocks).into_iter().collect();
     all.extend(formulation(model, &blocks));
     all.extend(hourglass(model, &blocks));

@@ -8,6 +8,7 @@ mod constraint;
 mod lines;
 mod reach;
 
+use super::FLUSH;
 use crate::common::vector::{add, dot, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::Constraint;
@@ -54,9 +55,6 @@ const BEYOND_MIDDLE: f64 = 0.05;
 
 /// Smallest cosine between the normal at a line and the way in which an edge is pushed off it.
 const STEEP: f64 = 0.8;
-
-/// Cosine of the angle between two planes that count as one.
-const FLUSH: f64 = 0.99;
 
 /// An edge this part of a face's size below its plane is in the plane. Not more: in folds, faces that merely come near each other's planes must
 /// not be taken for a seam.

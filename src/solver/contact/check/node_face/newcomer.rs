@@ -1,5 +1,6 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
+use super::super::FLUSH;
 use super::{DetectedContact, HOLD, NodeFaceCheck};
 use crate::common::vector::{dot, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
@@ -10,9 +11,6 @@ const CLEARLY: f64 = 1e-6;
 
 /// Cosine between the normals of two faces that look at each other, at most.
 const FACING: f64 = -0.02;
-
-/// Cosine of the angle between two planes that count as one.
-const FLUSH: f64 = 0.99;
 
 /// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
 /// each other's planes must not be taken for a seam.
