@@ -87,12 +87,16 @@ fn along(inverse_mass: [f64; 3], n: [f64; 3]) -> f64 {
     inverse_mass[0] * n[0] * n[0] + inverse_mass[1] * n[1] * n[1] + inverse_mass[2] * n[2] * n[2]
 }
 
-/// What a unit force along the normal of a constraint does to it, and what such forces do to single members in any direction at most:
-/// inverse masses; and what each member has of both.
+/// What a unit force along the normal of a constraint does to it, and what such forces could do in any direction at most, if members
+/// that are held along all axes were as light as the others: inverse masses; and what each member has of both.
 fn weigh(c: &Constraint, motion: &NodeMotion, softness: &mut [[f64; 2]; MEMBERS]) -> [f64; 2] {
     let (mut inverse, mut isotropic) = (0.0, 0.0);
+    // Sums of squared weights. A member that can move, but has a weight of round-off, is not to be measured by itself.
+    let (mut of_all, mut of_movable) = (0.0, 0.0);
     for (i, (point, w)) in c.parts().enumerate() {
-        if motion.mobility.of(point).is_some() {
+        of_all += w * w;
+        if let Some(body) = motion.mobility.of(point) {
+            of_movable += if motion.mobility.bodies[body].is_movable() { w * w } else { 0.0 };
             continue;
         }
         let m = motion.inverse_mass[point];
@@ -100,10 +104,15 @@ fn weigh(c: &Constraint, motion: &NodeMotion, softness: &mut [[f64; 2]; MEMBERS]
         inverse += w * w * one;
         let most = m[0].max(m[1]).max(m[2]);
         isotropic += w * w * most;
+        of_movable += if most > 0.0 { w * w } else { 0.0 };
         softness[i] = [w.abs() * one, w.abs() * most];
     }
     if !motion.mobility.bodies.is_empty() {
         mobility::weigh(c, motion, softness, [&mut inverse, &mut isotropic]);
+    }
+    // Exactly as it is where all can move.
+    if of_movable > 0.0 && of_movable < of_all {
+        isotropic *= of_all / of_movable;
     }
     [inverse, isotropic]
 }

@@ -78,6 +78,11 @@ fn wrench(arm: [f64; 3], [x, y, z]: [f64; 3]) -> Six {
 }
 
 impl BodyMobility {
+    /// Whether forces can move it at all when nothing holds it.
+    pub fn is_movable(&self) -> bool {
+        self.free.iter().flatten().any(|part| *part != 0.0)
+    }
+
     fn arm(&self, motion: &NodeMotion, point: usize) -> [f64; 3] {
         subtract(motion.start(point as u32), self.centre)
     }
