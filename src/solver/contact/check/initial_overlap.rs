@@ -190,10 +190,10 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
     for (point, contact, _) in behind(layout, &Pairings::new(mesh, model, body), &motion) {
         let distance = layout.faces.distance(point, contact.face);
         let (size, room) = (layout.faces.size[contact.face as usize], contact.projection.gap + distance);
-        if distance > 0.0 && room >= 0.0 && contact.projection.gap < -STUCK * size {
+        if distance > 0.0 && room >= -NOTHING * size && contact.projection.gap < -STUCK * size {
             crowded.nodes += usize::from(point != last);
             last = point;
-            let part = room / distance;
+            let part = (room / distance).max(0.0);
             if part < crowded.least {
                 (crowded.least, crowded.node) = (part, layout.nodes[point as usize]);
             }

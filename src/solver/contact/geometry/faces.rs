@@ -253,9 +253,13 @@ impl Faces {
     /// How near a point beside a face comes to its border before that is in its way, a length. What the mesh has put nearer to something
     /// than they touch is as thin to what comes from beside: with its whole thickness it would be stopped by the next node of what it lies on.
     pub fn rim(&self, point: u32, face: u32) -> f64 {
+        self.least_room(self.corners[face as usize].into_iter().chain([point])) * self.distance(point, face)
+    }
+
+    /// The least part of the distance at which they touch for which the mesh leaves room at some points.
+    pub fn least_room(&self, points: impl IntoIterator<Item = u32>) -> f64 {
         let room = |point: u32| self.room.get(point as usize).copied().unwrap_or(1.0);
-        let least = self.corners[face as usize].map(room).into_iter().fold(room(point), f64::min);
-        least * self.distance(point, face)
+        points.into_iter().map(room).fold(1.0, f64::min)
     }
 
     /// Depth behind a face at the start, a length, which it never exceeds.

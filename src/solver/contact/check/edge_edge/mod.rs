@@ -58,7 +58,7 @@ const STEEP: f64 = 0.8;
 
 /// An edge this part of a face's size below its plane is in the plane. Not more: in folds, faces that merely come near each other's planes must
 /// not be taken for a seam.
-const SEAM: f64 = 5e-4;
+const SEAM: f64 = 2e-4;
 
 /// Two edges in contact, remembered from step to step: their numbers, and in which direction the normal force pushes the first
 /// along the product of their directions.
@@ -253,7 +253,7 @@ impl EdgeCheck<'_> {
                 // What has opened does not close again for nothing.
                 EdgeContact { sense, tolerated: past.tolerated.max((sense * end.gap - distance).min(0.0)), ..*past }
             }
-            None if of_surface => self.comes_near(pair, half, &end, distance)?,
+            None if of_surface => self.comes_near(pair, half, &end)?,
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - distance - now.tolerated;
@@ -370,7 +370,9 @@ impl EdgeCheck<'_> {
             let normal = area_normal(&corners);
             (corners, normal, dot(normal, normal))
         };
-        let own = self.edges[pair[0] as usize].faces.map(of);
+        let (sliding, looks_both_ways) =
+            (&self.edges[pair[0] as usize], self.edges[pair[0] as usize].is_of_surface(self.faces));
+        let own = sliding.faces.map(of);
         self.edges[pair[1] as usize].ends.iter().any(|&point| {
             let end = self.motion.end(point);
             self.faces.around(point).iter().any(|&face| {
@@ -379,7 +381,7 @@ impl EdgeCheck<'_> {
                 let turns = cosine * cosine < STEEP * STEEP * square * dot(outwards, outwards);
                 let is_flush = |&(_, own, of_own): &([[f64; 3]; 4], [f64; 3], f64)| {
                     let cosine = dot(own, normal);
-                    cosine < 0.0 && cosine * cosine > FLUSH * FLUSH * square * of_own
+                    (looks_both_ways || cosine < 0.0) && cosine * cosine > FLUSH * FLUSH * square * of_own
                 };
                 turns
                     && dot(subtract(centre(&corners), end), outwards) < 0.0
@@ -423,7 +425,10 @@ impl EdgeCheck<'_> {
 
     /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
     /// stays. Where the mesh or a path from beside has brought them nearer, they stay as near.
-    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing, distance: f64) -> Option<EdgeContact> {
+    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing) -> Option<EdgeContact> {
+        let distance = self.distance(pair);
+        // What has too little room is as thin to what comes from beside, see `Faces::rim`.
+        let rim = distance * self.faces.least_room(pair.iter().flat_map(|&edge| self.edges[edge as usize].ends));
         let separation = between(self.starts(pair, half));
         let (length, along) = (dot(separation, separation).sqrt(), dot(separation, end.normal));
         if along.abs() <= SAME_SIDE * length {
@@ -434,7 +439,11 @@ impl EdgeCheck<'_> {
         let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
             self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(separation, self.outwards(edge)) > 0.0
         });
-        (outwards && sense * end.gap < distance).then_some(EdgeContact {
+        let is_in_the_way = || {
+            self.edges[pair[1] as usize].is_of_surface(self.faces)
+                || !self.slides_over_rim((pair, half), end, f64::INFINITY)
+        };
+        (outwards && sense * end.gap < rim && is_in_the_way()).then_some(EdgeContact {
             pair,
             sense,
             tolerated: before.min(0.0),

@@ -24,7 +24,7 @@ impl NodeFaceCheck<'_> {
             return None;
         }
         let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
-        if end.rounded && end.gap + self.faces.distance(point, face) > self.faces.rim(point, face) {
+        if self.is_beyond_rim(point, face, &end) {
             return None;
         }
         if !self.may_have_come_over(point, face, &end) || self.is_on_other_side(point, face) {
@@ -60,6 +60,12 @@ impl NodeFaceCheck<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &start.weights);
         inside.then(|| contact(0.0, start.gap))
+    }
+
+    /// Whether a point that a face has not held is beside its border and too far from that to be stopped by it, see
+    /// [`Faces::rim`](crate::solver::contact::geometry::faces::Faces::rim).
+    pub(super) fn is_beyond_rim(&self, point: u32, face: u32, end: &Projection) -> bool {
+        end.rounded && end.gap + self.faces.distance(point, face) > self.faces.rim(point, face)
     }
 
     /// How far a point is at the beginning of the step from touching a face: from the nearest point of its border where it is beyond.

@@ -191,6 +191,9 @@ impl NodeFaceCheck<'_> {
                     continue;
                 }
                 let Some(projection) = self.around_border(point, face, true) else { continue };
+                if self.is_beyond_rim(point, face, &projection) {
+                    continue;
+                }
                 // In a corner of a solid, what is a little behind the one is a little beyond the border of the other.
                 let is_corner =
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
