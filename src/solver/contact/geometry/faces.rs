@@ -1,5 +1,6 @@
 //! The faces of contact.
 
+use super::grown_together::GrownTogether;
 use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
@@ -10,7 +11,7 @@ use crate::mesh::Connectivity;
 pub const THINNEST: u8 = 15;
 
 /// A surface is thick against its elements when two thicknesses of its sides make more than this part of a face.
-const THICK: f64 = 0.7;
+pub(super) const THICK: f64 = 0.7;
 
 /// Half of the thickness of an element between a face and the side across from it, along the normal of the face; 0 for a face
 /// without area.
@@ -41,6 +42,9 @@ pub struct Faces {
     pub node_reach: Vec<f64>,
     /// Part of the distance at which they touch for which the mesh leaves room at each point; empty where there is room for all.
     room: Vec<f64>,
+    /// Points and faces of thick surfaces that lie nearer to each other along the surface than they touch; none in a subset, whose
+    /// candidates are found.
+    grown_together: GrownTogether,
     /// Whether the face is one of both sides of a surface.
     two_sided: Vec<bool>,
     /// Which of its edges are on the border of the surface, a bit for each corner at which one begins.
@@ -279,11 +283,19 @@ impl Faces {
         self.around(point).iter().any(|&face| self.is_two_sided(face))
     }
 
-    /// Whether a face is so near to a point along the surface, and the surface so thick, that they would always touch: not
-    /// across a node, and thicker than most of an element.
+    /// Finds what is [`Faces::grown_together`] beyond the next face; `positions` are those of the points at the start.
+    pub fn grow_together(&mut self, positions: impl FnOnce() -> Vec<[f64; 3]>) {
+        if self.two_sided.contains(&true) {
+            self.grown_together = GrownTogether::of(self, &positions());
+        }
+    }
+
+    /// Whether a face is so near to a point along the surface, and the surface so thick, that they would always touch: across a
+    /// node where the surface is thicker than most of an element, or farther away, see [`GrownTogether`].
     pub fn grown_together(&self, point: u32, face: u32) -> bool {
         let distance = self.distance(point, face);
-        distance > THICK * self.size[face as usize] && self.around(point).iter().any(|&own| self.adjacent(own, face))
+        let is_next = || self.around(point).iter().any(|&own| self.adjacent(own, face));
+        (distance > THICK * self.size[face as usize] && is_next()) || self.grown_together.contains(point, face)
     }
 
     /// Whether two faces with a common edge look the same way across it, as neighbours on one side of a surface do: they run

@@ -3,6 +3,7 @@
 pub mod crossing;
 pub mod edges;
 pub mod faces;
+mod grown_together;
 pub mod motion;
 pub mod paths;
 pub mod projection;

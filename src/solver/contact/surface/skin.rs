@@ -143,6 +143,7 @@ impl Skin {
             faces.node_reach[point] = faces.node_reach[point].max(radius);
             blocks[point].get_or_insert(block);
         }
+        faces.grow_together(|| self.positions(&layout.nodes));
         for &(node, part) in &self.rooms {
             faces.limit_room(layout.point(node), part);
         }
