@@ -54,7 +54,7 @@ struct Corner {
 }
 
 /// One rank's share of the mesh. Its *slots* number the corners of its contributors consecutively, group by group;
-/// there must be fewer than 2^32 of them.
+/// there must be fewer than 2^32 of them. See also [`Share::with_border_alone`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
     /// Whose share this is.
@@ -79,7 +79,7 @@ pub struct Share {
 pub struct LocalGroup {
     /// Canonical numbers in the whole mesh, ascending.
     pub members: Vec<u32>,
-    /// Local node numbers of each contributor.
+    /// Local node numbers of each contributor that has slots.
     pub nodes: Connectivity,
     /// Whether the contributor touches a shared node, so that others wait for it.
     pub border: Vec<bool>,
@@ -231,12 +231,44 @@ impl Share {
         share
     }
 
-    /// The share without the nodes of elements where none of them is shared: only messages ask for these.
-    pub fn without_needless(mut self) -> Share {
-        if let Some(elements) = self.groups.first_mut().filter(|_| self.sums.is_empty()) {
-            elements.nodes = Connectivity::default();
+    /// The share with the nodes of those elements alone that touch shared nodes, and slots for their corners alone: messages ask
+    /// for no others. A share that is so already stays as it is.
+    pub fn with_border_alone(mut self) -> Share {
+        if self.has_border_alone() {
+            return self;
         }
+        let slots = BorderSlots::of(&self.groups[0]);
+        for slot in self.neighbours.iter_mut().flat_map(|neighbour| &mut neighbour.send) {
+            *slot = slots.slot(*slot);
+        }
+        for source in &mut self.sources {
+            if let Source::Local(slot) = source {
+                *slot = slots.slot(*slot);
+            }
+        }
+        let (border, moved) = (slots.border_elements(), slots.all - slots.kept);
+        self.groups[0].nodes = border;
+        self.groups[1..].iter_mut().for_each(|group| group.first_slot -= moved);
         self
+    }
+
+    /// What messages and sums alone ask for.
+    pub fn plan(&self) -> Share {
+        Share {
+            rank: self.rank,
+            groups: Vec::new(),
+            nodes: Vec::new(),
+            owned: Vec::new(),
+            neighbours: self.neighbours.clone(),
+            sums: self.sums.clone(),
+            sources: self.sources.clone(),
+        }
+    }
+
+    /// Whether no element has nodes here but those that touch shared nodes.
+    pub fn has_border_alone(&self) -> bool {
+        let at_border = |elements: &LocalGroup| elements.border.iter().filter(|&&border| border).count();
+        self.groups.first().is_none_or(|elements| elements.nodes.len() == at_border(elements))
     }
 
     /// Buffers for an exchange of `width` numbers per contribution.
@@ -316,6 +348,48 @@ impl Share {
             let touches = |nodes: &[u32]| nodes.iter().any(|node| shared[*node as usize]);
             group.border = group.nodes.iter().map(touches).collect();
         }
+    }
+}
+
+/// What slots become when elements that touch no shared node have none.
+struct BorderSlots<'a> {
+    elements: &'a LocalGroup,
+    /// The first slot of each element at the border that is left.
+    first: Vec<u32>,
+    /// Slots of elements that are left, and of all elements.
+    kept: u32,
+    all: u32,
+}
+
+impl BorderSlots<'_> {
+    fn of(elements: &LocalGroup) -> BorderSlots<'_> {
+        let mut kept = 0;
+        let first = (elements.border.iter().zip(elements.nodes.iter()))
+            .map(|(&border, nodes)| {
+                let first = kept;
+                kept += if border { nodes.len() as u32 } else { 0 };
+                first
+            })
+            .collect();
+        BorderSlots { elements, first, kept, all: elements.nodes.nodes().len() as u32 }
+    }
+
+    /// The new number of a slot of an element at the border, or of a later group.
+    fn slot(&self, slot: u32) -> u32 {
+        if slot >= self.all {
+            return self.kept + (slot - self.all);
+        }
+        let (element, corner) = self.elements.nodes.corner(slot as usize);
+        self.first[element] + corner as u32
+    }
+
+    fn border_elements(&self) -> Connectivity {
+        let mut border = Connectivity::with_room_for(self.kept as usize);
+        let elements = self.elements.nodes.shaped().zip(&self.elements.border);
+        for ((shape, nodes), _) in elements.filter(|(_, border)| **border) {
+            border.push(shape, nodes.iter().copied());
+        }
+        border
     }
 }
 

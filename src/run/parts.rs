@@ -22,7 +22,7 @@ impl Parts {
             let cut = body.cut(ranks);
             let contributors = body.contributors(&cut);
             let decomposition = body.decomposition(&contributors, ranks);
-            here.map(|rank| decomposition.share(rank).without_needless()).collect()
+            here.map(|rank| decomposition.share(rank).with_border_alone()).collect()
         };
         let body = Arc::new(body);
         Parts { first, left: Mutex::new(shares.into_iter().map(|share| Some((body.clone(), share))).collect()) }

@@ -51,6 +51,14 @@ fn slots(share: &Share) -> Vec<[f64; 2]> {
     share.groups.iter().enumerate().flat_map(group).collect()
 }
 
+/// Those of elements at the border and of all later groups.
+fn of_border(share: &Share, slots: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let elements = &share.groups[0];
+    let at_border = elements.nodes.iter().zip(&elements.border).flat_map(|(nodes, border)| vec![*border; nodes.len()]);
+    let later = std::iter::repeat(true);
+    slots.iter().zip(at_border.chain(later)).filter(|(_, kept)| *kept).map(|(slot, _)| *slot).collect()
+}
+
 /// Scatter-adds in local order, as a solver does, then replaces the sums of shared nodes.
 fn local_sums(share: &Share, slots: &[[f64; 2]], peers: &[Peer]) -> Vec<[f64; 2]> {
     let mut sums = vec![[0.0; 2]; share.nodes.len()];
@@ -69,11 +77,25 @@ fn check(groups: &[Contributors], node_count: usize, ranks: usize) {
     for rank in 0..ranks {
         shares[rank].pack(&mut peers[rank], |slot| slots[rank][slot as usize]);
     }
+    let borders: Vec<Share> = shares.iter().map(|share| share.clone().with_border_alone()).collect();
+    let border_slots: Vec<_> = shares.iter().zip(&slots).map(|(share, slots)| of_border(share, slots)).collect();
+    for ((border, slots), peers) in borders.iter().zip(&border_slots).zip(&peers) {
+        assert!(border.has_border_alone() && *border == border.clone().with_border_alone());
+        let mut again = border.peers(2);
+        border.pack(&mut again, |slot| slots[slot as usize]);
+        assert!(again.iter().zip(peers).all(|(one, other)| one.send == other.send));
+    }
     deliver(&mut peers);
     let expected = serial_sums(groups, node_count);
     let mut owners = vec![0; node_count];
     for (rank, share) in shares.iter().enumerate() {
         check_structure(share, groups, rank);
+        let summed = |share: &Share, slots: &[[f64; 2]]| {
+            let mut sums = Vec::new();
+            share.sum(&peers[rank], |slot| slots[slot as usize], |node, sum| sums.push((node, sum.map(f64::to_bits))));
+            sums
+        };
+        assert_eq!(summed(share, &slots[rank]), summed(&borders[rank], &border_slots[rank]));
         for (local, sum) in local_sums(share, &slots[rank], &peers[rank]).iter().enumerate() {
             let node = share.nodes[local] as usize;
             owners[node] += usize::from(share.owned[local]);

@@ -54,7 +54,7 @@ pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove
 pub use enforcement::iterations::LOOSER;
 pub use observations::report::{Report, Tally, Work};
 pub use observations::seen::{Looser, Seen};
-pub(in crate::solver) use surface::construction::skin;
+pub(in crate::solver) use surface::construction::{Surfaces, surfaces};
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
 const LINES_EVERY: u64 = 4;

@@ -9,11 +9,11 @@ use crate::mesh::{Block, Connectivity, Coordinates, Mesh, Shape};
 use crate::model::Model;
 use crate::partition::{Contributors, Decomposition, rcb, space_filling_order};
 use crate::solver::AddedMass;
-use crate::solver::contact::{self, Overlap};
+use crate::solver::contact::{self, Overlap, Surfaces};
 use crate::solver::elements::{Element, Sample};
 use crate::solver::rigid::{self, BodyShape};
 use crate::solver::tied::Tied;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A mesh with masses and its canonical order. What the surface needs when it changes is shared, not copied, by ranks.
 pub struct Body {
@@ -54,6 +54,8 @@ pub struct Body {
     pub rigid: Vec<BodyShape>,
     /// Of each block of the mesh, which of them it belongs to.
     pub block_body: Vec<Option<usize>>,
+    /// The surfaces that may touch, once a rank has asked for them.
+    pub(in crate::solver) surfaces: OnceLock<Option<Surfaces>>,
 }
 
 /// A face under pressure.
@@ -149,6 +151,7 @@ impl Body {
             tied: Tied::default(),
             rigid: Vec::new(),
             block_body: rigid::bodies_of_blocks(mesh, model),
+            surfaces: OnceLock::new(),
         };
         body.take_elements(mesh, model);
         if !model.ties.is_empty() {

@@ -5,8 +5,8 @@
 
 use crate::comm::{Communicator, Peer};
 use crate::lanes::Force;
-use crate::mesh::Connectivity;
-use crate::partition::{LocalGroup, Share, Source};
+use crate::partition::{LocalGroup, Share};
+use std::borrow::Cow;
 
 /// Buffers and plan of the exchange.
 pub struct Exchange {
@@ -18,30 +18,24 @@ pub struct Exchange {
     peers: Vec<Peer>,
     /// Whether the fourth numbers travel, too: they say something where there are fluids.
     rates: bool,
-    /// The share's plan of messages and sums, its slots numbered as in `slots`.
+    /// Messages and sums, their slots numbered as in `slots`.
     plan: Share,
 }
 
 impl Exchange {
     /// From a rank's share of the body: its elements and its loaded faces. With `rates` the fourth numbers travel, too.
     pub fn new(share: &Share, rates: bool) -> Exchange {
-        let compact = CompactSlots::new(share);
-        let faces: usize = share.groups[1..].iter().map(|faces| faces.nodes.nodes().len()).sum();
-        let mut plan = Share { groups: Vec::new(), nodes: Vec::new(), owned: Vec::new(), ..share.clone() };
-        for slot in plan.neighbours.iter_mut().flat_map(|neighbour| &mut neighbour.send) {
-            *slot = compact.slot(*slot);
-        }
-        for source in &mut plan.sources {
-            if let Source::Local(slot) = source {
-                *slot = compact.slot(*slot);
-            }
-        }
+        let share = match share.has_border_alone() {
+            true => Cow::Borrowed(share),
+            false => Cow::Owned(share.clone().with_border_alone()),
+        };
+        let corners = |group: &LocalGroup| group.nodes.nodes().len();
         Exchange {
-            slots: vec![Force::default(); compact.kept as usize + faces],
-            first_face: compact.kept as usize,
+            slots: vec![Force::default(); share.groups.iter().map(corners).sum()],
+            first_face: corners(&share.groups[0]),
             peers: share.peers(if rates { 4 } else { 3 }),
             rates,
-            plan,
+            plan: share.plan(),
         }
     }
 
@@ -82,38 +76,4 @@ fn negative(force: &Force) -> [f64; 4] {
 
 fn without_rate([x, y, z, _]: [f64; 4]) -> [f64; 3] {
     [x, y, z]
-}
-
-/// Numbers of the slots that are really kept: those of border elements and of loaded faces.
-struct CompactSlots<'a> {
-    elements: &'a Connectivity,
-    /// The first kept slot of each local element that is at the border.
-    first: Vec<u32>,
-    /// Slots of border elements.
-    kept: u32,
-}
-
-impl CompactSlots<'_> {
-    fn new(share: &Share) -> CompactSlots<'_> {
-        let LocalGroup { nodes: elements, border, .. } = &share.groups[0];
-        let mut kept = 0u32;
-        let first = (border.iter().zip(elements.iter()))
-            .map(|(&border, nodes)| {
-                let first = kept;
-                kept += if border { nodes.len() as u32 } else { 0 };
-                first
-            })
-            .collect();
-        CompactSlots { elements, first, kept }
-    }
-
-    fn slot(&self, slot: u32) -> u32 {
-        let all = self.elements.nodes().len() as u32;
-        if slot < all {
-            let (element, corner) = self.elements.corner(slot as usize);
-            self.first[element] + corner as u32
-        } else {
-            self.kept + (slot - all)
-        }
-    }
 }

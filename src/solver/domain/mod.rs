@@ -143,7 +143,7 @@ impl Domain {
     /// Cuts a rank's share out of the body and sets its initial state.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, comm: &mut dyn Communicator) -> Domain {
         // What finding the surface takes meanwhile is gone before the elements come.
-        let skin = contact::skin(mesh, model, body);
+        let surfaces = contact::surfaces(mesh, model, body);
         let local = local_numbers(body.rotations.unknowns(), &share.nodes);
         let elements = &share.groups[0].members;
         let element_file: Vec<u32> = elements.iter().map(|&e| body.element_order[e as usize]).collect();
@@ -175,8 +175,14 @@ impl Domain {
         domain.nodes.passive = domain.rigid.iter().flat_map(RigidBodies::inside).collect();
         domain.loads = loads::make(&Setting { mesh, model, body, local: &local, nodes: domain.nodes.len() });
         let held = domain.set_constraints(mesh, model, body, &local);
-        domain.contact =
-            Contact::new(mesh, model, (body, skin), (&domain.nodes, held), (&local, &domain.element_canonical), comm);
+        domain.contact = Contact::new(
+            mesh,
+            model,
+            (body, surfaces),
+            (&domain.nodes, held),
+            (&local, &domain.element_canonical),
+            comm,
+        );
         if domain.erosion.is_none() {
             domain.contact.iter_mut().for_each(|contact| contact.release_construction_data(comm.size()));
         }

@@ -55,9 +55,14 @@ pub struct Erosion {
 }
 
 impl Erosion {
-    /// `None` for a model without DEATH and DELETE MATERIAL. Adds the stand-in's nodes behind those of the rank.
+    /// Whether elements may go: by DEATH or DELETE MATERIAL.
+    pub fn is_asked_for(model: &Model) -> bool {
+        !model.deaths.is_empty() || !model.deletions.is_empty()
+    }
+
+    /// `None` for a model without either. Adds the stand-in's nodes behind those of the rank.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, nodes: &mut Nodes, local: &[u32]) -> Option<Erosion> {
-        if model.deaths.is_empty() && model.deletions.is_empty() {
+        if !Erosion::is_asked_for(model) {
             return None;
         }
         let mut left = vec![0; nodes.len()];

@@ -4,6 +4,7 @@ use super::grown_together::GrownTogether;
 use super::motion::NodeMotion;
 use super::projection::area_normal;
 use super::surface::{back_nodes, face_nodes};
+use crate::common::shared::Shared;
 use crate::common::vector::{dot, subtract};
 use crate::mesh::Connectivity;
 
@@ -22,42 +23,43 @@ pub fn half_thickness(front: [[f64; 3]; 4], back: [[f64; 3]; 4]) -> f64 {
     if area > 0.0 { 0.5 * (dot(through, normal) / area).abs() } else { 0.0 }
 }
 
-/// Faces that points may touch, in ascending order of their numbers.
+/// Faces that points may touch, in ascending order of their numbers. What does not change is shared by copies: ranks of one process
+/// have one surface.
 #[derive(Debug, Clone, Default)]
 pub struct Faces {
     /// Number in the whole body: 6 × canonical element + side.
-    pub number: Vec<u32>,
+    pub number: Shared<u32>,
     /// Corner points, counter-clockwise seen from outside.
-    pub corners: Vec<[u32; 4]>,
+    pub corners: Shared<[u32; 4]>,
     /// Index of the mesh block.
-    pub block: Vec<u32>,
+    pub block: Shared<u32>,
     /// Square root of the area at the start, a length.
-    pub size: Vec<f64>,
+    pub size: Shared<f64>,
     /// A point deeper than this behind a face did not come through it: half the element, as it is now where it has become
     /// thinner, to the nearest factor of √2. A length.
     pub depth: Vec<f64>,
     /// Distance in front of the face at which it is touched: half the thickness of a shell, 0 on solids. A length.
-    pub reach: Vec<f64>,
+    pub reach: Shared<f64>,
     /// Distance from each point at which it touches: half the thickness of its thickest shell, the radius of a bar. A length.
-    pub node_reach: Vec<f64>,
+    pub node_reach: Shared<f64>,
     /// Part of the distance at which they touch for which the mesh leaves room at each point; empty where there is room for all.
-    room: Vec<f64>,
+    room: Shared<f64>,
     /// Points and faces of thick surfaces that lie nearer to each other along the surface than they touch; none in a subset, whose
     /// candidates are found.
     grown_together: GrownTogether,
     /// Whether the face is one of both sides of a surface.
-    two_sided: Vec<bool>,
+    two_sided: Shared<bool>,
     /// Which of its edges are on the border of the surface, a bit for each corner at which one begins.
-    borders: Vec<u8>,
+    borders: Shared<u8>,
     /// The same depth at the start.
-    start_depth: Vec<f64>,
+    start_depth: Shared<f64>,
     /// How often the depth has become less by a factor of √2 since then.
     thinning: Vec<u8>,
     /// Faces around each point: `around[first[p]..first[p + 1]]`.
-    first: Vec<u32>,
-    around: Vec<u32>,
+    first: Shared<u32>,
+    around: Shared<u32>,
     /// Element nodes of each face as points, `u32::MAX` for nodes that are none.
-    element: Vec<[u32; 8]>,
+    element: Shared<[u32; 8]>,
 }
 
 impl Faces {
@@ -69,43 +71,38 @@ impl Faces {
         (point, points): (impl Fn(u32) -> u32, usize),
         reach: impl Fn(u32) -> f64,
     ) -> Faces {
-        let count = numbers.len();
+        let nodes_of = |number: &u32| face_nodes(elements, *number);
+        let element_of = |number: &u32| *number as usize / 6;
+        let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);
+        let area = |number: &u32| {
+            let normal = area_normal(&at(nodes_of(number)));
+            dot(normal, normal).sqrt()
+        };
+        let is_two_sided = |number: &u32| elements.shape(element_of(number)).is_surface();
+        let start_depth = |number: &u32| match is_two_sided(number) {
+            // History says on which side a point is, so that it may be deep.
+            true => (0.5 * area(number).sqrt()).max(2.0 * reach(number / 6)),
+            false => half_thickness(at(nodes_of(number)), at(back_nodes(elements, *number))),
+        };
+        let of_element = |number: &u32| {
+            let mut points = [u32::MAX; 8];
+            points.iter_mut().zip(&elements[element_of(number)]).for_each(|(place, &node)| *place = point(node));
+            points
+        };
+        let start_depth: Shared<f64> = numbers.iter().map(start_depth).collect();
         let mut faces = Faces {
-            number: numbers.to_vec(),
-            corners: Vec::with_capacity(count),
-            block: Vec::with_capacity(count),
-            size: Vec::with_capacity(count),
-            reach: Vec::with_capacity(count),
-            two_sided: Vec::with_capacity(count),
-            start_depth: Vec::with_capacity(count),
-            element: Vec::with_capacity(count),
+            corners: numbers.iter().map(|number| nodes_of(number).map(&point)).collect(),
+            block: numbers.iter().map(|number| blocks[element_of(number)]).collect(),
+            size: numbers.iter().map(|number| area(number).sqrt()).collect(),
+            depth: start_depth.to_vec(),
+            reach: numbers.iter().map(|number| reach(number / 6)).collect(),
+            two_sided: numbers.iter().map(is_two_sided).collect(),
+            thinning: vec![0; numbers.len()],
+            element: numbers.iter().map(of_element).collect(),
+            number: numbers.to_vec().into(),
+            start_depth,
             ..Default::default()
         };
-        for &number in numbers {
-            let nodes = face_nodes(elements, number);
-            let at = |nodes: [u32; 4]| nodes.map(|n| positions[n as usize]);
-            let element = number as usize / 6;
-            let front = at(nodes);
-            let normal = area_normal(&front);
-            let area = dot(normal, normal).sqrt();
-            let (two_sided, reach) = (elements.shape(element).is_surface(), reach(number / 6));
-            faces.corners.push(nodes.map(&point));
-            faces.block.push(blocks[element]);
-            faces.size.push(area.sqrt());
-            faces.two_sided.push(two_sided);
-            faces.reach.push(reach);
-            faces.start_depth.push(if two_sided {
-                // History says on which side a point is, so that it may be deep.
-                (0.5 * area.sqrt()).max(2.0 * reach)
-            } else {
-                half_thickness(front, at(back_nodes(elements, number)))
-            });
-            let mut of_element = [u32::MAX; 8];
-            of_element.iter_mut().zip(&elements[element]).for_each(|(place, &node)| *place = point(node));
-            faces.element.push(of_element);
-        }
-        faces.depth.clone_from(&faces.start_depth);
-        faces.thinning = vec![0; faces.len()];
         faces.connect(points);
         faces.borders = (0..faces.len() as u32).map(|face| faces.find_borders(face)).collect();
         let thickest =
@@ -116,7 +113,22 @@ impl Faces {
 
     /// Some of these faces, ascending; `point` gives the new numbers of points, of which there are `points`.
     pub fn subset(&self, chosen: &[u32], point: impl Fn(u32) -> u32, points: usize) -> Faces {
-        let mut some = Faces { node_reach: vec![0.0; points], ..Faces::default() };
+        let element = |of: [u32; 8]| of.map(|node| if node == u32::MAX { node } else { point(node) });
+        let mut some = Faces {
+            number: chosen_of(&self.number, chosen),
+            corners: chosen.iter().map(|&face| self.corners[face as usize].map(&point)).collect(),
+            block: chosen_of(&self.block, chosen),
+            size: chosen_of(&self.size, chosen),
+            depth: chosen_of(&self.depth, chosen),
+            start_depth: chosen_of(&self.start_depth, chosen),
+            reach: chosen_of(&self.reach, chosen),
+            two_sided: chosen_of(&self.two_sided, chosen),
+            borders: chosen_of(&self.borders, chosen),
+            thinning: chosen_of(&self.thinning, chosen),
+            element: chosen.iter().map(|&face| element(self.element[face as usize])).collect(),
+            node_reach: vec![0.0; points].into(),
+            ..Faces::default()
+        };
         for (old, &reach) in (0..).zip(&self.node_reach).filter(|(_, reach)| **reach > 0.0) {
             if let Some(place) = some.node_reach.get_mut(point(old) as usize) {
                 *place = reach;
@@ -124,20 +136,6 @@ impl Faces {
         }
         for (old, &part) in (0..).zip(&self.room).filter(|(_, part)| **part < 1.0) {
             some.limit_room(point(old), part);
-        }
-        for &face in chosen {
-            let face = face as usize;
-            some.number.push(self.number[face]);
-            some.corners.push(self.corners[face].map(&point));
-            some.block.push(self.block[face]);
-            some.size.push(self.size[face]);
-            some.depth.push(self.depth[face]);
-            some.start_depth.push(self.start_depth[face]);
-            some.reach.push(self.reach[face]);
-            some.two_sided.push(self.two_sided[face]);
-            some.borders.push(self.borders[face]);
-            some.thinning.push(self.thinning[face]);
-            some.element.push(self.element[face].map(|of| if of == u32::MAX { of } else { point(of) }));
         }
         some.connect(points);
         some
@@ -185,21 +183,21 @@ impl Faces {
     }
 
     fn connect(&mut self, points: usize) {
-        self.first = vec![0; points + 1];
+        let mut first = vec![0; points + 1];
         let pairs = || self.corners.iter().zip(0u32..).flat_map(|(corners, face)| corners.map(|point| (point, face)));
         for (point, _) in pairs() {
-            self.first[point as usize + 1] += 1;
+            first[point as usize + 1] += 1;
         }
         for i in 0..points {
-            self.first[i + 1] += self.first[i];
+            first[i + 1] += first[i];
         }
-        let mut next = self.first.clone();
+        let mut next = first.clone();
         let mut around = vec![0; 4 * self.corners.len()];
         for (point, face) in pairs() {
             around[next[point as usize] as usize] = face;
             next[point as usize] += 1;
         }
-        self.around = around;
+        (self.first, self.around) = (first.into(), around.into());
     }
 
     /// See [`Faces::borders_of`].
@@ -346,13 +344,19 @@ impl Faces {
     }
 }
 
+/// What a list of all faces has of those chosen.
+fn chosen_of<T: Copy, L: FromIterator<T>>(all: &[T], chosen: &[u32]) -> L {
+    chosen.iter().map(|&face| all[face as usize]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_depth_follows_a_thinner_element_at_once_and_a_thicker_one_late() {
-        let mut faces = Faces { start_depth: vec![1.0], depth: vec![1.0], thinning: vec![0], ..Default::default() };
+        let mut faces =
+            Faces { start_depth: vec![1.0].into(), depth: vec![1.0], thinning: vec![0], ..Default::default() };
         let mut at = |depth: f64| {
             let thinning = faces.thinning_at(0, depth);
             faces.set_thinning(0, thinning);

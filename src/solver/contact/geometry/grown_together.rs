@@ -5,6 +5,7 @@
 
 use super::faces::{Faces, THICK};
 use super::projection::area_normal;
+use crate::common::shared::Shared;
 use crate::common::vector::{dot, normalized, scaled, subtract};
 use std::collections::BTreeSet;
 
@@ -14,7 +15,7 @@ const FOLDED: f64 = -0.5;
 
 /// Pairs of a node and a face that never touch, ascending.
 #[derive(Debug, Clone, Default)]
-pub struct GrownTogether(Vec<(u32, u32)>);
+pub struct GrownTogether(Shared<(u32, u32)>);
 
 impl GrownTogether {
     /// Finds the pairs in which the distance at which they touch is more than [`THICK`] of the distance between them along the surface, at the
@@ -28,7 +29,7 @@ impl GrownTogether {
                 all.extend(surface.near(point).into_iter().map(|face| (point, face)));
             }
         }
-        GrownTogether(all)
+        GrownTogether(all.into())
     }
 
     /// Whether a point and a face are one of the pairs.

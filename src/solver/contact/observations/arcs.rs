@@ -73,6 +73,17 @@ impl Arcs {
         }
     }
 
+    /// Faces around the points that were pushed and those of faces that were met, ascending: with these come all pairs of
+    /// neighbours of which something has touched. Of most surfaces they are a small part.
+    fn concerned(&self, faces: &Faces) -> Vec<u32> {
+        let mut asked: Vec<bool> = self.first.iter().map(|&first| first != NEVER).collect();
+        for (corners, _) in faces.corners.iter().zip(&self.met).filter(|(_, met)| **met) {
+            corners.iter().for_each(|&point| asked[point as usize] = true);
+        }
+        let around = |corners: &[u32; 4]| corners.iter().any(|&point| asked[point as usize]);
+        (0..).zip(&faces.corners).filter(|(_, corners)| around(corners)).map(|(face, _)| face).collect()
+    }
+
     /// Whether all nodes of two faces have touched at a time.
     fn together(&self, faces: &Faces, pair: [u32; 2]) -> bool {
         let points = || pair.iter().flat_map(|&face| faces.corners[face as usize]);
@@ -93,7 +104,7 @@ impl Contact {
         let positions = self.skin.of_points(layout);
         let normal = |face: u32| area_normal(&faces.corners[face as usize].map(|point| positions[point as usize]));
         let mut blocks: Vec<[bool; 2]> = vec![[false; 2]; self.block_ids.len()];
-        for pair in neighbours(faces, &positions) {
+        for pair in neighbours(faces, &arcs.concerned(faces), &positions) {
             let [n, m] = pair.map(normal);
             let cosine = dot(n, m) / (dot(n, n) * dot(m, m)).sqrt();
             let block = faces.block[pair[0] as usize];
@@ -108,15 +119,11 @@ impl Contact {
     }
 }
 
-/// Pairs of faces that share an edge, or in the plane a node.
-fn neighbours(faces: &Faces, positions: &[[f64; 3]]) -> Vec<[u32; 2]> {
-    let all: Vec<u32> = (0..faces.len() as u32).collect();
-    let is_strip = |face: u32| {
-        let [a, b, c, d] = faces.corners[face as usize];
-        a == d && b == c
-    };
-    if !all.iter().all(|&face| is_strip(face)) {
-        return edges::between(&all, faces, positions, false).iter().map(|edge| edge.faces).collect();
+/// Pairs among some faces that share an edge, or in the plane all that share a node.
+fn neighbours(faces: &Faces, chosen: &[u32], positions: &[[f64; 3]]) -> Vec<[u32; 2]> {
+    let is_strip = |&[a, b, c, d]: &[u32; 4]| a == d && b == c;
+    if !faces.corners.iter().all(is_strip) {
+        return edges::between(chosen, faces, positions, false).iter().map(|edge| edge.faces).collect();
     }
     let beside = |point: u32| -> Option<[u32; 2]> {
         let mut around = faces.around(point).to_vec();

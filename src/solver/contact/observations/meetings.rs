@@ -2,6 +2,7 @@
 //! no say in anything.
 
 use crate::comm::Communicator;
+use crate::common::shared::Shared;
 use crate::solver::contact::surface::layout::Layout;
 
 /// Blocks that are followed, each a bit: of meshes with more nothing is known but whether anything met anything.
@@ -100,12 +101,12 @@ impl Meetings {
 }
 
 /// The blocks that have a say at a point, and at a face: of nodes that blocks share all of them.
-pub fn blocks_around(layout: &Layout) -> [Vec<Blocks>; 2] {
+pub fn blocks_around(layout: &Layout) -> [Shared<Blocks>; 2] {
     let faces = &layout.faces;
     let of_point = |(point, block): (u32, &u32)| {
         faces.around(point).iter().fold(set_of(*block), |set, &face| set | set_of(faces.block[face as usize]))
     };
-    let points: Vec<Blocks> = (0..).zip(&layout.point_block).map(of_point).collect();
+    let points: Shared<Blocks> = (0..).zip(&layout.point_block).map(of_point).collect();
     let of_face = |corners: &[u32; 4]| corners.iter().fold(0, |set, &corner| set | points[corner as usize]);
     let of_faces = faces.corners.iter().map(of_face).collect();
     [points, of_faces]

@@ -31,16 +31,15 @@ impl Regional {
         contact_nodes: &ContactNodes,
         comm: &mut dyn Communicator,
     ) -> Regional {
-        let owner_rank = |point: u32| {
-            f64::from(contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]))
-        };
+        let owner_rank =
+            |point: u32| contact_nodes.of(point).map_or(0, |contact_node| contact_nodes.owner_ranks[contact_node]);
         // One kind after the other, each let go of as soon as it is on its way: a search takes the most memory of all that
         // a step does.
-        let (points, _) = sorted::<0>(sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, comm));
+        let points = sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, comm);
         let here = edges.iter().copied();
         let standing_out = neighbourhood::standing_out(here.clone(), layout, contact_nodes);
         let first_owner = |edge: u32| owner_rank(layout.edges[edge as usize].ends[0]);
-        let (own_edges, _) = sorted::<0>(sent(standing_out, first_owner, comm));
+        let own_edges = sent(standing_out, first_owner, comm);
         let occupied = occupied_by_all(&own_edges.boxes, comm);
         let own_edges = own_edges.ids;
         let cells: Vec<Box3> = occupied.iter().flat_map(Occupancy::boxes).collect();
@@ -67,32 +66,49 @@ fn occupied_by_all(own: &[Box3], comm: &mut dyn Communicator) -> Vec<Occupancy> 
     gather_for_all(own, comm).chunks_exact(length).map(|bytes| Occupancy::from_bytes(bytes, CELLS)).collect()
 }
 
-/// Sends each box, with the owner ranks of its corners or ends, to all ranks that occupy space near it; what has come
-/// instead. All ranks call it.
+/// Sends each box, with the owner ranks of its corners or ends, to all ranks that occupy space near it, this one among them; what has
+/// come instead. Boxes come by ascending numbers. All ranks call it.
 fn sent_near<const OWNERS: usize>(
-    boxes: impl Iterator<Item = (u32, Box3)>,
-    owners: impl Fn(u32) -> [f64; OWNERS],
+    boxes: impl ExactSizeIterator<Item = (u32, Box3)>,
+    owners: impl Fn(u32) -> [u32; OWNERS],
     occupied: &[Occupancy],
     comm: &mut dyn Communicator,
 ) -> (Boxes, Vec<[u32; OWNERS]>) {
+    let me = comm.rank();
     let mut parcels = Parcels::new(&*comm, 6 + OWNERS);
+    let (mut own, mut own_owners) = (Boxes::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
     let mut record = Vec::with_capacity(6 + OWNERS);
     for (id, of) in boxes {
-        record.clear();
-        record.extend_from_slice(&flat(&of));
-        record.extend_from_slice(&owners(id));
-        let near = (0..).zip(occupied).filter(|(_, by_rank)| by_rank.may_meet(&of));
-        near.for_each(|(rank, _)| parcels.add(rank, id, &record));
+        // Most boxes stay, and are not packed.
+        if occupied[me].may_meet(&of) {
+            own.push(id, of);
+            own_owners.push(owners(id));
+        }
+        let near = occupied.iter().enumerate().filter(|(rank, by_rank)| *rank != me && by_rank.may_meet(&of));
+        for (rank, _) in near {
+            record.clear();
+            record.extend_from_slice(&flat(&of));
+            record.extend(owners(id).map(f64::from));
+            parcels.add(rank as u32, id, &record);
+        }
     }
-    sorted(parcels.exchange(comm))
+    merged(own, own_owners, &parcels.exchange(comm))
 }
 
-/// Sends each box to its rank; what has come instead. All ranks call it.
-fn sent(boxes: Boxes, rank: impl Fn(u32) -> f64, comm: &mut dyn Communicator) -> Records {
+/// Sends each box to its rank, which may be this one; what has come instead. Boxes come by ascending numbers. All ranks call it.
+fn sent(boxes: Boxes, rank: impl Fn(u32) -> u32, comm: &mut dyn Communicator) -> Boxes {
+    let me = comm.rank() as u32;
     let mut parcels = Parcels::new(&*comm, 6);
-    boxes.ids.iter().zip(&boxes.boxes).for_each(|(&id, of)| parcels.add(rank(id) as u32, id, &flat(of)));
+    let mut own = Boxes::with_capacity(boxes.ids.len());
+    for (&id, of) in boxes.ids.iter().zip(&boxes.boxes) {
+        match rank(id) {
+            rank if rank == me => own.push(id, *of),
+            rank => parcels.add(rank, id, &flat(of)),
+        }
+    }
     drop(boxes);
-    parcels.exchange(comm)
+    let staying = vec![[]; own.ids.len()];
+    merged(own, staying, &parcels.exchange(comm)).0
 }
 
 fn flat(of: &Box3) -> [f64; 6] {
@@ -100,13 +116,38 @@ fn flat(of: &Box3) -> [f64; 6] {
     [a, b, c, d, e, f]
 }
 
-/// Boxes that have come, by number, and the owner ranks behind each box.
-fn sorted<const OWNERS: usize>(records: Records) -> (Boxes, Vec<[u32; OWNERS]>) {
-    let (mut boxes, mut owners) = (Boxes::with_capacity(records.len()), Vec::with_capacity(records.len()));
-    for i in records.by_id() {
-        let v = records.values(i as usize);
-        boxes.push(records.ids[i as usize], Box3 { low: [v[0], v[1], v[2]], high: [v[3], v[4], v[5]] });
-        owners.push(std::array::from_fn(|owner| v[6 + owner] as u32));
+/// Boxes that have stayed, by ascending numbers, and those that have come from others, together; each with its owner ranks.
+fn merged<const OWNERS: usize>(
+    own: Boxes,
+    own_owners: Vec<[u32; OWNERS]>,
+    come: &Records,
+) -> (Boxes, Vec<[u32; OWNERS]>) {
+    if come.is_empty() {
+        return (own, own_owners);
+    }
+    let count = own.ids.len() + come.len();
+    let (mut boxes, mut owners) = (Boxes::with_capacity(count), Vec::with_capacity(count));
+    let mut take = |id: u32, of: Box3, of_owners: [u32; OWNERS]| {
+        boxes.push(id, of);
+        owners.push(of_owners);
+    };
+    let mut others = come.by_id().into_iter().map(|record| record as usize).peekable();
+    for (place, &id) in own.ids.iter().enumerate() {
+        while let Some(record) = others.next_if(|&record| come.ids[record] < id) {
+            let (of, of_owners) = unpacked(come.values(record));
+            take(come.ids[record], of, of_owners);
+        }
+        take(id, own.boxes[place], own_owners[place]);
+    }
+    for record in others {
+        let (of, of_owners) = unpacked(come.values(record));
+        take(come.ids[record], of, of_owners);
     }
     (boxes, owners)
+}
+
+/// A box from its record, and the owner ranks behind it.
+fn unpacked<const OWNERS: usize>(v: &[f64]) -> (Box3, [u32; OWNERS]) {
+    let of = Box3 { low: [v[0], v[1], v[2]], high: [v[3], v[4], v[5]] };
+    (of, std::array::from_fn(|owner| v[6 + owner] as u32))
 }

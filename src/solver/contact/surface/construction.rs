@@ -23,15 +23,28 @@ use crate::solver::contact::surface::layout::Layout;
 use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::contact::{Contact, Seen, Tally};
+use crate::solver::erosion::Erosion;
 use crate::solver::nodes::Nodes;
 use std::sync::Arc;
 
-/// The surfaces that a model lets touch; `None` when it has neither contact nor rigid surfaces.
-pub fn skin(mesh: &Mesh, model: &Model, body: &Body) -> Option<Skin> {
-    if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
-        return None;
-    }
-    Some(Skin::new(mesh, model, body, plane_node_sets(mesh, model).concat()))
+/// The surfaces that a model lets touch, and how they are laid out.
+pub type Surfaces = (Skin, Layout);
+
+/// The surfaces that a model lets touch; `None` when it has neither contact nor rigid surfaces. They are found once for all ranks
+/// of a process, by the first that asks: each gets a copy, which shares what is large.
+pub fn surfaces(mesh: &Mesh, model: &Model, body: &Body) -> Option<Surfaces> {
+    let found = body.surfaces.get_or_init(|| {
+        if !model.contact.is_some() && model.rigid_surfaces.is_empty() {
+            return None;
+        }
+        let mut skin = Skin::new(mesh, model, body, plane_node_sets(mesh, model).concat());
+        let layout = skin.layout();
+        if !Erosion::is_asked_for(model) {
+            skin.settle(&layout);
+        }
+        Some((skin, layout))
+    });
+    found.clone()
 }
 
 /// Nodes of each rigid surface.
@@ -40,20 +53,19 @@ fn plane_node_sets(mesh: &Mesh, model: &Model) -> Vec<Vec<u32>> {
 }
 
 impl Contact {
-    /// Contact as the model asks for it, with what `skin` has found; `None` when that is nothing. `held[i]` says which
+    /// Contact as the model asks for it, with the surfaces that were found; `None` when that is nothing. `held[i]` says which
     /// constraint holds which direction of local node i; `local` gives the local node of a node of the mesh, `elements` the
     /// canonical numbers of the elements here, ascending.
     pub fn new(
         mesh: &Mesh,
         model: &Model,
-        (body, skin): (&Body, Option<Skin>),
+        (body, surfaces): (&Body, Option<Surfaces>),
         (nodes, held): (&Nodes, Vec<[u32; 3]>),
         (local, elements): (&[u32], &[u32]),
         comm: &mut dyn Communicator,
     ) -> Option<Contact> {
-        let skin = skin?;
+        let (skin, layout) = surfaces?;
         let plane_node_sets = plane_node_sets(mesh, model);
-        let layout = skin.layout();
         let joints = Joints::of(mesh, model, body, &layout.nodes).map(Arc::new);
         let mut contact = Contact {
             contact_nodes: ContactNodes::default(),
@@ -94,7 +106,7 @@ impl Contact {
 
     /// Lets go of what only a surface from which elements go has to know; on one rank who computes what is no question either.
     pub fn release_construction_data(&mut self, ranks: usize) {
-        self.skin.release_construction_data(&self.layout);
+        self.skin.release_construction_data();
         self.held = Vec::new();
         if ranks == 1 {
             self.elements = Vec::new();

@@ -1,6 +1,7 @@
 //! What the deck lets touch as it is now: points, faces, edges, and interfaces.
 
 use super::exclusions::Exclusions;
+use crate::common::shared::Shared;
 use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::observations::meetings::Blocks;
@@ -17,31 +18,31 @@ pub fn inverse(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
     places
 }
 
-/// Points and faces as they are now.
+/// Points and faces as they are now. Copies share what does not change: ranks of one process have one surface.
 #[derive(Debug, Clone, Default)]
 pub struct Layout {
     /// Middle of the points at the start, lengths: boxes in single precision are seen from there.
     pub origin: [f64; 3],
     /// Node of the mesh of each point, ascending.
-    pub nodes: Vec<u32>,
+    pub nodes: Shared<u32>,
     /// Block of each point: that of the first of its faces.
-    pub point_block: Vec<u32>,
+    pub point_block: Shared<u32>,
     /// Faces.
     pub faces: Arc<Faces>,
     /// Interfaces; explicit pairs first.
-    pub interfaces: Vec<Interface>,
+    pub interfaces: Shared<Interface>,
     /// Edges of the faces that CONTACT MATERIAL lets touch, ascending; none where edges touch nothing.
-    pub edges: Vec<Edge>,
+    pub edges: Shared<Edge>,
     /// Whether lines of the mesh meet edges that stand out.
     pub lines: bool,
     /// For each point those that TIED CONTACT joins with it, ascending: they do not touch. Empty without any.
-    pub joined: Vec<Vec<u32>>,
+    pub joined: Shared<Vec<u32>>,
     /// Whether there are surfaces; their edges meet all lines.
     pub surfaces: bool,
     /// Blocks that CONTACT MATERIAL leaves apart.
     pub exclusions: Arc<Exclusions>,
     /// Blocks that have a say at each point, and at each face.
-    pub blocks_around: [Vec<Blocks>; 2],
+    pub blocks_around: [Shared<Blocks>; 2],
 }
 
 impl Layout {

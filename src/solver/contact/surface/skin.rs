@@ -21,17 +21,19 @@ fn middle(positions: &[[f64; 3]]) -> [f64; 3] {
     middle.map(|x| if x.is_finite() { x } else { 0.0 })
 }
 
-/// What layouts are made of, and made of again when elements go.
+/// What layouts are made of, and made of again when elements go. Copies share what is large.
+#[derive(Clone)]
 pub struct Skin {
     element_order: Arc<Vec<u32>>,
     element_nodes: Arc<Connectivity>,
     element_block: Arc<Vec<u32>>,
     positions: Coordinates,
     /// Those of the points, once nothing else is left.
-    of_points: Vec<[f64; 3]>,
+    of_points: Coordinates,
     /// Whether CONTACT MATERIAL names a block.
     chosen: Vec<bool>,
-    surface: Option<Surface>,
+    /// Which faces are across from each other, where elements may go.
+    surface: Option<Arc<Surface>>,
     /// Faces of the side sets of each CONTACT SURFACE, two lists for each, ascending.
     sets: Vec<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
@@ -59,8 +61,8 @@ impl Skin {
             element_nodes: body.element_nodes.clone(),
             element_block: body.element_block.clone(),
             positions: body.positions.clone(),
-            of_points: Vec::new(),
-            surface: contact.materials.is_some().then(|| surface(&chosen, body)),
+            of_points: Coordinates::default(),
+            surface: contact.materials.is_some().then(|| Arc::new(surface(&chosen, body))),
             sets: side_set_faces(mesh, contact, body),
             more,
             joined: body.tied.joined(),
@@ -81,17 +83,21 @@ impl Skin {
         Skin { touching: self.touching.without_distances(), ..self }
     }
 
-    /// Keeps what a surface is asked that does not change any more, and lets go of the rest.
-    pub fn release_construction_data(&mut self, layout: &Layout) {
-        self.of_points = self.positions(&layout.nodes);
-        self.positions = Coordinates::default();
-        (self.element_nodes, self.element_block) = Default::default();
+    /// Lets go of what only a surface asks for from which elements go, once it is laid out.
+    pub fn settle(&mut self, layout: &Layout) {
+        self.of_points = self.positions(&layout.nodes).into();
         self.surface = None;
     }
 
+    /// Lets go of the body, of which a surface that is settled asks for nothing more once the run has been set up.
+    pub fn release_construction_data(&mut self) {
+        self.positions = Coordinates::default();
+        (self.element_nodes, self.element_block) = Default::default();
+    }
+
     /// Initial positions of the points of a layout.
-    pub fn of_points(&self, layout: &Layout) -> Vec<[f64; 3]> {
-        if self.of_points.is_empty() { self.positions(&layout.nodes) } else { self.of_points.clone() }
+    pub fn of_points(&self, layout: &Layout) -> Coordinates {
+        if self.of_points.is_empty() { self.positions(&layout.nodes).into() } else { self.of_points.clone() }
     }
 
     /// Initial positions of some nodes of the mesh.
@@ -111,7 +117,7 @@ impl Skin {
 
     /// Points, faces and interfaces as they are now.
     pub fn layout(&self) -> Layout {
-        let automatic: Vec<u32> = self.surface.iter().flat_map(|surface| self.outside(surface)).collect();
+        let automatic: Vec<u32> = self.outside().collect();
         let mut numbers: Vec<u32> = automatic.iter().chain(self.sets.iter().flatten()).copied().collect();
         numbers.sort_unstable();
         numbers.dedup();
@@ -120,19 +126,22 @@ impl Skin {
         nodes.extend(self.balls().map(|(node, ..)| node));
         nodes.sort_unstable();
         nodes.dedup();
-        let mut layout = Layout { nodes, lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
+        nodes.shrink_to_fit();
+        let mut layout =
+            Layout { nodes: nodes.into(), lines: self.edges_wanted == ContactEdges::All, ..Default::default() };
         layout.origin = middle(&self.positions(&layout.nodes));
         let points = layout.nodes.len();
         if !self.joined.is_empty() {
-            layout.joined = vec![Vec::new(); points];
+            let mut joined = vec![Vec::new(); points];
             for (node, others) in &self.joined {
                 let point = layout.point(*node);
-                if let Some(own) = layout.joined.get_mut(point as usize) {
+                if let Some(own) = joined.get_mut(point as usize) {
                     own.extend(
                         others.iter().filter_map(|other| layout.nodes.binary_search(other).ok()).map(|p| p as u32),
                     );
                 }
             }
+            layout.joined = joined.into();
         }
         let body = (&*self.element_nodes, &self.element_block[..], &self.positions[..]);
         let distance = |element| self.touching.distance(element);
@@ -151,18 +160,19 @@ impl Skin {
         let faces = &layout.faces;
         let of_ball = |point: u32| blocks.get(point as usize).copied().flatten().unwrap_or(0);
         let block = |point: u32| faces.around(point).first().map_or(of_ball(point), |&face| faces.block[face as usize]);
-        layout.point_block = (0..points as u32).map(block).collect();
+        let mut point_block: Vec<u32> = (0..points as u32).map(block).collect();
         for &(node, block) in &self.free {
-            let point = layout.point(node) as usize;
-            layout.point_block[point] = block;
+            point_block[layout.point(node) as usize] = block;
         }
+        layout.point_block = point_block.into();
         layout.blocks_around = meetings::blocks_around(&layout);
         layout.exclusions = self.exclusions.clone();
-        layout.interfaces = self.interfaces(&layout, &automatic);
+        layout.interfaces = self.interfaces(&layout, &automatic).into();
         if let Some(automatic) = layout.automatic().filter(|_| self.edges_wanted != ContactEdges::None) {
             let positions = self.positions(&layout.nodes);
             let surfaces = automatic.faces.iter().any(|&face| layout.faces.is_two_sided(face));
-            layout.edges = edges::between(&automatic.faces, &layout.faces, &positions, layout.lines || surfaces);
+            let edges = edges::between(&automatic.faces, &layout.faces, &positions, layout.lines || surfaces);
+            layout.edges = edges.into();
             layout.surfaces = surfaces;
         }
         layout
@@ -172,11 +182,12 @@ impl Skin {
     pub fn delete(&mut self, elements: &[u32], old: &Layout, keeps: impl Fn(u32) -> bool) {
         self.touching.delete(elements);
         let Some(surface) = &mut self.surface else { return self.shorten_sets(elements) };
+        let surface = Arc::make_mut(surface);
         elements.iter().for_each(|&element| surface.delete(element));
         self.shorten_sets(elements);
         let Some(automatic) = old.automatic() else { return };
         let mut on_a_face = vec![false; old.nodes.len()];
-        for face in self.surface.iter().flat_map(|surface| self.outside(surface)) {
+        for face in self.outside() {
             for node in face_nodes(&self.element_nodes, face) {
                 if let Some(on) = on_a_face.get_mut(old.point(node) as usize) {
                     *on = true;
@@ -209,8 +220,9 @@ impl Skin {
     }
 
     /// Exterior faces of the chosen blocks.
-    fn outside<'a>(&'a self, surface: &'a Surface) -> impl Iterator<Item = u32> + 'a {
-        surface.exterior().filter(|&face| self.chosen[self.element_block[face as usize / 6] as usize])
+    fn outside(&self) -> impl Iterator<Item = u32> + '_ {
+        let exterior = self.surface.iter().flat_map(|surface| surface.exterior());
+        exterior.filter(|&face| self.chosen[self.element_block[face as usize / 6] as usize])
     }
 
     fn interfaces(&self, layout: &Layout, automatic: &[u32]) -> Vec<Interface> {

@@ -1,5 +1,6 @@
 //! At what distance elements touch: what they say of themselves, times what the deck makes of it.
 
+use crate::common::shared::Shared;
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::solver::body::Body;
@@ -10,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Default)]
 pub struct Touching {
     /// Distance at which each element is touched, a length; empty where all are solids.
-    distances: Vec<f64>,
+    distances: Shared<f64>,
     /// Elements whose nodes touch, ascending.
     pub of_nodes: Vec<u32>,
     /// Nodes that CONTACT NODE SET names, in its order.
@@ -41,11 +42,12 @@ impl Touching {
         if body.elements.iter().all(|element| element.touch(&[]) == Touch::Outside) {
             return touching;
         }
+        let mut distances = Vec::with_capacity(body.element_block.len());
         for (element, &block) in (0u32..).zip(&*body.element_block) {
             let block = block as usize;
             let of_mesh = &mesh.blocks[block];
             let attributes = of_mesh.attributes_of(body.place_in_block(element as usize));
-            touching.distances.push(match body.elements[block].touch(attributes) {
+            distances.push(match body.elements[block].touch(attributes) {
                 Touch::Outside => 0.0,
                 Touch::BothSides(distance) => factor(of_mesh.id) * distance,
                 Touch::Nodes(radius) => {
@@ -54,6 +56,7 @@ impl Touching {
                 }
             });
         }
+        touching.distances = distances.into();
         touching
     }
 
@@ -66,7 +69,7 @@ impl Touching {
     /// All elements where they are.
     pub fn without_distances(self) -> Touching {
         let single = self.single.into_iter().map(|single| SingleNode { radius: 0.0, ..single });
-        Touching { distances: Vec::new(), single: single.collect(), ..self }
+        Touching { distances: Shared::default(), single: single.collect(), ..self }
     }
 
     /// Takes elements away, given by their canonical numbers, ascending; nodes touch as long as they have one.

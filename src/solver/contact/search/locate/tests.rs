@@ -287,9 +287,15 @@ impl Stage {
         let local: Vec<u32> = (0..nodes.len() as u32).collect();
         let elements: Vec<u32> = (0..self.mesh.element_count() as u32).collect();
         let held = vec![[crate::solver::contact::ABSENT; 3]; nodes.len()];
-        let skin = crate::solver::contact::skin(&self.mesh, &self.model, &self.body);
-        let contact =
-            Contact::new(&self.mesh, &self.model, (&self.body, skin), (nodes, held), (&local, &elements), &mut Serial);
+        let surfaces = crate::solver::contact::surfaces(&self.mesh, &self.model, &self.body);
+        let contact = Contact::new(
+            &self.mesh,
+            &self.model,
+            (&self.body, surfaces),
+            (nodes, held),
+            (&local, &elements),
+            &mut Serial,
+        );
         contact.expect("the deck asks for contact")
     }
 
