@@ -7,6 +7,7 @@ use super::{
     conditions::boundary::direction,
     interactions::{contact, rigid, tied},
     joints,
+    materials::explosive,
     problem::those_there_are,
 };
 use crate::{
@@ -38,6 +39,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
         elements_of_others(card, mesh, &mut found);
     }
     blocks_without_material(problem, mesh, &mut found);
+    explosive::report_lit_too_late(problem, mesh, &mut found);
     for axis in [Direction::X, Direction::Y, Direction::Z] {
         conflicts(problem, mesh, axis, &mut found);
     }

@@ -5,7 +5,7 @@ use super::{
     conditions::{boundary, function, initial},
     control::{analysis, deletion, output, restart},
     interactions::{contact, rigid, tied},
-    materials::{material, section},
+    materials::{explosive, material, section},
 };
 use crate::{
     deck::{Card, Deck, Diagnostic, Diagnostics, Source, Span, language, spelling},
@@ -46,7 +46,7 @@ const FAMILIES: &[&[Setter]] = &[
     analysis::COMMANDS,
     function::COMMANDS,
     material::COMMANDS,
-    material::LATER_COMMANDS,
+    explosive::LATER_COMMANDS,
     boundary::COMMANDS,
     initial::COMMANDS,
     contact::COMMANDS,
@@ -113,7 +113,7 @@ fn assemble(deck: Deck, found: Diagnostics) -> Problem {
     let of_elements = |card: &&Card| language().entry(&card.name).is_some_and(|entry| entry.family == section::FAMILY);
     deck.cards.iter().filter(|card| card.complete).filter(of_elements).for_each(|card| section::take(card, &mut draft));
     material::check_unfinished(&mut draft);
-    material::report_unlit(&mut draft);
+    explosive::report_unlit(&mut draft);
     material::refuse_lawless(&mut draft);
     output::finish(&mut draft);
     restart::finish(&mut draft);

@@ -126,6 +126,14 @@ pub struct DetonationPoint {
     pub time: f64,
 }
 
+impl DetonationPoint {
+    /// When a front from here at this speed reaches a place.
+    pub fn reaches(&self, place: [f64; 3], velocity: f64) -> f64 {
+        let [x, y, z] = [0, 1, 2].map(|i| place[i] - self.position[i]);
+        self.time + (x * x + y * y + z * z).sqrt() / velocity
+    }
+}
+
 /// Refuses equations whose initial state has no stiffness.
 fn stiff(equation: EquationOfState, keyword: &'static str) -> Result<EquationOfState, Refusal> {
     let bulk = equation.initial().bulk;

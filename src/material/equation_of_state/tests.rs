@@ -240,6 +240,17 @@ fn strength_beside_an_equation_of_state() {
     close("plastic strain", point.state("EQPS"), 2.0 / 3.0 * 0.1 - 400e6 / (1.5 * two_mu), 1e-9);
 }
 
+/// The velocity of Chapman and Jouguet of TNT is the 6930 m/s that are published with its constants, to the digits that these have; of
+/// an ideal gas of detonation products, A = B = 0, it is √(2 ω (ω + 2) E₀/ρ₀), with γ = 1 + ω.
+#[test]
+fn velocity_of_chapman_and_jouguet() {
+    let EquationOfState::Jwl(tnt) = tnt() else { panic!("TNT is a JWL") };
+    close("TNT", tnt.chapman_jouguet(1630.0).expect("a point"), 6930.0, 2e-4);
+    let gas = Jwl { a: 0.0, b: 0.0, omega: 0.4, initial_energy: 4e9, ..tnt };
+    let exact = (2.0 * 0.4 * 2.4 * 4e9 / 1000.0_f64).sqrt();
+    close("gas", gas.chapman_jouguet(1000.0).expect("a point"), exact, 1e-6);
+}
+
 /// The nearest point lights first; within an element the burnt part grows over 2.5 of its lengths.
 #[test]
 fn programmed_burn() {

@@ -140,10 +140,7 @@ impl Kernel for Explosive<'_> {
     const FLUID: bool = true;
 
     fn start(&self, element: &Start, state: &mut [f64]) {
-        let lit = |point: &DetonationPoint| {
-            let [x, y, z] = [0, 1, 2].map(|i| element.centre[i] - point.position[i]);
-            point.time + (x * x + y * y + z * z).sqrt() / self.velocity
-        };
+        let lit = |point: &DetonationPoint| point.reaches(element.centre, self.velocity);
         let first = self.points.iter().map(lit).fold(f64::INFINITY, f64::min);
         let rate = self.velocity / (self.width * element.length);
         // Without a point all of it has burnt when the run begins.

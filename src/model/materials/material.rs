@@ -1,6 +1,6 @@
 //! MATERIAL groups: which law an element block follows, and with which parameters.
 
-use super::properties::Properties;
+use super::{explosive, properties::Properties};
 use crate::model::problem::{Draft, Setter};
 use crate::{
     deck::{Agreement, Card, Deck, Diagnostic, Field, Form, Row, Span, Spelled, Status, language, spelling},
@@ -20,9 +20,6 @@ pub struct BlockMaterial {
 
 pub(in crate::model) const COMMANDS: &[Setter] = &[("MATERIAL", material), ("EQUATION OF STATE", lonely_equation)];
 
-/// What comes when all materials are there.
-pub(in crate::model) const LATER_COMMANDS: &[Setter] = &[("DETONATION POINT", detonation_point)];
-
 fn material(card: &Card, draft: &mut Draft) {
     let block = card.integer("block");
     if let Some(first) = draft.deck.cards_of("MATERIAL").find(|c| c.integer("block") == block).filter(|c| *c != card) {
@@ -41,7 +38,7 @@ fn material(card: &Card, draft: &mut Draft) {
     }
     let functions = &draft.model.functions;
     let function = |id| functions.iter().find(|f| f.id == id).map(|f| f.points.clone());
-    let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(point).collect();
+    let detonation: Vec<DetonationPoint> = draft.deck.cards_of("DETONATION POINT").map(explosive::point).collect();
     let given = Given { function: &function, equation, detonation: &detonation, ..Given::new(&values, density) };
     let law = (entry.build)(&given);
     let cautions = given.cautions.take();
@@ -61,7 +58,7 @@ fn material(card: &Card, draft: &mut Draft) {
 }
 
 /// The equations of state that a deck gives a block.
-fn equation_cards(deck: &Deck, block: i64) -> impl Iterator<Item = &Card> {
+pub(super) fn equation_cards(deck: &Deck, block: i64) -> impl Iterator<Item = &Card> {
     deck.cards_of("EQUATION OF STATE").filter(move |card| card.complete && card.maybe_integer("block") == Some(block))
 }
 
@@ -115,41 +112,6 @@ fn lonely_equation(card: &Card, draft: &mut Draft) {
     if !draft.deck.cards_of("MATERIAL").any(|material| material.maybe_integer("block") == Some(block)) {
         let message = format!("EQUATION OF STATE {block}: there is no MATERIAL {block}");
         draft.report(Diagnostic::error(message).at(card.place("block"), "the block that it is for"));
-    }
-}
-
-fn point(card: &Card) -> DetonationPoint {
-    DetonationPoint { position: ["x", "y", "z"].map(|axis| card.number(axis)), time: card.number("time") }
-}
-
-/// Detonation points act in the making of explosives; here it is seen that there is one.
-fn detonation_point(card: &Card, draft: &mut Draft) {
-    if !draft.model.materials.iter().any(|material| explosive(&material.law)) {
-        draft.report(
-            Diagnostic::warning("DETONATION POINT: no material is an explosive")
-                .at(card.record, "there is nothing to light")
-                .help("an explosive is a HYDRODYNAMIC material with the EQUATION OF STATE JWL"),
-        );
-    }
-}
-
-fn explosive(law: &Law) -> bool {
-    matches!(law.equation_of_state(), Some(EquationOfState::Jwl(_)))
-}
-
-/// Warns of explosives that nothing lights.
-pub(in crate::model) fn report_unlit(draft: &mut Draft) {
-    if draft.deck.cards_of("DETONATION POINT").next().is_some() {
-        return;
-    }
-    let unlit = |material: &&BlockMaterial| explosive(&material.law);
-    let blocks: Vec<i64> = draft.model.materials.iter().filter(unlit).map(|material| material.block).collect();
-    for block in blocks {
-        let Some(card) = equation_cards(draft.deck, block).next() else { continue };
-        draft.report(
-            Diagnostic::warning(format!("EQUATION OF STATE {block}: there is no DETONATION POINT"))
-                .at(card.record, "all of the explosive has burnt when the run begins"),
-        );
     }
 }
 

@@ -36,7 +36,7 @@ pub const SYMPTOM: Symptom = Symptom {
              material",
 };
 
-/// Hourglass energy of an element, none of one that has no such modes, or of a fluid, in which it is heat like any other.
+/// Hourglass energy of an element, none of one that has no such modes, or of a fluid, in which it is heat: `damped_flow`.
 fn hourglass_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
     if block.law.is_fluid() {
         return 0.0;

@@ -4,6 +4,7 @@ mod beyond_hugoniot;
 mod brief;
 pub mod contact;
 mod corners;
+mod damped_flow;
 mod dead_at_start;
 mod debris;
 mod given_back;
@@ -41,7 +42,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 17] = [
+pub static SYMPTOMS: [Symptom; 18] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -59,6 +60,7 @@ pub static SYMPTOMS: [Symptom; 17] = [
     tied_held::SYMPTOM,
     short_pulse::SYMPTOM,
     beyond_hugoniot::SYMPTOM,
+    damped_flow::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

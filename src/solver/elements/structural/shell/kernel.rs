@@ -100,6 +100,8 @@ struct Found<V> {
     shear: [V; 2],
     /// Thickness at the end of the step.
     thickness: V,
+    /// What this step has added to the sum of both normal stresses, a mean over the thickness.
+    added: V,
     /// Part that plastic return has left of the stress: mean over the thickness, and mean as bending sees it.
     returned: [V; 2],
     /// Largest stiffness over the elastic one of the points.
@@ -148,7 +150,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         let (own, points) = state.split_at_mut(S::ROWS.points);
         let stride = point_rows::LAW + K::STATE.len();
         let [mut n11, mut n22, mut n12, mut m11, mut m22, mut m12, mut q1, mut q2] = [zero; 8];
-        let [mut work, mut thinning, mut mean, mut bent, mut stiffest] = [zero, zero, zero, zero, one];
+        let [mut work, mut thinning, mut added, mut mean, mut bent, mut stiffest] = [zero, zero, zero, zero, zero, one];
         let membrane = self.points == 1;
         let of_bending = if membrane { 0.0 } else { 1.5 / self.stiffness.bending };
         for (point, [place, weight]) in points.chunks_exact_mut(stride).zip(self.rule).take(self.points) {
@@ -192,6 +194,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
             m11 = m11 + lever * stress.xx;
             m22 = m22 + lever * stress.yy;
             m12 = m12 + lever * stress.xy;
+            added = added + share * ((stress.xx - old.xx) + (stress.yy - old.yy));
             let twice = (old.xy + stress.xy) * strain.xy;
             // Shear counts with its correction, and twice as all shears do.
             let across = (old.yz + stress.yz) * strain.yz + (old.zx + stress.zx) * strain.zx;
@@ -215,6 +218,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
             moment: [m11 * square, m22 * square, m12 * square],
             shear: [facet.reduced(q1 * corrected), facet.reduced(q2 * corrected)],
             thickness,
+            added,
             returned: [mean, bent],
             stiffest,
         };
@@ -273,7 +277,8 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         now
     }
 
-    /// Bulk viscosity of the membrane as a mean stress, with its energy booked.
+    /// Bulk viscosity of the membrane as a mean stress, with its energy booked. It follows what this step changes of the area
+    /// elastically.
     #[inline(always)]
     fn viscous<V: Lanes>(
         &self,
@@ -284,14 +289,30 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         part: usize,
     ) -> V {
         let rate = rates.strain[0] + rates.strain[1];
+        let elastic = self.elastic_part(rate, found.added);
         let bound = V::load(&state[rows::STEP], part);
-        let damping = damping(self.viscosity, bound, rate);
-        let viscous = damping * V::splat(self.plane_modulus()) * bound * rate;
+        let damping = damping(self.viscosity, bound, elastic);
+        let viscous = damping * V::splat(self.plane_modulus()) * bound * elastic;
         let last = V::load(&state[S::ROWS.viscous_stress], part);
         viscous.store(&mut state[S::ROWS.viscous_stress], part);
         let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;
         accumulate(work, &mut state[S::ROWS.viscous_energy], part);
         viscous
+    }
+
+    /// That part of the rate of area which changes the membrane stress: plastic flow widens a sheet as it thins it, and nothing of
+    /// that is a wave to be damped. Elastic sheets have σ̇₁ + σ̇₂ = E/(1 − ν) (ε̇₁ + ε̇₂). No part is against the rate or exceeds it,
+    /// so that viscosity always dissipates, and never needs a shorter step than the whole rate does.
+    #[inline(always)]
+    fn elastic_part<V: Lanes>(&self, rate: V, added: V) -> V {
+        let [_, step] = self.times;
+        if step <= 0.0 {
+            return rate; // Nothing has been strained yet.
+        }
+        let nu = self.moduli.poisson();
+        let biaxial = self.moduli.two_mu * (1.0 + nu) / (1.0 - nu);
+        let zero = V::splat(0.0);
+        (added * V::splat(1.0 / (biaxial * step))).max(rate.min(zero)).min(rate.max(zero))
     }
 
     /// E/(1 − ν²).

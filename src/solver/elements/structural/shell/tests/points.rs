@@ -2,6 +2,7 @@
 
 use super::rig::{Rig, STEEL, close};
 use crate::material::{ElasticPlastic, Law};
+use crate::model::BulkViscosity;
 use crate::solver::elements::shell::{QUADRILATERAL, point_rows, rows, rule::Rule};
 
 const YIELD: f64 = 400e6;
@@ -78,4 +79,23 @@ fn rigid_motion_leaves_the_stress_alone() {
         close("stress", rig.point(0, point_rows::XX), stress, 2e-4 * stress);
         close("energy", rig.state(QUADRILATERAL.internal_energy), energy, 1e-3 * energy);
     }
+}
+
+/// Bulk viscosity is b₁ E/(1 − ν²) Δt̂ times the rate of area while the shell is elastic; it vanishes in plastic flow at a constant
+/// stress, which changes the area all the same, and is whole again when the shell unloads.
+#[test]
+fn bulk_viscosity_follows_the_elastic_part_of_the_rate_of_area() {
+    let mut rig = Rig::new(PLASTIC, Rule::Gauss.points(3), 0.01);
+    rig.settings.bulk_viscosity = BulkViscosity { linear: 0.06, quadratic: 1.2 };
+    let mut part_of_whole = |strain: f64, steps: usize| {
+        rig.stretch(strain * (steps - 1) as f64 / steps as f64, steps - 1);
+        let (length, bound) = (rig.nodes[1].0[0], rig.state(rows::STEP));
+        let growth = strain / steps as f64;
+        rig.stretch(growth, 1);
+        let rate = growth / (length + 0.5 * growth);
+        rig.state(QUADRILATERAL.viscous_stress) / (0.06 * 200e9 / (1.0 - 0.09) * bound * rate)
+    };
+    close("elastic", part_of_whole(1e-3, 10), 1.0, 1e-6);
+    close("plastic", part_of_whole(0.05, 500), 0.0, 1e-3);
+    close("unloading", part_of_whole(-1e-4, 2), 1.0, 1e-6);
 }

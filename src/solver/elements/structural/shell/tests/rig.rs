@@ -17,7 +17,7 @@ pub struct Rig {
     pub nodes: Vec<Row>,
     pub forces: Vec<Force>,
     pub outcome: PassOutcome,
-    settings: PassSettings,
+    pub settings: PassSettings,
 }
 
 pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
