@@ -10,7 +10,7 @@ use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
 /// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated.
-const FORMAT: &str = "3";
+const FORMAT: &str = "4";
 
 /// Differences told one by one.
 const TOLD: usize = 5;
@@ -80,8 +80,8 @@ pub fn other_form(restart: &Restart) -> Option<String> {
     let form = value(&lines(&restart.identity), "format");
     (form != FORMAT).then(|| {
         format!(
-            "its state has form {form}, and this version of urto needs form {FORMAT}: without what contact has made and what \
-             the run was warned of, the balance of the rest would mean nothing"
+            "its state has form {form}, and this version of urto needs form {FORMAT}: without what contact has made, how it \
+             settles and what the run was warned of, the balance of the rest would mean nothing"
         )
     })
 }

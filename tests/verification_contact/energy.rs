@@ -335,9 +335,16 @@ fn contact_of_triangles_gives_no_energy() {
 
 #[test]
 #[ignore = "minutes in the release build: make verify"]
+fn contact_of_triangles_gives_no_energy_in_hundreds_of_scenes() {
+    // Found: 3, folds whose nodes are pinched between leaves.
+    try_all(60..300, triangle_scene, Allowed { crushed: 3, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
+}
+
+#[test]
+#[ignore = "minutes in the release build: make verify"]
 fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
-    // Found: 8, folds whose nodes are pinched between leaves; 7 more whose edges dip into bulges, see docs/verification.md.
-    try_all(120..1200, shell_scene, Allowed { crushed: 8, dipping: 7, deep: usize::MAX, sunk: 0, cut: 0 });
+    // Found: 6, folds whose nodes are pinched between leaves; 9 more whose edges dip into bulges, see docs/verification.md.
+    try_all(120..1200, shell_scene, Allowed { crushed: 6, dipping: 9, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
 #[test]

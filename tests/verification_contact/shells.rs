@@ -379,6 +379,9 @@ fn what_breaks_through_sheets_has_the_same_bits() {
     }
 }
 
+/// Displacement of the top of a stack of sheets, with 200 passes in every step; a length.
+const SETTLED_STACK: f64 = -2.5406e-6;
+
 /// Force with which a flat strip resists being pressed along itself, over that of its section, E h b ε. `more` are lines of its recipe and of
 /// its deck.
 fn resistance(cells: &str, thickness: f64, [recipe_lines, deck_lines]: [&str; 2]) -> f64 {
@@ -424,4 +427,29 @@ fn a_thick_sheet_does_not_touch_itself_where_it_is_flat() {
         // The bar of E A ε; waves of the ramp are not all gone.
         close("strip", "resistance", without, 1.0, 0.05);
     }
+}
+
+/// Three sheets between two blocks of which the upper one is pressed: with 20 passes a step forces do not settle, the sheets drift apart ever
+/// faster, and the stack gives way by half again as much. Passes that may go on let it rest; the same with 200 in each step.
+#[test]
+fn a_stack_of_sheets_between_plates_rests() {
+    let mesh = recipe(
+        "TITLE\n stack\nBOX, 1, 0., 0., -0.01, 0.04, 0.04, 0.01, 5, 5, 2\nSHEET, 3, 0.002, 0.003, 0.0005, 0.036, 0.034, 0., 7, 8\n\
+         SHEET, 4, 0.002, 0.003, 0.0015, 0.036, 0.034, 0., 11, 12\nSHEET, 5, 0.002, 0.003, 0.0025, 0.036, 0.034, 0., 4, 5\n\
+         BOX, 2, 0.001, 0.001, 0.003, 0.038, 0.038, 0.01, 4, 6, 2\nNODE SET FACE, 9, 1, BOTTOM\nNODE SET FACE, 10, 2, TOP\n\
+         SIDE SET FACE, 20, 2, TOP\n",
+    );
+    let law = |block: i64| format!("MATERIAL, {block}, ELASTIC, 2700.\nYOUNGS MODULUS = 7.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    let end = 4e-3;
+    let deck = format!(
+        "TITLE\n stack\nTERMINATION TIME, {end}\nPLOT TIME, {end}\nPLOT NODAL, DISPLACEMENT\nCONTACT MATERIAL\nSHELL THICKNESS, 3, 0.001\n\
+         SHELL THICKNESS, 4, 0.001\nSHELL THICKNESS, 5, 0.001\nNO DISPLACEMENT, X, 9\nNO DISPLACEMENT, Y, 9\nNO DISPLACEMENT, Z, 9\n\
+         FUNCTION, 1\n0., 0.\n0.001, 1.\n{end}, 1.\nEND\nPRESSURE, 20, 1, 1.E6\n{}",
+        (1..=5).map(law).collect::<String>()
+    );
+    let run = run_on(1, &deck, &mesh);
+    let top = &mesh.node_set(10).expect("the top of the stack").nodes;
+    let sinks = top.iter().map(|&node| run.end().nodal("DISPLZ")[node as usize]).sum::<f64>() / top.len() as f64;
+    // CONTACT PASSES, 200 gives SETTLED; 20 and no more -3.92e-6 m. At most 200 where they do not settle move it by 0.3 % (measured).
+    close("stack", "displacement of its top over that of settled forces", sinks, SETTLED_STACK, 0.02);
 }

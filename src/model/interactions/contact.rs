@@ -215,6 +215,7 @@ fn beside_contact(card: &Card, draft: &mut Draft) {
 fn contact_passes(card: &Card, draft: &mut Draft) {
     let control = &mut draft.model.contact.control;
     (control.passes, control.tolerance) = (card.integer("passes") as u32, card.number("tolerance"));
+    control.unsettled_passes = control.passes.max(card.integer("unsettled") as u32);
 }
 
 fn contact_search(card: &Card, draft: &mut Draft) {

@@ -116,6 +116,8 @@ pub enum ContactEdges {
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
     pub passes: u32,
+    /// The same where contacts still move; not less.
+    pub unsettled_passes: u32,
     /// Overlap that ends the passes, as a part of the face's size; what they may still move follows it.
     pub tolerance: f64,
     /// How near faces are found.
@@ -138,6 +140,7 @@ impl Default for ContactControl {
     fn default() -> ContactControl {
         ContactControl {
             passes: 20,
+            unsettled_passes: 200,
             tolerance: 1e-5,
             search: ContactSearch::Grid,
             reach: 150.0,

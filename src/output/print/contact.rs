@@ -64,7 +64,16 @@ fn control(model: &Model) -> Vec<String> {
     let sets = model.contact.node_sets.iter();
     let sets = sets.map(|(set, radius)| format!("NODES OF SET {set} TOUCH, RADIUS {}", number(*radius)));
     let mut lines = vec![
-        format!("AT MOST {} PASSES, TO AN OVERLAP OF {} FACE SIZES", control.passes, number(control.tolerance)),
+        format!(
+            "AT MOST {} PASSES{}, TO AN OVERLAP OF {} FACE SIZES",
+            control.passes,
+            if control.unsettled_passes > control.passes {
+                format!(" ({} WHERE THEY DO NOT SETTLE)", control.unsettled_passes)
+            } else {
+                String::new()
+            },
+            number(control.tolerance)
+        ),
         format!("SEARCH BY {search}, TO LAST {} STEPS OR {} FACE SIZES", number(control.reach), number(control.margin)),
         format!("EDGES TOUCH EDGES: {}", edges(control.edges)),
     ];

@@ -316,10 +316,12 @@ impl Contact {
 
     fn enforce(&mut self, step: &StepTimes, comm: &mut dyn Communicator) -> Outcome {
         let coupled = comm.size() > 1 && self.problem.motion.mobility.is_coupled();
-        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, seen, .. } = self;
+        let Contact { problem, remote, pairings, planes, mean_size, limits, press_fit, bank, age, seen, tally, .. } =
+            self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);
-        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits: *limits, remaining, lines };
+        let limits = limits.after(tally.unsettled);
+        let setting = StepInput { pairings, planes, mean_size: *mean_size, limits, remaining, lines };
         problem.find_constraints(&setting, step, &mut seen.met);
         match remote {
             Some(remote) => problem.find_forces(&setting, step, bank, &mut remote.others(comm)),
@@ -348,7 +350,8 @@ impl Contact {
         }
     }
 
-    fn count(&mut self, Outcome { iterations, ran_out, residual, deepest, depth, travel, held, .. }: Outcome) {
+    fn count(&mut self, outcome: Outcome) {
+        let Outcome { iterations, ran_out, residual, deepest, depth, travel, held, .. } = outcome;
         self.tally.held = self.tally.held.max(held);
         self.tally.deepest = self.tally.deepest.max(deepest);
         self.tally.farthest = self.tally.farthest.max(travel);
@@ -357,6 +360,9 @@ impl Contact {
         }
         self.tally.steps += u64::from(iterations > 0);
         self.tally.iterations += u64::from(iterations);
+        if iterations > 0 {
+            self.tally.unsettled = if self.limits.are_kept_by(&outcome) { 0 } else { self.tally.unsettled + 1 };
+        }
         self.tally.capped += u64::from(ran_out && self.limits.tolerance.is_finite());
         self.tally.left = self.tally.left.max(residual);
     }

@@ -46,7 +46,7 @@ impl Contact {
             contact_nodes: _,
             plane_nodes: _,
             lost_work: _,
-            tally: Tally { steps, iterations, capped, left, deepest, motions, farthest, held: penetration },
+            tally: Tally { steps, iterations, capped, unsettled, left, deepest, motions, farthest, held: penetration },
             bank: Bank { balance, asked, work, gain: excess, growth },
             gain,
             resultants,
@@ -81,6 +81,7 @@ impl Contact {
             archive.count("CONTSTEPS", steps);
             archive.count("CONTPASSES", iterations);
             archive.count("CONTCAPPED", capped);
+            archive.count("CONTUNSETTLED", unsettled);
             archive.number("CONTLEFT", left);
             archive.number("CONTDEEPEST", deepest);
             archive.number("CONTMOTIONS", motions);

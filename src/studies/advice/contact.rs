@@ -131,9 +131,10 @@ fn looser(scene: &Scene, seen: &Seen, list: &mut Vec<Advice>) {
         scientific(moved, 1)
     );
     let instead = format!(
-        "CONTACT PASSES, {}, {} leaves them out, but no digit is promised: urto trade measures which change",
+        "CONTACT PASSES, {}, {}, {} leaves them out, but no digit is promised: urto trade measures which change",
         control.passes,
-        scientific(tolerance, 1)
+        scientific(tolerance, 1),
+        control.unsettled_passes
     );
     list.push(Advice::spare(words, instead, Promise::Nothing, None));
 }

@@ -14,14 +14,23 @@ const SETTLED: f64 = 200.0;
 /// Iterations whose last one still moves this part of that motion have run out, whatever they leave: contacts creep.
 const UNSETTLED: f64 = 0.1;
 
+/// Iterations that may go on do so while they still move this part of it. Sheets that lie on each other between plates drift apart ever
+/// faster at a tenth, and not at a twentieth.
+const NEARLY_SETTLED: f64 = 0.02;
+
+/// After so many steps in a row in which they have not settled iterations may go on.
+const MANY_IN_A_ROW: u64 = 32;
+
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
 /// How far the iterations go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Largest number of iterations.
+    /// Largest number of iterations that settle.
     pub iterations: u32,
+    /// Largest number of those that still leave an overlap or move contacts by a part of the step's motion, see [`Limits::after`]; not less.
+    pub unsettled: u32,
     /// Overlap that is left alone, as a part of the face's size; what iterations may still move follows it.
     pub tolerance: f64,
 }
@@ -32,6 +41,24 @@ impl Limits {
     fn are_met(&self, looser: f64, [residual, moved, travel]: [f64; 3]) -> bool {
         let tolerance = looser * self.tolerance;
         residual <= tolerance && moved <= (SETTLED * tolerance).min(UNSETTLED) * travel
+    }
+
+    /// Whether so many iterations are enough, though the last of them has moved constraints so far, see [`Limits::are_met`].
+    fn are_reached(&self, iterations: u32, [residual, moved, travel]: [f64; 3]) -> bool {
+        let has_nearly_settled = residual <= self.tolerance && moved <= NEARLY_SETTLED * travel;
+        iterations >= self.unsettled.max(self.iterations) || (iterations >= self.iterations && has_nearly_settled)
+    }
+
+    /// The limits of a step after so many in a row in which iterations have not settled within the usual number. What only now and then
+    /// does not settle is left at that: in folds that close more iterations push tangled corners farther.
+    pub fn after(self, unsettled_steps: u64) -> Limits {
+        let goes_on = unsettled_steps >= MANY_IN_A_ROW;
+        Limits { unsettled: if goes_on { self.unsettled } else { self.iterations }, ..self }
+    }
+
+    /// Whether a step has settled within the usual number of iterations.
+    pub fn are_kept_by(&self, outcome: &Outcome) -> bool {
+        !outcome.ran_out && outcome.iterations <= self.iterations
     }
 }
 
@@ -115,7 +142,7 @@ impl Enforcer {
             let (iterations, ran_out) =
                 (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
             outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser, ..outcome };
-            if by_looser(1.0) || iterations == limits.iterations {
+            if by_looser(1.0) || limits.are_reached(iterations, [residual, moved, travel]) {
                 return Some(outcome);
             }
         }

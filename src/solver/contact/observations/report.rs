@@ -37,6 +37,8 @@ pub struct Tally {
     /// Steps in which the iterations ran out, see
     /// [`Outcome::ran_out`](crate::solver::contact::enforcement::iterations::Outcome::ran_out).
     pub capped: u64,
+    /// Steps in a row, up to now, in which they did not settle within the usual number.
+    pub unsettled: u64,
     /// Largest overlap that was left, as a part of the face's size.
     pub left: f64,
     /// Deepest penetration that motion has made, as a part of the face's size.

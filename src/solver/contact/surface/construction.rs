@@ -210,12 +210,17 @@ fn reach(model: &Model, layout: &Layout) -> Reach {
 fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limits {
     let control = &model.contact.control;
     if model.contact.is_some() || !model.rigid_bodies.is_empty() || are_joined {
-        return Limits { iterations: control.passes, tolerance: control.tolerance };
+        return Limits {
+            iterations: control.passes,
+            unsettled: control.unsettled_passes,
+            tolerance: control.tolerance,
+        };
     }
     let mut nodes = plane_node_sets.concat();
     nodes.sort_unstable();
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
-    Limits { iterations: if alone { 1 } else { control.passes }, tolerance: f64::NEG_INFINITY }
+    let iterations = if alone { 1 } else { control.passes };
+    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY }
 }
 
 fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {

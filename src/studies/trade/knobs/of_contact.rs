@@ -11,17 +11,26 @@ pub fn variants(model: &Model, mesh: &Mesh) -> Vec<Variant> {
         return Vec::new();
     }
     let control = &model.contact.control;
-    let passes = |passes: u32, tolerance: f64| format!("CONTACT PASSES, {passes}, {}", scientific(tolerance, 2));
+    let command = |passes: u32, tolerance: f64, unsettled: u32| {
+        format!("CONTACT PASSES, {passes}, {}, {unsettled}", scientific(tolerance, 2))
+    };
     let without = &["CONTACT PASSES"];
     let now = control.passes;
+    let tight = (5 * now).min(1000);
     let mut all = vec![
-        Variant::of(Knob::Contact, "one-pass", without, passes(1, control.tolerance), 1.0),
-        Variant::of(Knob::Contact, "loose-contact", without, passes(now, 100.0 * control.tolerance.max(1e-12)), 1.0),
+        Variant::of(Knob::Contact, "one-pass", without, command(1, control.tolerance, 1), 1.0),
+        Variant::of(
+            Knob::Contact,
+            "loose-contact",
+            without,
+            command(now, 100.0 * control.tolerance.max(1e-12), control.unsettled_passes),
+            1.0,
+        ),
         Variant::of(
             Knob::Contact,
             "tight-contact",
             without,
-            passes((5 * now).min(1000), 0.01 * control.tolerance),
+            command(tight, 0.01 * control.tolerance, tight.max(control.unsettled_passes)),
             1.5,
         ),
     ];

@@ -291,8 +291,9 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         let rate = rates.strain[0] + rates.strain[1];
         let elastic = self.elastic_part(rate, found.added);
         let bound = V::load(&state[rows::STEP], part);
-        let damping = damping(self.viscosity, bound, elastic);
-        let viscous = damping * V::splat(self.plane_modulus()) * bound * elastic;
+        let linear = V::splat(self.viscosity.linear);
+        let quadratic = damping(self.viscosity, bound, rate) - linear;
+        let viscous = (linear * elastic + quadratic * rate) * V::splat(self.plane_modulus()) * bound;
         let last = V::load(&state[S::ROWS.viscous_stress], part);
         viscous.store(&mut state[S::ROWS.viscous_stress], part);
         let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;

@@ -37,8 +37,8 @@ pub const SYMPTOM: Symptom = Symptom {
             None => "now nothing overlaps".to_string(),
         };
         format!(
-            "the passes of contact have run out in {count} of {of} steps with contact, {}; overlaps are up to \
-             {amount:.1e} of a face; {now}",
+            "the passes of contact have run out in {count} of {of} steps with contact, {}: its forces have not \
+             settled there; overlaps are up to {amount:.1e} of a face; {now}",
             percent(share)
         )
     },
