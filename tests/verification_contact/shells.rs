@@ -439,7 +439,8 @@ fn a_stack_of_sheets_between_plates_rests() {
          BOX, 2, 0.001, 0.001, 0.003, 0.038, 0.038, 0.01, 4, 6, 2\nNODE SET FACE, 9, 1, BOTTOM\nNODE SET FACE, 10, 2, TOP\n\
          SIDE SET FACE, 20, 2, TOP\n",
     );
-    let law = |block: i64| format!("MATERIAL, {block}, ELASTIC, 2700.\nYOUNGS MODULUS = 7.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    let law =
+        |block: i64| format!("MATERIAL, {block}, ELASTIC, 2700.\nYOUNGS MODULUS = 7.E9\nPOISSONS RATIO = 0.3\nEND\n");
     let end = 4e-3;
     let deck = format!(
         "TITLE\n stack\nTERMINATION TIME, {end}\nPLOT TIME, {end}\nPLOT NODAL, DISPLACEMENT\nCONTACT MATERIAL\nSHELL THICKNESS, 3, 0.001\n\
