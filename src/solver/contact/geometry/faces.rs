@@ -289,7 +289,7 @@ impl Faces {
     }
 
     /// Whether a face is so near to a point along the surface, and the surface so thick, that they would always touch: across a
-    /// node where the surface is thicker than most of an element, or farther away, see [`GrownTogether`].
+    /// node where the surface is thicker than most of an element, or farther away and within its reach at the start.
     pub fn grown_together(&self, point: u32, face: u32) -> bool {
         let distance = self.distance(point, face);
         let is_next = || self.around(point).iter().any(|&own| self.adjacent(own, face));
