@@ -116,7 +116,7 @@ pub enum ContactEdges {
 pub struct ContactControl {
     /// Largest number of enforcement passes in a step.
     pub passes: u32,
-    /// The same where contacts still move; not less.
+    /// The same once passes have not settled in many steps in a row; not less.
     pub unsettled_passes: u32,
     /// Overlap that ends the passes, as a part of the face's size; what they may still move follows it.
     pub tolerance: f64,

@@ -15,7 +15,7 @@ const SETTLED: f64 = 200.0;
 const UNSETTLED: f64 = 0.1;
 
 /// Iterations that may go on do so while they still move this part of it. Sheets that lie on each other between plates drift apart ever
-/// faster at a tenth, and not at a twentieth.
+/// faster at a tenth, and not at this.
 const NEARLY_SETTLED: f64 = 0.02;
 
 /// After so many steps in a row in which they have not settled iterations may go on.
@@ -46,7 +46,7 @@ impl Limits {
     /// Whether so many iterations are enough, though the last of them has moved constraints so far, see [`Limits::are_met`].
     fn are_reached(&self, iterations: u32, [residual, moved, travel]: [f64; 3]) -> bool {
         let has_nearly_settled = residual <= self.tolerance && moved <= NEARLY_SETTLED * travel;
-        iterations >= self.unsettled.max(self.iterations) || (iterations >= self.iterations && has_nearly_settled)
+        iterations >= self.unsettled || (iterations >= self.iterations && has_nearly_settled)
     }
 
     /// The limits of a step after so many in a row in which iterations have not settled within the usual number. What only now and then

@@ -253,7 +253,7 @@ impl EdgeCheck<'_> {
                 // What has opened does not close again for nothing.
                 EdgeContact { sense, tolerated: past.tolerated.max((sense * end.gap - distance).min(0.0)), ..*past }
             }
-            None if of_surface => self.comes_near(pair, half, &end)?,
+            None if of_surface => self.comes_near(pair, half, &end, distance)?,
             None => self.newcomer(pair, &end)?,
         };
         let gap = now.sense * end.gap - distance - now.tolerated;
@@ -370,8 +370,8 @@ impl EdgeCheck<'_> {
             let normal = area_normal(&corners);
             (corners, normal, dot(normal, normal))
         };
-        let (sliding, looks_both_ways) =
-            (&self.edges[pair[0] as usize], self.edges[pair[0] as usize].is_of_surface(self.faces));
+        let sliding = &self.edges[pair[0] as usize];
+        let looks_both_ways = sliding.is_of_surface(self.faces);
         let own = sliding.faces.map(of);
         self.edges[pair[1] as usize].ends.iter().any(|&point| {
             let end = self.motion.end(point);
@@ -425,8 +425,7 @@ impl EdgeCheck<'_> {
 
     /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
     /// stays. Where the mesh or a path from beside has brought them nearer, they stay as near.
-    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing) -> Option<EdgeContact> {
-        let distance = self.distance(pair);
+    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing, distance: f64) -> Option<EdgeContact> {
         // What has too little room is as thin to what comes from beside, see `Faces::rim`.
         let rim = distance * self.faces.least_room(pair.iter().flat_map(|&edge| self.edges[edge as usize].ends));
         let separation = between(self.starts(pair, half));

@@ -277,8 +277,8 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         now
     }
 
-    /// Bulk viscosity of the membrane as a mean stress, with its energy booked. It follows what this step changes of the area
-    /// elastically.
+    /// Bulk viscosity of the membrane as a mean stress, with its energy booked. Its linear term follows what this step changes of the
+    /// area elastically.
     #[inline(always)]
     fn viscous<V: Lanes>(
         &self,
