@@ -2,7 +2,7 @@
 
 /// An array of so many equal numbers. Where it is large, the system is asked to back it with large pages (2 MB instead of 4 kB on
 /// x86-64), before it is touched: a step walks over several pages of state for every microsecond, and with small ones a fifteenth of
-/// its time can go into finding them (`docs/performance.md`).
+/// its time can go into finding them (`docs/performance_history.md`).
 pub fn repeated<T: Clone>(value: T, count: usize) -> Vec<T> {
     let mut numbers = reserved(count);
     numbers.resize(count, value);
@@ -18,7 +18,7 @@ pub fn reserved<T>(count: usize) -> Vec<T> {
 
 /// Lets the system have large arrays back as soon as they are gone. The C library else keeps what has been freed beside what has not,
 /// the more of it the larger the arrays that it has seen freed, and most of what a run is set up with is gone when it begins: on two
-/// ranks a crushed can took 1.3 times the memory (`docs/performance.md`). To be called before there are threads.
+/// ranks a crushed can took 1.3 times the memory (`docs/performance_history.md`). To be called before there are threads.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub fn give_back() {
     // SAFETY: a number of the C library's allocator is set, which says from what size on it asks the system for each piece of memory

@@ -196,7 +196,7 @@ trait Loops<const N: usize>: StepKernel<N> + Sized {
     }
 
     /// With eight numbers of 64 bits at once: without the attribute the compiler makes calls of vector instructions,
-    /// and the pass takes several times as long (docs/performance.md, "The whole step").
+    /// and the pass takes several times as long (docs/performance_history.md, "Kernels").
     ///
     /// # Safety
     /// The processor must have the instructions of the attribute.
