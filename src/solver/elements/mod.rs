@@ -4,6 +4,8 @@
 
 mod block;
 mod bulk_viscosity;
+#[cfg(test)]
+mod by_hand;
 pub mod fields;
 mod formulation;
 mod pass;

@@ -2,7 +2,7 @@
 
 use super::finding::{SPOTS, Spot};
 use super::watch::Exam;
-use crate::comm::Communicator;
+use crate::comm::{Communicator, ExactSum};
 use crate::solver::body::centroid;
 use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::{Domain, ElementPlace, Solver};
@@ -70,6 +70,33 @@ fn find(domain: &Domain, canonical: f64) -> Option<ElementPlace> {
 pub fn elements(domain: &Domain) -> impl Iterator<Item = (&ElementBlock, &Group, usize)> + Clone {
     let groups = domain.blocks.iter().flat_map(|block| block.groups().map(|group| (block, group)));
     groups.flat_map(|(block, group)| (0..group.len()).filter(|&i| group.is_alive(i)).map(move |i| (block, group, i)))
+}
+
+/// Two energies of each block of the mesh, of its living elements on all ranks; `energies` tells those of an element.
+pub fn energies_of_blocks(
+    exam: &Exam,
+    energies: impl Fn(&ElementBlock, &Group, usize) -> [f64; 2],
+    comm: &mut dyn Communicator,
+) -> Vec<[f64; 2]> {
+    let mut sums: Vec<ExactSum> = vec![ExactSum::new(); 2 * exam.facts.blocks.len()];
+    for (block, group, i) in elements(&exam.solver.domain) {
+        for (which, energy) in energies(block, group, i).into_iter().enumerate() {
+            sums[2 * block.index + which].add(energy);
+        }
+    }
+    ExactSum::merge_ranks(&mut sums, comm);
+    sums.chunks_exact(2).map(|pair| [pair[0].value(), pair[1].value()]).collect()
+}
+
+/// The place of the element of a block in which an energy is greatest.
+pub fn worst_of_block(
+    exam: &Exam,
+    block: i64,
+    energy: impl Fn(&ElementBlock, &Group, usize) -> f64,
+    comm: &mut dyn Communicator,
+) -> Option<Spot> {
+    let own = elements(&exam.solver.domain).filter(|(of, ..)| of.id == block);
+    worst_element(exam, own.map(|(of, group, i)| (group.places[i], energy(of, group, i))), comm)
 }
 
 /// The place of the element for which a number is greatest; of several the first in canonical order. `None` where there

@@ -41,6 +41,65 @@ pub struct StartPowers<V> {
     pub modes: V,
 }
 
+/// What is known of a step's work before the law has found its stress. `F` is how an element tells its flow.
+pub struct Start<V, F> {
+    /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is
+    /// taken to be as at its start.
+    pub energy: V,
+    /// Volume that the element sweeps in the step at its speed at the end.
+    pub swept: V,
+    /// Rates at the end of the step times the volume.
+    pub flow: F,
+    /// Rate of the volume at the end of the step.
+    pub growth: V,
+    works: Works<V>,
+    rows: &'static AccountRows,
+}
+
+impl<V: Lanes, F> Start<V, F> {
+    /// From the powers of the forces at the step's start, and flow and growth at its end.
+    #[inline(always)]
+    pub fn new<K: Kernel>(
+        rows: &'static AccountRows,
+        powers: &StartPowers<V>,
+        (flow, growth): (F, V),
+        state: &[V::Row],
+        part: usize,
+        steps: Steps,
+    ) -> Self {
+        let works = rows.begin::<V, K>(powers, state, part, steps);
+        let energy = rows.energy::<V, K>(&works, [powers.viscous[0], growth], state, part, steps);
+        Start { energy, swept: V::splat(steps.time_step) * growth, flow, growth, works, rows }
+    }
+
+    /// Energy and swept volume as laws see them, over the volume at the start of all; none of an element without accounts.
+    #[inline(always)]
+    pub fn per_volume(start: &Option<Self>, inverse_volume: V) -> [V; 2] {
+        match start {
+            Some(start) => [start.energy * inverse_volume, start.swept * inverse_volume],
+            None => [V::splat(0.0), V::splat(0.0)],
+        }
+    }
+
+    /// Work that the forces of the step's start have done in it, and what was owed of the step before.
+    #[inline(always)]
+    pub fn work(&self) -> V {
+        (self.works[0] + self.works[1]) + self.works[2]
+    }
+
+    /// Energy that hourglass resistance and held corners of fluids have taken so far.
+    #[inline(always)]
+    pub fn taken(&self, state: &[V::Row], part: usize) -> V {
+        self.rows.taken(&self.works, state, part)
+    }
+
+    /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
+    #[inline(always)]
+    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, steps: Steps) {
+        self.rows.finish::<V, K>(&self.works, powers, state, part, steps);
+    }
+}
+
 impl AccountRows {
     /// Rows of the forces on corners, of fluids.
     pub fn of_corners<K: Kernel>(&self) -> std::ops::Range<usize> {
@@ -59,13 +118,13 @@ impl AccountRows {
 
     /// Energy that hourglass resistance and held corners of fluids have taken so far, with what the forces of the step's start did.
     #[inline(always)]
-    pub fn taken<V: Lanes>(&self, works: &Works<V>, state: &[V::Row], part: usize) -> V {
+    fn taken<V: Lanes>(&self, works: &Works<V>, state: &[V::Row], part: usize) -> V {
         V::load(&state[self.accounts[2]], part) + works[2]
     }
 
     /// Works of the forces of the step's start.
     #[inline(always)]
-    pub fn begin<V: Lanes, K: Kernel>(
+    fn begin<V: Lanes, K: Kernel>(
         &self,
         powers: &StartPowers<V>,
         state: &[V::Row],
@@ -82,7 +141,7 @@ impl AccountRows {
     /// Energy of the element but for the work of the stress at the end of the step, where its volume grows at the rate `growth`;
     /// that of viscosities there is taken to be as at its start.
     #[inline(always)]
-    pub fn energy<V: Lanes, K: Kernel>(
+    fn energy<V: Lanes, K: Kernel>(
         &self,
         works: &Works<V>,
         [viscous, growth]: [V; 2],
@@ -102,7 +161,7 @@ impl AccountRows {
     /// Books the step, given the works of its start and the powers at its end. Those of the hourglass resistance of solids are
     /// booked elsewhere.
     #[inline(always)]
-    pub fn finish<V: Lanes, K: Kernel>(
+    fn finish<V: Lanes, K: Kernel>(
         &self,
         works: &Works<V>,
         powers: Works<V>,

@@ -1,10 +1,10 @@
 //! Hourglass damping of a fluid that takes a good part of what was supplied: slow flow that it has stopped and made heat of.
 
 use super::{Symptom, When};
-use crate::comm::ExactSum;
 use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::health::finding::{Evidence, percent};
-use crate::solver::health::place::{elements, worst_element};
+use crate::solver::health::place::{energies_of_blocks, worst_of_block};
+use crate::solver::health::watch::BlockFacts;
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 18,
@@ -13,28 +13,18 @@ pub const SYMPTOM: Symptom = Symptom {
     // It takes motion and makes none.
     cause: f64::INFINITY,
     measure: |exam, comm| {
-        let blocks = &exam.facts.blocks;
-        let mut sums: Vec<ExactSum> = vec![ExactSum::new(); 2 * blocks.len()];
-        for (block, group, i) in elements(&exam.solver.domain).filter(|(block, ..)| block.law.is_fluid()) {
-            let [hourglass, viscous] = taken(block, group, i);
-            sums[2 * block.index].add(hourglass);
-            sums[2 * block.index + 1].add(viscous);
-        }
-        ExactSum::merge_ranks(&mut sums, comm);
-        let evidence = |(block, sums): (&super::super::watch::BlockFacts, &[ExactSum])| {
-            let [hourglass, viscous] = [sums[0].value(), sums[1].value()];
+        let evidence = |(block, [hourglass, viscous]): (&BlockFacts, [f64; 2])| {
             // What heats a shock is bulk viscosity, and the modes that shocks excite have less. Where there are none, as in slow flow,
             // the modes are the flow itself, sheared and turned.
             let share = (hourglass - viscous) / exam.supplied;
             let counts = !exam.begins && share > 0.0;
             counts.then_some(Evidence { share, amount: hourglass, of: viscous, block: block.id, ..Evidence::default() })
         };
-        blocks.iter().zip(sums.chunks_exact(2)).filter_map(evidence).collect()
+        exam.facts.blocks.iter().zip(energies_of_blocks(exam, taken, comm)).filter_map(evidence).collect()
     },
     place: |exam, evidence, comm| {
-        let own = elements(&exam.solver.domain).filter(|(block, ..)| block.id == evidence.block);
-        let energies = own.map(|(block, group, i)| (group.places[i], taken(block, group, i)[0]));
-        evidence.spots[0] = worst_element(exam, energies, comm);
+        let hourglass = |block: &ElementBlock, group: &Group, i| taken(block, group, i)[0];
+        evidence.spots[0] = worst_of_block(exam, evidence.block, hourglass, comm);
     },
     label: |evidence| format!("hourglass damping of block {}, a fluid", evidence.block),
     words: |evidence| {
@@ -50,8 +40,11 @@ pub const SYMPTOM: Symptom = Symptom {
              as much as the default, and a finer mesh less; see explain HOURGLASS CONTROL",
 };
 
-/// What hourglass damping and bulk viscosity have taken in an element.
+/// What hourglass damping and bulk viscosity have taken in an element of a fluid; nothing in another.
 fn taken(block: &ElementBlock, group: &Group, i: usize) -> [f64; 2] {
+    if !block.law.is_fluid() {
+        return [0.0; 2];
+    }
     let energies = &block.element.entry().energies;
     [energies.hourglass, energies.viscous].map(|row| row.map_or(0.0, |row| group.value(i, row)))
 }

@@ -1,11 +1,11 @@
 //! Hourglass energy that is no small part of a block's internal energy: the mesh is too coarse for what it does.
 
 use super::{Symptom, When};
-use crate::comm::{Communicator, ExactSum};
+use crate::comm::Communicator;
 use crate::solver::elements::{ElementBlock, Group};
 use crate::solver::health::finding::{Evidence, percent};
-use crate::solver::health::place::{elements, worst_element};
-use crate::solver::health::watch::Exam;
+use crate::solver::health::place::{energies_of_blocks, worst_of_block};
+use crate::solver::health::watch::{BlockFacts, Exam};
 
 /// Less than this part of the energy supplied, times the block's part of the mass, does no harm: so begins every impact.
 const WORTH_WORDS: f64 = 1e-3;
@@ -18,9 +18,7 @@ pub const SYMPTOM: Symptom = Symptom {
     cause: 1.0,
     measure,
     place: |exam, evidence, comm| {
-        let own = elements(&exam.solver.domain).filter(|(block, ..)| block.id == evidence.block);
-        let energies = own.map(|(block, group, i)| (group.places[i], hourglass_energy(block, group, i)));
-        evidence.spots[0] = worst_element(exam, energies, comm);
+        evidence.spots[0] = worst_of_block(exam, evidence.block, hourglass_energy, comm);
     },
     label: |evidence| format!("hourglass energy of block {}", evidence.block),
     words: |evidence| {
@@ -46,20 +44,17 @@ fn hourglass_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
 
 fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let blocks = &exam.facts.blocks;
-    let mut sums: Vec<ExactSum> = vec![ExactSum::new(); 2 * blocks.len()];
-    for (block, group, i) in elements(&exam.solver.domain) {
-        sums[2 * block.index].add(group.value(i, block.element.entry().energies.internal));
-        sums[2 * block.index + 1].add(hourglass_energy(block, group, i));
-    }
-    ExactSum::merge_ranks(&mut sums, comm);
+    let energies = |block: &ElementBlock, group: &Group, i| {
+        [group.value(i, block.element.entry().energies.internal), hourglass_energy(block, group, i)]
+    };
+    let sums = energies_of_blocks(exam, energies, comm);
     let mass: f64 = blocks.iter().map(|block| block.mass).sum();
-    let evidence = |(block, sums): (&super::super::watch::BlockFacts, &[ExactSum])| {
-        let [internal, hourglass] = [sums[0].value(), sums[1].value()];
+    let evidence = |(block, [internal, hourglass]): (&BlockFacts, [f64; 2])| {
         // A gas that has expanded has lost internal energy; what it has done counts.
         let share = hourglass / internal.abs();
         // The first waves of loads that rise are all edges; what they leave is small against what follows.
         let counts = !exam.begins && hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
         counts.then_some(Evidence { share, amount: hourglass, of: internal, block: block.id, ..Evidence::default() })
     };
-    blocks.iter().zip(sums.chunks_exact(2)).filter_map(evidence).collect()
+    blocks.iter().zip(sums).filter_map(evidence).collect()
 }

@@ -4,14 +4,14 @@
 use super::fluid;
 use super::geometry::{Corners, Gradient, Modes, dot, earlier, gradient, modes};
 use super::hourglass::Resistance;
-use super::kernel::{Settings, hourglass_rates};
+use super::kernel::hourglass_rates;
 use super::kinematics::rotation_matrix;
 use super::rows;
 use super::single_precision::carried;
 use crate::lanes::{CHUNK, Lanes, Matrix3, Row, Sym3, array};
 use crate::material::{Kernel, KernelVisitor};
 use crate::solver::elements::Group;
-use crate::solver::elements::solids::exact::{AccountRows, StartPowers, Steps, Works};
+use crate::solver::elements::solids::exact::{self, AccountRows, StartPowers, Steps};
 use crate::solver::nodes::Nodes;
 
 /// Where the accounts are.
@@ -31,19 +31,8 @@ pub fn rate_row<K: Kernel>() -> usize {
     ROWS.of_rate::<K>()
 }
 
-/// What is known of a step's work before the law has found its stress.
-pub struct Start<V> {
-    /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is
-    /// taken to be as at its start.
-    pub energy: V,
-    /// Volume that the element sweeps in the step at its speed at the end.
-    pub swept: V,
-    /// Σ v_iI B_jI at the end of the step.
-    pub flow: Matrix3<V>,
-    /// The trace of that.
-    pub growth: V,
-    works: Works<V>,
-}
+/// What is known of a step's work before the law has found its stress, with Σ v_iI B_jI for its flow.
+pub type Start<V> = exact::Start<V, Matrix3<V>>;
 
 /// Σ v_iI B_jI
 #[inline(always)]
@@ -75,63 +64,41 @@ pub fn power<V: Lanes>(resistance: &Resistance<V>, rates: &Resistance<V>) -> V {
     sum
 }
 
-impl<V: Lanes> Start<V> {
-    /// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
-    #[inline(always)]
-    pub fn of<K: Kernel>(
-        [x, v]: [&[Modes<V>; 3]; 2],
-        [positions, velocities]: [&[Corners<V>; 3]; 2],
-        state: &[V::Row],
-        part: usize,
-        steps: Steps,
-    ) -> Start<V> {
-        let time_step = V::splat(steps.time_step);
-        let before = earlier([x, v], time_step);
-        let gradient_before = gradient(&before);
-        let flow_before = flow(v, &gradient_before);
-        let flow = flow(v, &gradient(x));
-        let growth = trace(&flow);
+/// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
+#[inline(always)]
+pub fn start<V: Lanes, K: Kernel>(
+    [x, v]: [&[Modes<V>; 3]; 2],
+    [positions, velocities]: [&[Corners<V>; 3]; 2],
+    state: &[V::Row],
+    part: usize,
+    steps: Steps,
+) -> Start<V> {
+    let time_step = V::splat(steps.time_step);
+    let before = earlier([x, v], time_step);
+    let gradient_before = gradient(&before);
+    let flow_before = flow(v, &gradient_before);
+    let flow = flow(v, &gradient(x));
+    let growth = trace(&flow);
 
-        let stress = Sym3::load(&state[rows::STRESS..], part);
-        let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
-        let of_stress = if K::FLUID {
-            stress.xx * trace(&flow_before)
-        } else {
-            let frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
-            stress.rotate(&rotation_matrix(&frame)).contract(Sym3::of(&flow_before))
-        };
-        let mut of_modes = V::splat(0.0);
-        if K::FLUID {
-            let resistance: Resistance<V> =
-                array![i in 3 => array![a in 4 => V::load(&state[rows::HOURGLASS + 4 * i + a], part)]];
-            of_modes = power(&resistance, &rates(v, &before, &flow_before, gradient_before.volume192));
-            let before: [Corners<V>; 3] =
-                array![i in 3 => array![n in 8 => positions[i][n] - time_step * velocities[i][n]]];
-            of_modes = of_modes + fluid::power(&before, velocities, &state[corner_rows::<K>()], part);
-        }
-        let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
-        let works = ROWS.begin::<V, K>(&powers, state, part, steps);
-        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, steps);
-        Start { energy, swept: time_step * growth, flow, growth, works }
+    let stress = Sym3::load(&state[rows::STRESS..], part);
+    let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
+    let of_stress = if K::FLUID {
+        stress.xx * trace(&flow_before)
+    } else {
+        let frame = array![i in 4 => V::load(&state[rows::FRAME + i], part)];
+        stress.rotate(&rotation_matrix(&frame)).contract(Sym3::of(&flow_before))
+    };
+    let mut of_modes = V::splat(0.0);
+    if K::FLUID {
+        let resistance: Resistance<V> =
+            array![i in 3 => array![a in 4 => V::load(&state[rows::HOURGLASS + 4 * i + a], part)]];
+        of_modes = power(&resistance, &rates(v, &before, &flow_before, gradient_before.volume192));
+        let before: [Corners<V>; 3] =
+            array![i in 3 => array![n in 8 => positions[i][n] - time_step * velocities[i][n]]];
+        of_modes = of_modes + fluid::power(&before, velocities, &state[corner_rows::<K>()], part);
     }
-
-    /// Work that the forces of the step's start have done in it, and what was owed of the step before.
-    #[inline(always)]
-    pub fn work(&self) -> V {
-        (self.works[0] + self.works[1]) + self.works[2]
-    }
-
-    /// Energy that hourglass resistance and held corners of fluids have taken so far.
-    #[inline(always)]
-    pub fn taken(&self, state: &[V::Row], part: usize) -> V {
-        ROWS.taken(&self.works, state, part)
-    }
-
-    /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
-    #[inline(always)]
-    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {
-        ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
-    }
+    let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
+    Start::new::<K>(&ROWS, &powers, (flow, growth), state, part, steps)
 }
 
 /// Finds the work that the last forces of an element which goes have done, where it has an equation of state.
@@ -158,7 +125,7 @@ impl KernelVisitor for LastWork<'_> {
         let relative = |of: [[f64; 3]; 8]| [0, 1, 2].map(|k: usize| of.map(|own| own[k] - of[0][k]));
         let (x, v) = (relative(group.positions(i, nodes)), relative(group.velocities(i, nodes)));
         let modes = [&x, &v].map(|of| [0, 1, 2].map(|k: usize| modes(&of[k])));
-        let work = Start::of::<K>([&modes[0], &modes[1]], [&x, &v], &state, 0, steps).work();
+        let work = start::<_, K>([&modes[0], &modes[1]], [&x, &v], &state, 0, steps).work();
         // An element that dies inverted may have moved beyond all measure.
         Some(if work.is_finite() { work } else { 0.0 })
     }

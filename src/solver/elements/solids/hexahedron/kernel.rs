@@ -10,13 +10,13 @@ use super::kinematics::{self, Motion};
 use super::rows;
 use super::single_precision::carried;
 use crate::lanes::{Lanes, Matrix3, Sym3, array};
-use crate::material::{Kernel, Response, Step};
+use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
+use crate::solver::elements::solids::answer::Answer;
 use crate::solver::elements::solids::exact::Steps;
 use crate::solver::elements::solids::fluid::{gentle_step, jump};
-use crate::solver::elements::solids::step_modulus::step_modulus;
 use crate::solver::elements::state_rows::{accumulate, store};
 
 /// Numbers that hold for a whole block and step.
@@ -123,7 +123,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (o) what the forces of the step's start have done, where that is heat
     let start = if K::EQUATION {
-        Some(Start::of::<K>([&x, &v], [positions, velocities], state, part, settings.steps()))
+        Some(exact::start::<V, K>([&x, &v], [positions, velocities], state, part, settings.steps()))
     } else {
         None
     };
@@ -136,15 +136,15 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let volumes = [middle.volume(), V::splat(settings.density) / given.material];
     let seen = seen_by_law::<V, K>(&x, &start, volumes, (motion.strain, biot_strain), settings);
     let answer = answer(*law, seen, state, part, settings);
-    let mut work = answer.power_of(motion.strain) * middle.volume();
+    let mut work = answer.work_on(motion.strain) * middle.volume();
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
     let end = End::of([&x, &v], given.moving * V::splat(settings.least_share));
-    let moduli = answer.moduli::<K>(motion.strain, settings);
+    let moduli = answer.moduli::<K>(&motion.strain, [settings.dilatational, settings.mu], settings.effective_moduli);
     let slowed = bulk_viscosity::<V, K>(
         (&middle, &end),
-        [moduli[0], answer.response.answering],
+        [moduli.step, answer.response.answering],
         &given.rates,
         state,
         part,
@@ -162,10 +162,10 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
         held = corners.force;
         let taken = exact::power(&of_modes, &rates) + corners.power;
         let powers = [answer.stress.xx * start.growth, slowed.stress * start.growth, taken];
-        start.finish::<K>(powers, state, part, settings);
+        start.finish::<K>(powers, state, part, settings.steps());
         (of_modes, corners.stable_step)
     } else {
-        let returned = [moduli[1], answer.response.returned, slowed.stable_step];
+        let returned = [moduli.shear, answer.response.returned, slowed.stable_step];
         end.resist_as_solid::<K, H>(*control, (&middle.hourglass_rate, &motion), returned, state, part, settings)
     };
 
@@ -198,7 +198,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     let turned = answer.stress.rotate(&motion.frame);
     if let (false, Some(start)) = (K::FLUID, &start) {
         let powers = [turned.contract(Sym3::of(&start.flow)), viscous * start.growth, zero];
-        start.finish::<K>(powers, state, part, settings);
+        start.finish::<K>(powers, state, part, settings.steps());
     }
     let mut force = corner_forces(&turned.add_diagonal(viscous), &resistance, &x, &end.gradient.g24, end.inverse);
     if K::FLUID {
@@ -264,10 +264,7 @@ fn seen_by_law<V: Lanes, K: Kernel>(
     (strain, biot_strain): (Sym3<V>, Sym3<V>),
     settings: &Settings,
 ) -> Step<V> {
-    let (energy, swept) = match start {
-        Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
-        None => (V::splat(0.0), V::splat(0.0)),
-    };
+    let [energy, swept] = Start::per_volume(start, inverse_volume);
     Step {
         strain,
         biot_strain,
@@ -278,16 +275,6 @@ fn seen_by_law<V: Lanes, K: Kernel>(
         time: settings.time,
         time_step: settings.time_step,
     }
-}
-
-/// What a law has answered.
-struct Answer<V> {
-    /// Stress at the start of the step, in the frame.
-    old: Sym3<V>,
-    /// The same at its end.
-    stress: Sym3<V>,
-    /// Return and stiffness.
-    response: Response<V>,
 }
 
 #[inline(always)]
@@ -308,25 +295,6 @@ fn answer<V: Lanes, K: Kernel>(
         carried::keep_rest::<V, K>(&felt, [&old, &stress], state, part, settings);
     }
     Answer { old, stress, response }
-}
-
-impl<V: Lanes> Answer<V> {
-    /// Work of the mean stress on a strain increment, per volume.
-    #[inline(always)]
-    fn power_of(&self, strain: Sym3<V>) -> V {
-        self.old.zip(self.stress, |a, b| a + b).contract(strain) * V::splat(0.5)
-    }
-
-    /// Dilatational modulus of the stable step, and shear modulus.
-    #[inline(always)]
-    fn moduli<K: Kernel>(&self, strain: Sym3<V>, settings: &Settings) -> [V; 2] {
-        if K::STIFFNESS {
-            return [self.response.stiffness.dilatational, self.response.stiffness.shear];
-        }
-        let elastic = [settings.dilatational, settings.mu];
-        let modulus = step_modulus(elastic, settings.effective_moduli, [&self.old, &self.stress], &strain);
-        [modulus, V::splat(settings.mu)]
-    }
 }
 
 /// Bulk viscosity, and the steps that it leaves.

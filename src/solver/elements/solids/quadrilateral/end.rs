@@ -3,13 +3,14 @@
 use super::exact::{Start, corner_rows};
 use super::fluid;
 use super::hourglass;
-use super::kernel::{Middle, Moduli, Settings, Slowed, Turned, dot, mode};
+use super::kernel::{Middle, Settings, Slowed, Turned, dot, mode};
 use super::kinematics::Flat;
 use super::rows;
 use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, array};
 use crate::material::Kernel;
 use crate::model::Hourglass;
+use crate::solver::elements::solids::answer::Moduli;
 use crate::solver::elements::solids::fluid::acting_step;
 use crate::solver::elements::state_rows::{accumulate, store};
 

@@ -2,14 +2,14 @@
 //! [`AccountRows`].
 
 use super::fluid;
-use super::kernel::{Rates, Settings, load, rates, rotated, solid, weighted_modes};
+use super::kernel::{Rates, load, rates, rotated, solid, weighted_modes};
 use super::kinematics::Flat;
 use super::rows;
 use super::sections::{Corners, Section};
 use crate::lanes::{CHUNK, Lanes, Row, array};
 use crate::material::{Kernel, KernelVisitor};
 use crate::solver::elements::Group;
-use crate::solver::elements::solids::exact::{AccountRows, StartPowers, Steps, Works};
+use crate::solver::elements::solids::exact::{self, AccountRows, StartPowers, Steps};
 use crate::solver::nodes::Nodes;
 
 /// Where the accounts are.
@@ -29,19 +29,8 @@ pub fn rate_row<K: Kernel>() -> usize {
     ROWS.of_rate::<K>()
 }
 
-/// What is known of a step's work before the law has found its stress.
-pub struct Start<V> {
-    /// Energy of the element but for the work of the stress at the end of the step; that of viscosities at its end is
-    /// taken to be as at its start.
-    pub energy: V,
-    /// Volume that the element sweeps in the step at its speed at the end.
-    pub swept: V,
-    /// Rates at the end of the step, those of strain times the volume.
-    pub flow: Rates<V>,
-    /// Σ v_iI ∂V/∂x_iI at the end of the step.
-    pub growth: V,
-    works: Works<V>,
-}
+/// What is known of a step's work before the law has found its stress, with the rates of strain times the volume for its flow.
+pub type Start<V> = exact::Start<V, Rates<V>>;
 
 /// Power of a stress in space, xx, yy, zz and xy, given the rates of strain times the volume.
 #[inline(always)]
@@ -63,56 +52,34 @@ fn flow<V: Lanes>(section: Section, v: &[Corners<V>; 2], x: &[Corners<V>; 2]) ->
     flow
 }
 
-impl<V: Lanes> Start<V> {
-    /// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
-    #[inline(always)]
-    pub fn of<K: Kernel>(
-        section: Section,
-        [x, v]: [&[Corners<V>; 2]; 2],
-        state: &[V::Row],
-        part: usize,
-        steps: Steps,
-    ) -> Start<V> {
-        let time_step = V::splat(steps.time_step);
-        let before: [Corners<V>; 2] =
-            [array![i in 4 => x[0][i] - time_step * v[0][i]], array![i in 4 => x[1][i] - time_step * v[1][i]]];
-        let flow_before = flow(section, v, &before);
-        let flow = flow(section, v, x);
-        let growth = trace(&flow);
+/// From the positions at the end of a step and the velocities in it, and the element as the step before has left it.
+#[inline(always)]
+pub fn start<V: Lanes, K: Kernel>(
+    section: Section,
+    [x, v]: [&[Corners<V>; 2]; 2],
+    state: &[V::Row],
+    part: usize,
+    steps: Steps,
+) -> Start<V> {
+    let time_step = V::splat(steps.time_step);
+    let before: [Corners<V>; 2] =
+        [array![i in 4 => x[0][i] - time_step * v[0][i]], array![i in 4 => x[1][i] - time_step * v[1][i]]];
+    let flow_before = flow(section, v, &before);
+    let flow = flow(section, v, x);
+    let growth = trace(&flow);
 
-        let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
-        let stress = rotated(&solid(load(state, rows::STRESS, part)), &frame, V::splat(0.0));
-        let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
-        let of_stress = power_of_stress(&stress, &flow_before);
-        let mut of_modes = V::splat(0.0);
-        if K::FLUID {
-            let resistance = [V::load(&state[rows::HOURGLASS], part), V::load(&state[rows::HOURGLASS + 1], part)];
-            of_modes = fluid::power_of_modes(&resistance, &flow_before.hourglass)
-                + fluid::power([&before, v], &state[corner_rows::<K>()], part, section.weights(&before).as_ref());
-        }
-        let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
-        let works = ROWS.begin::<V, K>(&powers, state, part, steps);
-        let energy = ROWS.energy::<V, K>(&works, [viscous, growth], state, part, steps);
-        Start { energy, swept: time_step * growth, flow, growth, works }
+    let frame = [V::load(&state[rows::FRAME], part), V::load(&state[rows::FRAME + 1], part)];
+    let stress = rotated(&solid(load(state, rows::STRESS, part)), &frame, V::splat(0.0));
+    let viscous = V::load(&state[rows::VISCOUS_STRESS], part);
+    let of_stress = power_of_stress(&stress, &flow_before);
+    let mut of_modes = V::splat(0.0);
+    if K::FLUID {
+        let resistance = [V::load(&state[rows::HOURGLASS], part), V::load(&state[rows::HOURGLASS + 1], part)];
+        of_modes = fluid::power_of_modes(&resistance, &flow_before.hourglass)
+            + fluid::power([&before, v], &state[corner_rows::<K>()], part, section.weights(&before).as_ref());
     }
-
-    /// Work that the forces of the step's start have done in it, and what was owed of the step before.
-    #[inline(always)]
-    pub fn work(&self) -> V {
-        (self.works[0] + self.works[1]) + self.works[2]
-    }
-
-    /// Energy that hourglass resistance and held corners of fluids have taken so far.
-    #[inline(always)]
-    pub fn taken(&self, state: &[V::Row], part: usize) -> V {
-        ROWS.taken(&self.works, state, part)
-    }
-
-    /// Books the step, given the powers at its end. Those of the hourglass resistance of solids are booked elsewhere.
-    #[inline(always)]
-    pub fn finish<K: Kernel>(&self, powers: Works<V>, state: &mut [V::Row], part: usize, settings: &Settings) {
-        ROWS.finish::<V, K>(&self.works, powers, state, part, settings.steps());
-    }
+    let powers = StartPowers { stress: of_stress, viscous: [viscous, trace(&flow_before)], modes: of_modes };
+    Start::new::<K>(&ROWS, &powers, (flow, growth), state, part, steps)
 }
 
 #[inline(always)]
@@ -147,7 +114,7 @@ impl KernelVisitor for LastWork<'_> {
         // The axis stays where it is.
         let x = [at.map(|own| own[0]), at.map(|own| own[1] - at[0][1])];
         let v = [0, 1].map(|k: usize| v.map(|own| own[k]));
-        let work = Start::of::<K>(section, [&x, &v], &state, 0, steps).work();
+        let work = start::<_, K>(section, [&x, &v], &state, 0, steps).work();
         // An element that dies inverted may have moved beyond all measure.
         Some(if work.is_finite() { work } else { 0.0 })
     }

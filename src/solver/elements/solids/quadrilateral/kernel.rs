@@ -1,19 +1,19 @@
 //! The four-node quadrilateral with one integration point: one step of one part of a chunk.
 
 use super::end::{End, Frequency, hourglass_vector};
-use super::exact::{Start, power_of_stress, rate_row};
+use super::exact::{self, Start, power_of_stress, rate_row};
 use super::fluid;
 use super::kinematics::{self, Flat, Motion};
 use super::rows;
 use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Sym3, array};
-use crate::material::{Kernel, Response, Step};
+use crate::material::{Kernel, Step};
 use crate::model::{BulkViscosity, Hourglass};
 use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
+use crate::solver::elements::solids::answer::Answer;
 use crate::solver::elements::solids::exact::Steps;
 use crate::solver::elements::solids::fluid::{gentle_step, jump};
-use crate::solver::elements::solids::step_modulus::step_modulus;
 use crate::solver::elements::state_rows::{accumulate, store};
 
 /// Numbers that hold for a whole block and step.
@@ -116,7 +116,7 @@ fn step<V: Lanes, K: Kernel>(
     let compatible = K::EQUATION && *section == Section::Compatible;
     // (o) what the forces of the step's start have done, where that is heat
     let start =
-        if K::EQUATION { Some(Start::of::<K>(*section, [&x, &v], state, part, settings.steps())) } else { None };
+        if K::EQUATION { Some(exact::start::<V, K>(*section, [&x, &v], state, part, settings.steps())) } else { None };
 
     // (i) velocity gradient and hourglass rates at mid-step, (ii) frame, stretch and strain increment
     let middle = Middle::of(*section, compatible, [&x, &v], settings);
@@ -128,14 +128,14 @@ fn step<V: Lanes, K: Kernel>(
     let volumes = [operator.volume * V::splat(section.turn()), middle.volume, inverse_volume];
     let answer = answer(*law, seen_by_law(&start, volumes, &turned, settings), state, part);
     if !K::EQUATION {
-        let power = answer.old.zip(answer.stress, |a, b| a + b).contract(turned.strain) * V::splat(0.5);
+        let power = answer.work_on(turned.strain);
         accumulate(power * middle.volume, &mut state[rows::INTERNAL_ENERGY], part);
     }
 
     // (iv) stable step 2/ω and bulk viscosity in the new configuration
     let mut masses: Corners<V> = load(state, rows::INVERSE_MASS, part);
     let end = End::of((*section, compatible), [&x, &v], operator, &turned.frames[1], &mut masses);
-    let moduli = answer.moduli::<K>(&turned.strain, settings);
+    let moduli = answer.moduli::<K>(&turned.strain, [settings.dilatational, settings.mu], settings.effective_moduli);
     let frequency = end.frequency(&moduli, &masses, given.moving, settings);
     let slowed = bulk_viscosity::<V, K>(
         (&frequency, answer.response.answering),
@@ -167,7 +167,7 @@ fn step<V: Lanes, K: Kernel>(
     };
     let mut stable_step = held.stable_step;
     if let Some(start) = &start {
-        start.finish::<K>(powers, state, part, settings);
+        start.finish::<K>(powers, state, part, settings.steps());
         let shorter = if compatible { stable_step * frequency.shorter() } else { stable_step };
         let gentle = gentle_step(start.growth / end.volume, shorter);
         stable_step = law.longest_step(settings.time, &state[rows::LAW..], part, gentle);
@@ -260,10 +260,7 @@ fn seen_by_law<V: Lanes>(
     turned: &Turned<V>,
     settings: &Settings,
 ) -> Step<V> {
-    let (energy, swept) = match start {
-        Some(start) => (start.energy * inverse_volume, start.swept * inverse_volume),
-        None => (V::splat(0.0), V::splat(0.0)),
-    };
+    let [energy, swept] = Start::per_volume(start, inverse_volume);
     Step {
         strain: turned.strain,
         biot_strain: turned.stretch.add_diagonal(V::splat(-1.0)),
@@ -276,16 +273,6 @@ fn seen_by_law<V: Lanes>(
     }
 }
 
-/// What a law has answered.
-struct Answer<V> {
-    /// Stress at the start of the step, in the frame.
-    old: Sym3<V>,
-    /// The same at its end.
-    stress: Sym3<V>,
-    /// Return and stiffness.
-    response: Response<V>,
-}
-
 #[inline(always)]
 fn answer<V: Lanes, K: Kernel>(law: &K, seen: Step<V>, state: &mut [V::Row], part: usize) -> Answer<V> {
     let old = solid(load(state, rows::STRESS, part));
@@ -293,29 +280,6 @@ fn answer<V: Lanes, K: Kernel>(law: &K, seen: Step<V>, state: &mut [V::Row], par
     let response = law.update(&seen, &mut stress, &mut state[rows::LAW..], part);
     store([stress.xx, stress.yy, stress.zz, stress.xy], state, rows::STRESS, part);
     Answer { old, stress, response }
-}
-
-impl<V: Lanes> Answer<V> {
-    #[inline(always)]
-    fn moduli<K: Kernel>(&self, strain: &Sym3<V>, settings: &Settings) -> Moduli<V> {
-        if K::STIFFNESS {
-            let stiffness = &self.response.stiffness;
-            return Moduli { elastic: stiffness.dilatational, shear: stiffness.shear, step: stiffness.dilatational };
-        }
-        let elastic = [settings.dilatational, settings.mu];
-        let step = step_modulus(elastic, settings.effective_moduli, [&self.old, &self.stress], strain);
-        Moduli { elastic: V::splat(settings.dilatational), shear: V::splat(settings.mu), step }
-    }
-}
-
-/// Moduli of the stable step, force/length².
-pub(super) struct Moduli<V> {
-    /// The dilatational one.
-    pub(super) elastic: V,
-    /// The shear modulus.
-    pub(super) shear: V,
-    /// The dilatational one by which the step goes.
-    pub(super) step: V,
 }
 
 /// Bulk viscosity, and the steps that it leaves.

@@ -2,12 +2,10 @@
 
 use super::{Truss, rows, smallest_rotation};
 use crate::common::vector::{cross, dot};
-use crate::lanes::{Force, InstructionSet, Row};
+use crate::lanes::{Force, Row};
 use crate::material::{Elastic, ElasticPlastic, Law};
-use crate::model::{BulkViscosity, StepModuli};
-use crate::solver::domain::state_names;
 use crate::solver::elements::structural::BAR_STEP;
-use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
+use crate::solver::elements::{Element, ElementBlock, PassOutcome, PassSettings, Sink, by_hand};
 
 const YOUNG: f64 = 200e9;
 const DENSITY: f64 = 8000.0;
@@ -26,37 +24,10 @@ impl Rig {
     fn new(ends: [[f64; 3]; 2], law: Law) -> Rig {
         let element = Element::Truss(Truss { area: Some(AREA) });
         let length = (0..3).map(|i| (ends[1][i] - ends[0][i]).powi(2)).sum::<f64>().sqrt();
-        let new = NewElement {
-            place: 0,
-            nodes: vec![0, 1],
-            corners: ends.to_vec(),
-            mass: DENSITY * AREA * length,
-            added: 0.0,
-            attributes: Vec::new(),
-        };
-        let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
-        let block = ElementBlock {
-            index: 0,
-            id: 1,
-            density: DENSITY,
-            state_names: state_names(&law),
-            border: group(&[]),
-            interior: group(&[new]),
-            element: element.clone(),
-            law: law.clone(),
-            keeps_steps: false,
-            rigid: false,
-        };
-        let row = |[x, y, z]: [f64; 3]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0]);
-        let settings = PassSettings {
-            time: 0.0,
-            time_step: 0.0,
-            kick: 0.0,
-            bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
-            moduli: StepModuli::Elastic,
-            instructions: InstructionSet::default(),
-        };
-        Rig { block, nodes: ends.map(row).to_vec(), forces: vec![Force::default(); 2], settings }
+        let new = by_hand::single(&[0, 1], &ends, DENSITY * AREA * length);
+        let block = by_hand::block(&element, &law, DENSITY, &[new]);
+        let nodes = ends.map(by_hand::at_rest).to_vec();
+        Rig { block, nodes, forces: vec![Force::default(); 2], settings: by_hand::settings() }
     }
 
     /// Moves both nodes to places in a step of one second.

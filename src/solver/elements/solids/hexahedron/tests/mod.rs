@@ -17,11 +17,11 @@ mod time_step;
 
 use super::kinematics::rotation_matrix;
 use super::{Hexahedron, geometry, rows};
-use crate::lanes::{Force, InstructionSet, Row};
-use crate::material::{Elastic, Kernel, KernelVisitor, Law};
+use crate::lanes::{Force, Row};
+use crate::material::{Elastic, Law};
 use crate::mesh::UNIT_CUBE as CUBE;
 use crate::model::{BulkViscosity, Hourglass, Precision, Spin, StepModuli};
-use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
+use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink, by_hand};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 type Corners = [[f64; 3]; 8];
@@ -95,14 +95,6 @@ fn mapped(corners: &Corners, m: &Matrix3<f64>) -> Corners {
     corners.map(|c| (m * Vector3::from(c)).into())
 }
 
-struct StateRows;
-impl KernelVisitor for StateRows {
-    type Output = &'static [&'static str];
-    fn visit<K: Kernel>(self, _: K) -> Self::Output {
-        K::STATE
-    }
-}
-
 /// Some elements whose nodes are moved by hand.
 struct Rig {
     block: ElementBlock,
@@ -117,47 +109,21 @@ impl Rig {
     }
 
     fn of(precision: Precision, points: &[[f64; 3]], cells: &[[u32; 8]], law: Law, hourglass: Hourglass) -> Rig {
-        let state_names = law.accept(StateRows);
         let elements: Vec<NewElement> = cells
             .iter()
             .enumerate()
             .map(|(place, &nodes)| {
                 let corners = nodes.map(|n| points[n as usize]);
-                NewElement {
-                    place: place as u32,
-                    nodes: nodes.to_vec(),
-                    corners: corners.to_vec(),
-                    mass: DENSITY * volume(&corners),
-                    added: 0.0,
-                    attributes: Vec::new(),
-                }
+                let mass = DENSITY * volume(&corners);
+                NewElement { place: place as u32, ..by_hand::single(&nodes, &corners, mass) }
             })
             .collect();
         let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0, precision, spin: Spin::default() });
-        let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
         Rig {
-            block: ElementBlock {
-                index: 0,
-                id: 1,
-                density: DENSITY,
-                state_names,
-                keeps_steps: false,
-                rigid: false,
-                border: group(&[]),
-                interior: group(&elements),
-                element: element.clone(),
-                law: law.clone(),
-            },
-            nodes: points.iter().map(|&[x, y, z]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0])).collect(),
+            block: by_hand::block(&element, &law, DENSITY, &elements),
+            nodes: points.iter().copied().map(by_hand::at_rest).collect(),
             forces: vec![Force::default(); points.len()],
-            pass: PassSettings {
-                time: 0.0,
-                time_step: 0.0,
-                kick: 0.0,
-                bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
-                moduli: StepModuli::Elastic,
-                instructions: InstructionSet::default(),
-            },
+            pass: by_hand::settings(),
         }
     }
 

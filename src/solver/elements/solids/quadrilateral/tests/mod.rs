@@ -6,12 +6,12 @@
 use super::sections::{Operator, Section};
 use super::{Quadrilateral, rows};
 use crate::deck::Source;
-use crate::lanes::{Force, InstructionSet, Row};
-use crate::material::{Elastic, ElasticPlastic, Kernel, KernelVisitor, Law};
+use crate::lanes::{Force, Row};
+use crate::material::{Elastic, ElasticPlastic, Law};
 use crate::mesh::plane::{self, Corners};
-use crate::model::{Analysis, BulkViscosity, Hourglass, StepModuli, examine};
+use crate::model::{Analysis, Hourglass, examine};
 use crate::solver::elements::hexahedron::Hexahedron;
-use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
+use crate::solver::elements::{Element, ElementBlock, PassOutcome, PassSettings, Sink, by_hand};
 use crate::solver::loads::area_vectors;
 use nalgebra::DMatrix;
 
@@ -51,14 +51,6 @@ impl Random {
     }
 }
 
-struct StateRows;
-impl KernelVisitor for StateRows {
-    type Output = &'static [&'static str];
-    fn visit<K: Kernel>(self, _: K) -> Self::Output {
-        K::STATE
-    }
-}
-
 /// One element whose nodes are moved by hand.
 struct Rig {
     block: ElementBlock,
@@ -70,30 +62,12 @@ struct Rig {
 impl Rig {
     fn new(points: &[[f64; 3]], nodes: &[u32], element: Element, law: Law, mass: f64) -> Rig {
         let corners: Vec<[f64; 3]> = nodes.iter().map(|&n| points[n as usize]).collect();
-        let new = [NewElement { place: 0, nodes: nodes.to_vec(), corners, mass, added: 0.0, attributes: Vec::new() }];
+        let new = by_hand::single(nodes, &corners, mass);
         Rig {
-            block: ElementBlock {
-                index: 0,
-                id: 1,
-                density: DENSITY,
-                state_names: law.accept(StateRows),
-                keeps_steps: false,
-                rigid: false,
-                border: ElementBlock::group(&element, &law, DENSITY, &[]),
-                interior: ElementBlock::group(&element, &law, DENSITY, &new),
-                element,
-                law,
-            },
-            nodes: points.iter().map(|&[x, y, z]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0])).collect(),
+            block: by_hand::block(&element, &law, DENSITY, &[new]),
+            nodes: points.iter().copied().map(by_hand::at_rest).collect(),
             forces: vec![Force::default(); points.len()],
-            pass: PassSettings {
-                time: 0.0,
-                time_step: 0.0,
-                kick: 0.0,
-                bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
-                moduli: StepModuli::Elastic,
-                instructions: InstructionSet::default(),
-            },
+            pass: by_hand::settings(),
         }
     }
 

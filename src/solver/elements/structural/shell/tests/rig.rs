@@ -1,12 +1,10 @@
 //! One square shell of edge 1 whose nodes are moved by hand.
 
 use crate::common::vector::{add, cross, dot, scaled};
-use crate::lanes::{Force, InstructionSet, Row};
+use crate::lanes::{Force, Row};
 use crate::material::{Elastic, Law};
-use crate::model::{BulkViscosity, StepModuli};
-use crate::solver::domain::state_names;
 use crate::solver::elements::shell::{QUADRILATERAL, Shell};
-use crate::solver::elements::{Element, ElementBlock, NewElement, PassOutcome, PassSettings, Sink};
+use crate::solver::elements::{Element, ElementBlock, PassOutcome, PassSettings, Sink, by_hand};
 use std::marker::PhantomData;
 
 pub const STEEL: Law = Law::Elastic(Elastic { young: 200e9, poisson: 0.3 });
@@ -28,38 +26,11 @@ impl Rig {
     pub fn new(law: Law, points: Vec<[f64; 2]>, thickness: f64) -> Rig {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let element = Element::Shell(Shell { kind: PhantomData, thickness: Some(thickness), scale: 1.0, points });
-        let new = NewElement {
-            place: 0,
-            nodes: (0..8).collect(),
-            corners: corners.to_vec(),
-            mass: DENSITY * thickness,
-            added: 0.0,
-            attributes: Vec::new(),
-        };
-        let group = |elements: &[NewElement]| ElementBlock::group(&element, &law, DENSITY, elements);
-        let block = ElementBlock {
-            index: 0,
-            id: 1,
-            density: DENSITY,
-            state_names: state_names(&law),
-            border: group(&[]),
-            interior: group(&[new]),
-            element: element.clone(),
-            law: law.clone(),
-            keeps_steps: false,
-            rigid: false,
-        };
-        let row = |[x, y, z]: [f64; 3]| Row([x, y, z, 1.0, 0.0, 0.0, 0.0, 1.0]);
-        let nodes = corners.into_iter().chain([[0.0; 3]; 4]).map(row).collect();
-        let settings = PassSettings {
-            time: 0.0,
-            time_step: 0.0,
-            kick: 0.0,
-            bulk_viscosity: BulkViscosity { linear: 0.0, quadratic: 0.0 },
-            moduli: StepModuli::Elastic,
-            instructions: InstructionSet::default(),
-        };
-        Rig { block, nodes, forces: vec![Force::default(); 8], outcome: PassOutcome::NOTHING, settings }
+        let new = by_hand::single(&[0, 1, 2, 3, 4, 5, 6, 7], &corners, DENSITY * thickness);
+        let block = by_hand::block(&element, &law, DENSITY, &[new]);
+        let nodes = corners.into_iter().chain([[0.0; 3]; 4]).map(by_hand::at_rest).collect();
+        let (forces, settings) = (vec![Force::default(); 8], by_hand::settings());
+        Rig { block, nodes, forces, outcome: PassOutcome::NOTHING, settings }
     }
 
     /// A step of one second with these velocities and rotation rates.
