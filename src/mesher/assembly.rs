@@ -29,6 +29,8 @@ struct Part {
     block: i64,
     nodes: Range<usize>,
     elements: Range<usize>,
+    /// Whether the faces are sides of quadrilaterals of a surface instead of hexahedra.
+    of_surface: bool,
     faces: Vec<(Face, Sides)>,
 }
 
@@ -44,19 +46,22 @@ pub struct Assembled {
 impl Assembly {
     /// Adds a body as a part of its own.
     pub fn add(&mut self, block: i64, body: Body) {
-        let (nodes, elements) = (self.coordinates.len(), self.hexes.len());
+        let (nodes, elements, quads) = (self.coordinates.len(), self.hexes.len(), self.quads.len());
         self.flat |= body.flat;
         self.coordinates.extend(body.coordinates);
         self.hexes.extend(body.hexes.iter().map(|hex| hex.map(|node| node + nodes as u32)));
         self.blocks.resize(self.hexes.len(), block);
         self.bars.extend(body.bars.iter().map(|bar| (bar.map(|node| node + nodes as u32), block)));
         self.quads.extend(body.quads.iter().map(|quad| (quad.map(|node| node + nodes as u32), block)));
+        let of_surface = body.hexes.is_empty();
+        let first = if of_surface { quads } else { elements };
         let mut faces = body.faces;
-        faces.iter_mut().flat_map(|(_, sides)| sides).for_each(|(element, _)| *element += elements as u32);
+        faces.iter_mut().flat_map(|(_, sides)| sides).for_each(|(element, _)| *element += first as u32);
         self.parts.push(Part {
             block,
             nodes: nodes..self.coordinates.len(),
             elements: elements..self.hexes.len(),
+            of_surface,
             faces,
         });
     }
@@ -148,7 +153,7 @@ impl Assembly {
         let mut ids: Vec<i64> = self.blocks.iter().copied().chain(bars).chain(quads).collect();
         ids.sort_unstable();
         ids.dedup();
-        let mut place = vec![0u32; self.hexes.len()];
+        let (mut place, mut place_of_quad) = (vec![0u32; self.hexes.len()], vec![0u32; self.quads.len()]);
         let mut placed = 0;
         for id in ids {
             let count = self.blocks.iter().filter(|block| **block == id).count();
@@ -164,16 +169,22 @@ impl Assembly {
                 block = Block { shape: Shape::Bar, nodes: bars, ..block };
                 placed += block.len() as u32;
             }
-            let quads = self.quads.iter().filter(|(_, block)| *block == id);
-            let quads: Vec<u32> = quads.flat_map(|(quad, _)| *quad).collect();
-            if !quads.is_empty() {
-                block = Block { shape: Shape::Quadrilateral, nodes: quads, ..block };
-                placed += block.len() as u32;
+            let quads = self.quads.iter().zip(&mut place_of_quad).filter(|((_, block), _)| *block == id);
+            let mut nodes: Vec<u32> = Vec::new();
+            for ((quad, _), place) in quads {
+                nodes.extend(quad);
+                *place = placed;
+                placed += 1;
+            }
+            if !nodes.is_empty() {
+                block = Block { shape: Shape::Quadrilateral, nodes, ..block };
             }
             mesh.blocks.push(block);
         }
-        for (_, sides) in self.parts.iter_mut().flat_map(|part| &mut part.faces) {
-            sides.iter_mut().for_each(|side| side.0 = place[side.0 as usize]);
+        for part in &mut self.parts {
+            let place = if part.of_surface { &place_of_quad } else { &place };
+            let sides = part.faces.iter_mut().flat_map(|(_, sides)| sides);
+            sides.for_each(|side| side.0 = place[side.0 as usize]);
         }
         mesh.node_ids = (1..=self.coordinates.len() as i64).collect();
         mesh.element_ids = (1..=mesh.element_count() as i64).collect();

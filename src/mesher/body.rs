@@ -13,11 +13,12 @@ pub struct Body {
     pub flat: bool,
     /// Four zero-based node indices per quadrilateral of a surface, counter-clockwise seen from its top.
     pub quads: Vec<[u32; 4]>,
-    /// The faces of the shape that have a name.
+    /// The faces of the shape that have a name; of a surface its two sides, and its edges.
     pub faces: Vec<(Face, Sides)>,
 }
 
-/// Element faces as `(zero-based element index, zero-based local side)`, see [`crate::mesh::HEX_SIDES`].
+/// Sides of elements as `(zero-based element index, zero-based local side)`, see [`crate::mesh::Shape::sides`]. The index counts the
+/// hexahedra of a body, or its quadrilaterals where it has no hexahedra.
 pub type Sides = Vec<(u32, u8)>;
 
 /// Names of the faces of shapes, in the directions in which a shape is made, before it is moved.
@@ -51,6 +52,10 @@ pub enum Face {
 pub const CUTS: [Face; 3] = [Face::CutX, Face::CutY, Face::CutZ];
 
 impl Face {
+    /// The faces of a box across x, y and z, with the smaller coordinate first.
+    pub const ACROSS: [[Face; 2]; 3] =
+        [[Face::Left, Face::Right], [Face::Front, Face::Back], [Face::Bottom, Face::Top]];
+
     /// All names.
     pub const ALL: [Face; 11] = [
         Face::Left,
@@ -65,6 +70,21 @@ impl Face {
         Face::CutY,
         Face::CutZ,
     ];
+
+    /// The face on the other side of the shape, of those that have one.
+    pub fn opposite(self) -> Option<Face> {
+        let walls = [Face::Inner, Face::Outer];
+        Face::ACROSS
+            .into_iter()
+            .chain([walls])
+            .find(|pair| pair.contains(&self))
+            .map(|[a, b]| if self == a { b } else { a })
+    }
+
+    /// The axis across which the face of a box lies.
+    pub fn axis(self) -> Option<usize> {
+        Face::ACROSS.iter().position(|pair| pair.contains(&self))
+    }
 
     /// The words of a recipe.
     pub fn words(self) -> &'static str {

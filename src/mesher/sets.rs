@@ -106,7 +106,7 @@ fn nodes(assembled: &Assembled, request: &Request, tolerance: f64) -> Vec<u32> {
             .filter(|&node| region.contains(mesh.coordinates[node as usize], tolerance))
             .collect(),
         What::Face(block, face) => {
-            named(assembled, *block, *face).flat_map(|(element, side)| skin::nodes(&elements, element, side)).collect()
+            named(assembled, *block, *face).flat_map(|side| skin::nodes_of_side(&elements, side)).collect()
         }
         What::All | What::Normal { .. } => (0..mesh.coordinates.len() as u32).collect(),
     };

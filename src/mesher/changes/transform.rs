@@ -54,7 +54,9 @@ fn mirror(body: &mut Body, axis: usize, at: f64) {
         std::mem::swap(a, b);
         std::mem::swap(c, d);
     });
-    let renumbered: [u8; 6] = if body.flat {
+    let renumbered: [u8; 6] = if body.hexes.is_empty() {
+        [0, 1, 2, 5, 4, 3]
+    } else if body.flat {
         // Of a plane only the lower sides of the hexahedra are elements: bottom and top may not change places.
         body.hexes.iter_mut().for_each(|nodes| {
             nodes.swap(1, 3);

@@ -50,12 +50,38 @@ pub fn divide(assembled: &mut Assembled, id: i64, pattern: Pattern) -> bool {
             block.nodes.extend([a, b, c, a, c, d]);
         }
     }
-    let more = (block.len() - quads.len()) as u32;
-    let sides = faces.iter_mut().flat_map(|(_, faces)| faces).flat_map(|(_, sides)| sides);
-    sides.filter(|(element, _)| *element >= behind).for_each(|(element, _)| *element += more);
+    let first = behind - quads.len() as u32;
+    let (more, parts) = ((block.len() - quads.len()) as u32, block.len() / quads.len());
+    for (_, sides) in faces.iter_mut().flat_map(|(_, faces)| faces) {
+        *sides = sides
+            .iter()
+            .flat_map(|&(element, side)| match element.checked_sub(first) {
+                None => vec![(element, side)],
+                Some(_) if element >= behind => vec![(element + more, side)],
+                Some(quad) => {
+                    let quad = quad as usize;
+                    let triangles = block.nodes.chunks_exact(3).skip(parts * quad).take(parts);
+                    let beside = triangles.map(|triangle| side_of_triangle(&quads[quad], side, triangle));
+                    let numbers = first + (parts * quad) as u32..;
+                    numbers.zip(beside).filter_map(|(number, side)| Some((number, side?))).collect()
+                }
+            })
+            .collect();
+    }
     mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
     mesh.element_ids = (1..=mesh.element_count() as i64).collect();
     true
+}
+
+/// The side of a triangle that lies in a side of the quadrilateral of which it is a part.
+fn side_of_triangle(quad: &[u32; 4], side: u8, triangle: &[u32]) -> Option<u8> {
+    if Shape::Quadrilateral.is_face(side) {
+        return Some(side);
+    }
+    let edge = Shape::Quadrilateral.sides()[usize::from(side)];
+    let sides = (0..).zip(Shape::Triangle.sides()).filter(|(side, _)| !Shape::Triangle.is_face(*side));
+    let ends = |corners: &[usize]| [triangle[corners[0]], triangle[corners[1]]];
+    sides.filter(|(_, corners)| ends(corners) == [quad[edge[0]], quad[edge[1]]]).map(|(side, _)| side).next()
 }
 
 /// Whether each quadrilateral is an odd number of edges away from the first of its surface.

@@ -124,6 +124,7 @@ fn face(card: &Card, draft: &mut Draft) -> Option<What> {
     }
     let names: Vec<&str> = faces.iter().map(|face| face.words()).collect();
     let message = format!("{}: the shape of block {block} has no face {}", card.name, face.words());
-    draft.report(Diagnostic::error(message).at(card.place("face"), format!("it has {}", spelling::all(&names))));
+    let told = if names.is_empty() { "it has none".to_string() } else { format!("it has {}", spelling::all(&names)) };
+    draft.report(Diagnostic::error(message).at(card.place("face"), told));
     None
 }

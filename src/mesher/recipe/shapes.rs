@@ -100,7 +100,10 @@ fn sheet(card: &Card, draft: &mut Draft) {
     let along = (0..3).filter(|&axis| axis != across);
     along.zip([("n1", "g1"), ("n2", "g2")]).for_each(|(axis, (n, g))| cells[axis] = spacing(card, n, g));
     let face = [Face::Right, Face::Back, Face::Top][across];
-    add(card, draft, Sheet { solid: Hexahedron::right_angled(corner, size, cells), face });
+    // A sheet that is made towards smaller coordinates has its first edge at the larger one; with one size of the two its top looks down.
+    let mut against = size.map(|size| size < 0.0);
+    against[across] = against.iter().filter(|&&against| against).count() == 1;
+    add(card, draft, Sheet { solid: Hexahedron::right_angled(corner, size, cells), face, against });
 }
 
 fn sheet_tube(card: &Card, draft: &mut Draft) {
@@ -116,7 +119,7 @@ fn sheet_tube(card: &Card, draft: &mut Draft) {
             .report(Diagnostic::error(message).at(card.place("around"), "cells around the part that is modelled"));
     }
     let solid = Tube { inner, outer, length: card.number("length"), through, around, along, extent };
-    add(card, draft, Sheet { solid, face: Face::Outer });
+    add(card, draft, Sheet { solid, face: Face::Outer, against: [false; 3] });
 }
 
 fn sheet_sphere(card: &Card, draft: &mut Draft) {
@@ -124,7 +127,7 @@ fn sheet_sphere(card: &Card, draft: &mut Draft) {
     let extent = Extent::from_word(card.text("model"));
     let through = Spacing { cells: 1, grading: 1.0 };
     let solid = SphereShell { inner: outer * (1.0 - WALL), outer, around, through, extent };
-    add(card, draft, Sheet { solid, face: Face::Outer });
+    add(card, draft, Sheet { solid, face: Face::Outer, against: [false; 3] });
 }
 
 fn cylinder(card: &Card, draft: &mut Draft) {
