@@ -11,7 +11,7 @@ use crate::mesh::{Mesh, check::unreferenced_nodes, plane};
 use crate::mesher;
 use crate::model::{Problem, examine};
 use crate::solver::elements::Unfit;
-use crate::solver::{Body, idle_deaths, idle_rotations, unfit_blocks};
+use crate::solver::{Body, idle_deaths, idle_rotations, loose, unfit_blocks};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -109,13 +109,16 @@ impl Given {
         let mesh = mesh_path(&deck, input.mesh.as_deref()).and_then(|path| Ok((read(&path)?, path)));
         // Mistakes in the deck are shown also when there is no mesh to hold it against.
         match (examine(source, mesh.as_ref().ok().map(|((mesh, _), _)| mesh)), mesh) {
-            (Ok(problem), Ok(((mut mesh, mesh_files), mesh_path))) => {
+            (Ok(mut problem), Ok(((mut mesh, mesh_files), mesh_path))) => {
                 all_used(given)?;
                 if problem.model.analysis.about_axis() {
                     mesh.coordinates = plane::on_axis(&mesh);
                 }
                 let unfit = unfit_blocks(&mesh, &problem.model);
                 if unfit.is_empty() {
+                    for joint in loose(&mesh, &problem.model) {
+                        problem.diagnostics.push(Diagnostic::warning(joint.what).help(joint.help));
+                    }
                     return Ok(Given { deck, mesh_path, problem, mesh, mesh_files });
                 }
                 Err(refused(&problem, problem.diagnostics.clone(), unfit))

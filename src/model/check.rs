@@ -6,7 +6,6 @@ use super::{
     Analysis, Contact, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
     conditions::boundary::direction,
     interactions::{contact, rigid, tied},
-    joints,
     materials::explosive,
     problem::those_there_are,
 };
@@ -60,7 +59,6 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     }
     choices_without_effect(problem, mesh, &mut found);
     elements_twice(mesh, &mut found);
-    joints::check(problem, mesh, &mut found);
     contact::check(problem, mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);

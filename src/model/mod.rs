@@ -7,7 +7,6 @@ mod check;
 mod conditions;
 mod control;
 mod interactions;
-mod joints;
 mod materials;
 mod problem;
 
@@ -25,7 +24,6 @@ pub use interactions::{
     Contact, ContactControl, ContactData, ContactDecomposition, ContactEdges, ContactMaterials, ContactOverlap,
     ContactSearch, ContactSurface, Friction, RigidSurface, Tie,
 };
-pub(crate) use joints::studs;
 pub use materials::{BlockMaterial, Section};
 pub use problem::{Problem, examine, from_deck};
 

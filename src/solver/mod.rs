@@ -20,6 +20,7 @@ mod totals;
 
 pub use clock::{Clock, Section};
 pub use domain::fit::{idle_deaths, idle_rotations, unfit_blocks};
+pub use domain::joints::{loose, studs};
 pub use domain::trial::BlockTrial;
 pub use domain::{Body, Cut, Domain, NoMaterial, Rotations, centroid, nodes, state_names};
 pub use health::stop::{ElementPlace, Stop};

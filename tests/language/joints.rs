@@ -11,7 +11,8 @@ fn warnings(commands: &str, recipe: &str, blocks: &[i64]) -> Vec<String> {
         .collect();
     let problem = examine(Source::new("t.i", format!("TERMINATION TIME, 1.\n{commands}{materials}")), Some(&mesh));
     let problem = problem.expect("a problem");
-    problem.diagnostics.warnings().map(|warning| warning.message.clone()).collect()
+    let loose = urto::solver::loose(&mesh, &problem.model).into_iter().map(|joint| joint.what);
+    problem.diagnostics.warnings().map(|warning| warning.message.clone()).chain(loose).collect()
 }
 
 /// A cube of 4 × 4 × 4 elements that ends at x = 0.
@@ -38,7 +39,7 @@ fn beams_and_shells_that_solids_leave_free_to_turn_are_told() {
     assert!(two.len() == 1 && two[0].contains("in 2 places in all"), "{two:?}");
 }
 
-/// Skins, frames on several feet, and what conditions or rigid bodies hold carry their moments; trusses have none.
+/// Skins, frames on several feet, and what conditions or rigid bodies hold carry their moments.
 #[test]
 fn joints_that_carry_moments_are_not_told() {
     let beam = format!("{CUBE}LINE, 2, 0., 0., 0., 1., 0., 0., 10\nNODE SET POINT, 1, 1., 0., 0.\n");
@@ -50,7 +51,6 @@ fn joints_that_carry_moments_are_not_told() {
         (SHELL, skin.as_str()),
         (SHELL, &carried_on),
         (BEAM, &frame),
-        ("TRUSS AREA, 2, 0.01\n", &beam),
         ("BEAM SECTION, 2, ROD, 0.01\nRIGID BODY, 1\n", &beam),
         ("BEAM SECTION, 2, ROD, 0.01\nNO ROTATION, X, 1\n", &beam),
         ("SHELL THICKNESS, 2, 0.01\nINTEGRATION POINTS, 2, 1\n", &on_edge),
@@ -60,6 +60,51 @@ fn joints_that_carry_moments_are_not_told() {
     // Held in place only, along a second line: together they hold all.
     let held = "SHELL THICKNESS, 2, 0.01\nNO DISPLACEMENT, Z, 1\n";
     assert_eq!(warnings(held, &on_edge, &[1, 2]), Vec::<String>::new());
+}
+
+const TRUSS: &str = "TRUSS AREA, 2, 0.01\n";
+/// Another cube, from x = 1 on.
+const OTHER: &str = "BOX, 3, 1., -0.2, -0.2, 0.4, 0.4, 0.4, 4, 4, 4\n";
+
+/// A strut of several trusses folds, one with a free end swings, a frame on one foot turns about it.
+#[test]
+fn trusses_that_nothing_holds_across_are_told() {
+    let strut = |pieces: usize| format!("{CUBE}{OTHER}LINE, 2, 0., 0., 0., 1., 0., 0., {pieces}\n");
+    let several = warnings(TRUSS, &strut(10), &[1, 2, 3]);
+    assert_eq!(several.len(), 1, "{several:?}");
+    assert!(
+        several[0].starts_with("trusses of block 2 do not hold node") && several[0].contains(" and 8 more"),
+        "{several:?}"
+    );
+    let inside = format!("{CUBE}{OTHER}LINE, 2, -0.1, 0., 0., 1.1, 0., 0., 12\n");
+    let inside = warnings(TRUSS, &inside, &[1, 2, 3]);
+    assert!(inside.len() == 1 && inside[0].contains(" and 8 more"), "{inside:?}");
+    let free = warnings(TRUSS, &format!("{CUBE}LINE, 2, 0., 0., 0., 1., 0., 0., 1\n"), &[1, 2]);
+    assert!(free.len() == 1 && free[0].contains("at (1.0000e0, 0.0000e0, 0.0000e0) in all directions"), "{free:?}");
+    let ends = ["0., 0., 0.", "1., 0., 0.", "0.5, 0.5, 0.", "0.5, 0., 0.5"];
+    let edges = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let frame: String = edges.iter().map(|[a, b]| format!("LINE, 2, {}, {}, 1\n", ends[*a], ends[*b])).collect();
+    let frame = warnings(TRUSS, &format!("{CUBE}{frame}"), &[1, 2]);
+    assert!(frame.len() == 1 && frame[0].contains("trusses of block 2 turn freely about node"), "{frame:?}");
+}
+
+/// What is held in all directions, and what is held by the deck alone.
+#[test]
+fn trusses_that_are_held_are_not_told() {
+    let strut =
+        |pieces: usize| format!("{CUBE}{OTHER}LINE, 2, 0., 0., 0., 1., 0., 0., {pieces}\nNODE SET BLOCK, 1, 2\n");
+    let tripod = ["0., 0., 0.", "0., 0.1, 0.", "0., 0., 0.1"].map(|foot| format!("LINE, 2, {foot}, 1., 0., 0., 1\n"));
+    let tripod = format!("{CUBE}{}", tripod.concat());
+    let across = format!("{TRUSS}NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n");
+    for (commands, recipe, blocks) in [
+        (TRUSS, strut(1), &[1, 2, 3][..]),
+        (TRUSS, format!("{CUBE}LINE, 2, -0.4, 0., 0., 0., 0., 0., 4\n"), &[1, 2]),
+        (TRUSS, tripod, &[1, 2]),
+        (&across, strut(10), &[1, 2, 3]),
+        (TRUSS, "LINE, 2, 0., 0., 0., 1., 0., 0., 4\n".to_string(), &[2]),
+    ] {
+        assert_eq!(warnings(commands, &recipe, blocks), Vec::<String>::new(), "{commands}\n{recipe}");
+    }
 }
 
 /// Bars that may meet bars are told once; not those that are built together, or kept apart.

@@ -6,12 +6,12 @@ use crate::cli::{DONE, FAILED, Failure, options};
 use crate::comm::Serial;
 use crate::common::vector::{dot, subtract};
 use crate::mesh::{Block, Dimension, Mesh, Shape, plane};
-use crate::model::{self, Model, StepEstimate};
+use crate::model::{Model, StepEstimate};
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
 use crate::solver::elements::Element;
-use crate::solver::{BlockTrial, Body, Request, Solver, state_names};
+use crate::solver::{BlockTrial, Body, Request, Solver, state_names, studs};
 use crate::studies::advice;
 use std::time::Instant;
 
@@ -182,7 +182,7 @@ fn between_bars(mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
 
 /// That beams stand on shells, where they do: a note only, since most of them carry no torque.
 fn soft_in_torsion(mesh: &Mesh, model: &Model) -> Option<String> {
-    let (count, first) = model::studs(model, mesh)?;
+    let (count, first) = studs(mesh, model)?;
     let where_else = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
     Some(format!(
         "  beams stand on shells at {first}{where_else}: a torque about the normal of shells is carried far too softly, and the more so the \

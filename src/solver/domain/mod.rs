@@ -5,6 +5,7 @@ pub(super) mod constraints;
 mod exchange;
 pub(super) mod fit;
 mod function;
+pub(super) mod joints;
 pub mod nodes;
 mod rotations;
 pub(super) mod trial;

@@ -168,6 +168,11 @@ pub trait Formulation: Sized {
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
 
+    /// Whether it resists that its nodes turn against each other.
+    fn bends(&self) -> bool {
+        false
+    }
+
     /// Number of points of integration.
     fn points(&self) -> usize {
         1

@@ -112,6 +112,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.stress(group, i),)+ }
             }
 
+            /// See [`Formulation::bends`].
+            pub fn bends(&self) -> bool {
+                match self { $(Element::$element(own) => own.bends(),)+ }
+            }
+
             /// See [`Formulation::points`].
             pub fn points(&self) -> usize {
                 match self { $(Element::$element(own) => own.points(),)+ }

@@ -230,6 +230,10 @@ impl Formulation for Beam {
         density * self.section.area * edge
     }
 
+    fn bends(&self) -> bool {
+        true
+    }
+
     fn points(&self) -> usize {
         self.section.fibres.len()
     }

@@ -298,6 +298,11 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         })
     }
 
+    /// One point in the middle makes a membrane of it.
+    fn bends(&self) -> bool {
+        self.points.len() > 1
+    }
+
     fn points(&self) -> usize {
         self.points.len()
     }
