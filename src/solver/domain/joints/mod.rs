@@ -29,7 +29,7 @@ pub struct Loose {
 /// Beams, shells and trusses that what holds them leaves free to move without a force.
 pub fn loose(mesh: &Mesh, model: &Model) -> Vec<Loose> {
     if mesh.dimension != Dimension::Three
-        || !mesh.blocks.iter().any(|block| matches!(block.shape, Shape::Bar) || block.shape.is_surface())
+        || !mesh.blocks.iter().any(|block| block.shape == Shape::Bar || block.shape.is_surface())
     {
         return Vec::new();
     }
