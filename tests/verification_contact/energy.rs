@@ -261,6 +261,19 @@ fn contact_gives_no_energy_in_confined_scenes() {
     try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 4, cut: 7 });
 }
 
+/// Scenes that had lost a node or an edge: noses that meet corner on corner, all of whose faces are met at the same time (485); what is
+/// pressed into the corner of a notch, beyond the border of its wall by as much as it is pressed into the step (924), or is as wide as the
+/// notch and bulges (828, 1204).
+#[test]
+fn what_meets_corners_and_slides_into_notches_stays_outside() {
+    for seed in [485, 828, 924, 1204] {
+        let Ok(found) = try_seed(scene(seed), seed, true) else { panic!("seed {seed}") };
+        let deepest = found.sunk.into_iter().fold(0.0, f64::max);
+        println!("sunk by {deepest:.4} of a face");
+        assert!(deepest <= SUNK && found.deepest[1] <= DEEPEST, "{}: sunk by {:?} of a face", found.what, found.sunk);
+    }
+}
+
 /// As they are with another estimate of the step and in single precision; and the same on two and three ranks, to the bit.
 #[test]
 fn contact_gives_no_energy_with_other_settings() {

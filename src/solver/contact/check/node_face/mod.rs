@@ -33,6 +33,10 @@ const HOLD: f64 = 0.01;
 /// A face whose middle is higher than this part of its size above the face beside it folds towards what is in front of that.
 const HOLLOW: f64 = 0.05;
 
+/// Part of a step within which faces are touched at the same time: a corner that meets a corner comes through all faces there at once,
+/// and round-off would choose one that goes by.
+const AT_ONCE: f64 = 1e-3;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
@@ -255,20 +259,22 @@ impl NodeFaceCheck<'_> {
         start.is_some_and(|start| start.gap > 0.0 || start.gap == 0.0 && top)
     }
 
-    /// Whether a point that a face has held before still is in its reach. What has been at a face of a rigid body comes from there, however
-    /// far it would go in the step, which the body's thickness does not bound.
+    /// Whether a point that a face has held before still is in its reach. What begins the step at a face comes from there, however far it
+    /// would go in the step: what is pressed hardest would go farthest, by more than the thickness of a squashed or a rigid body.
     fn still_in_reach(&self, point: u32, face: u32, projection: &Projection, tolerated: f64) -> bool {
         if self.in_reach(face, projection, tolerated) {
             return true;
         }
-        let is_rigid = || {
-            self.faces.corners[face as usize].iter().all(|&corner| self.motion.mobility.of(corner as usize).is_some())
-        };
         let begins = |mut start: Projection| {
             start.gap -= self.faces.distance(point, face);
-            start.outside == 0.0 && self.in_reach(face, &start, tolerated)
+            self.is_hardly_beyond(face, &start) && self.in_reach(face, &start, tolerated)
         };
-        projection.gap < 0.0 && is_rigid() && self.projection_at_start(point, face).is_some_and(begins)
+        projection.gap < 0.0 && self.projection_at_start(point, face).is_some_and(begins)
+    }
+
+    /// Whether a foot is on a face or hardly beyond its border.
+    fn is_hardly_beyond(&self, face: u32, projection: &Projection) -> bool {
+        projection.outside <= HOLD * self.faces.size[face as usize]
     }
 
     /// Neither away from the face nor so deep that it must have come from elsewhere.
@@ -291,6 +297,8 @@ impl NodeFaceCheck<'_> {
             contact.opposition = self.opposition(point, &contact.projection);
         }
         let number = |contact: &DetectedContact| self.faces.number[contact.face as usize];
+        let times = contacts.iter().map(|contact| contact.time);
+        let first = times.filter(|&time| time >= 0.0).fold(f64::INFINITY, f64::min);
         let too_near = contacts.iter().any(|contact| contact.tolerated < 0.0);
         contacts.sort_by(|a, b| {
             // What a point is over holds it rather than the border of the face beside that: of solids always, of surfaces where it is too near
@@ -299,7 +307,9 @@ impl NodeFaceCheck<'_> {
                 contact.projection.rounded && (too_near || !self.faces.is_two_sided(contact.face))
             };
             let by_way = from_border(a).cmp(&from_border(b)).then(a.opposition.total_cmp(&b.opposition));
-            a.time.total_cmp(&b.time).then(by_way).then(number(a).cmp(&number(b)))
+            let at_once = |contact: &DetectedContact| (first..=first + AT_ONCE).contains(&contact.time);
+            let time = |contact: &DetectedContact| if at_once(contact) { first } else { contact.time };
+            time(a).total_cmp(&time(b)).then(by_way).then(number(a).cmp(&number(b)))
         });
         let mut kept = 0;
         for i in 0..contacts.len() {

@@ -1,8 +1,8 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
 use super::super::FLUSH;
-use super::{DetectedContact, HOLD, NodeFaceCheck};
-use crate::common::vector::{dot, scaled, subtract};
+use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY};
+use crate::common::vector::{dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 
@@ -35,7 +35,7 @@ impl NodeFaceCheck<'_> {
         let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights));
         let distance = self.faces.distance(point, face);
         if distance == 0.0 && start.gap >= 0.0 {
-            let time = self.first_touch(point, face)?;
+            let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
             return comes().then(|| contact(time, 0.0));
         }
         if distance > 0.0 && self.begins_in_front(point, face) {
@@ -60,6 +60,27 @@ impl NodeFaceCheck<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &start.weights);
         inside.then(|| contact(0.0, start.gap))
+    }
+
+    /// Part of the step after which a point comes through the plane of a face of a solid hardly beyond its border, where the face around
+    /// that border looks the same way as one of the point's own: what is as wide as the other body must not slip by for a little that
+    /// it bulges. A pin in a hole that is a little wider finds no such side there.
+    fn comes_flush(&self, point: u32, face: u32, [start, end]: [&Projection; 2]) -> Option<f64> {
+        let beyond = HOLD * self.faces.size[face as usize];
+        let farther = if start.outside > end.outside { start } else { end };
+        if farther.outside <= 0.0 || farther.outside > beyond {
+            return None;
+        }
+        let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
+        let own: Vec<[f64; 3]> = self.faces.around(point).iter().filter_map(|&own| normal(own)).collect();
+        let corners = self.faces.corners[face as usize];
+        let is_flush = |other: u32| {
+            let around = self.faces.corners[other as usize];
+            let mut shares = corners.iter().zip(farther.weights).filter(|(_, weight)| *weight > projection::TIE);
+            shares.all(|(corner, _)| around.contains(corner))
+                && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
+        };
+        self.beside(face).any(is_flush).then(|| start.gap / (start.gap - end.gap))
     }
 
     /// Whether a point that a face has not held is beside its border and too far from that to be stopped by it, see

@@ -77,7 +77,7 @@ impl NodeFaceCheck<'_> {
         if let Some((face, projection)) = face.filter(|next| !waits(next)) {
             return Some(self.held(face, projection, tolerated));
         }
-        let as_it_was = self.in_reach(old, &left, tolerated).then(|| self.held(old, left, tolerated));
+        let as_it_was = self.still_in_reach(point, old, &left, tolerated).then(|| self.held(old, left, tolerated));
         if let Some(held) = as_it_was.filter(|_| face.is_some() || self.is_hardly_beyond(old, &left)) {
             return Some(held);
         }
@@ -124,11 +124,6 @@ impl NodeFaceCheck<'_> {
             }
         }
         next
-    }
-
-    /// Whether a foot is on a face or hardly beyond its border.
-    fn is_hardly_beyond(&self, face: u32, projection: &Projection) -> bool {
-        projection.outside <= HOLD * self.faces.size[face as usize]
     }
 
     /// Whether a point begins the step over a face, or hardly beyond its border.
@@ -194,10 +189,11 @@ impl NodeFaceCheck<'_> {
                 if self.is_beyond_rim(point, face, &projection) {
                     continue;
                 }
-                // In a corner of a solid, what is a little behind the one is a little beyond the border of the other.
+                // In a corner of a solid, what is behind the one is as far beyond the border of the other.
                 let is_corner =
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
-                let beyond = if is_corner { HOLD * self.faces.size[face as usize] } else { 0.0 };
+                let behind = (-old.projection.gap).max(0.0);
+                let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
                 if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, 0.0));
                 }
