@@ -11,7 +11,7 @@ use crate::solver::constraints::StepTimes;
 use crate::solver::contact::enforcement::accounts::ledger::Ledger;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::enforcement::enforcer::Enforcer;
-use crate::solver::contact::enforcement::iterations::{BEGINNING, Limits};
+use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
@@ -243,8 +243,8 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         for c in &constraints {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
-        let limits = Limits { iterations: 100, unsettled: 100, tolerance: 0.1 * NOTHING, beginning: BEGINNING };
-        enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited, limits.beginning);
+        let limits = Limits { iterations: 100, unsettled: 100, tolerance: 0.1 * NOTHING };
+        enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited);
         enforcer.solve(&mut constraints, &motion, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions: &mut Vec<[f64; 3]> = &mut body.positions;
         for (point, _) in constraints.iter().flat_map(|constraint| constraint.parts()) {

@@ -21,23 +21,6 @@ const NEARLY_SETTLED: f64 = 0.02;
 /// After so many steps in a row in which they have not settled iterations may go on.
 const MANY_IN_A_ROW: u64 = 32;
 
-/// Part of the last step's forces with which iterations begin. Where they have ended early, force follows overlap with the lag of this
-/// filter: a point on a spring of any stiffness that iterations can make would gain energy from 1/2 on (the roots of
-/// z³ − (2 + β) z² + (1 + 2β) z − β + 2α z² − α z with β = `BEGINNING` (1 − α)). The certificate would not grant it, but what it cuts off
-/// shakes the bodies.
-pub const BEGINNING: f64 = 0.4;
-
-/// The same after iterations that have settled, which leave no lag.
-const BEGINNING_SETTLED: f64 = 0.9;
-
-/// How far to go along the ray of the forces at most. Iterations that begin with less than the last forces end below what is needed, and
-/// everything that is pressed would creep into each other; the ray makes up for it on the whole.
-const FARTHEST: f64 = 2.0;
-
-/// Part by which forces that nothing feels, as those of two faces that press a node from both sides, must shrink from step to step,
-/// whatever the ray does: of their own, which is round-off, it may ask for any length.
-const SHRINKS: f64 = 0.95;
-
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
@@ -50,16 +33,9 @@ pub struct Limits {
     pub unsettled: u32,
     /// Overlap that is left alone, as a part of the face's size; what iterations may still move follows it.
     pub tolerance: f64,
-    /// Part of the last step's forces with which the iterations begin, see [`Limits::after`].
-    pub beginning: f64,
 }
 
 impl Limits {
-    /// How far to go along the ray of the forces at most, as a part of them.
-    pub(super) fn farthest(&self) -> f64 {
-        (SHRINKS / self.beginning).min(FARTHEST)
-    }
-
     /// Whether an iteration that has moved constraints so far, as a part of the face's size and as a length, was the last: with a
     /// tolerance so many times looser. `travel` is the farthest motion of a contact in the step.
     fn are_met(&self, looser: f64, [residual, moved, travel]: [f64; 3]) -> bool {
@@ -73,13 +49,11 @@ impl Limits {
         iterations >= self.unsettled || (iterations >= self.iterations && has_nearly_settled)
     }
 
-    /// The limits of a step after so many in a row in which iterations have not settled within the usual number. After one that has
-    /// settled they begin with nearly all of its forces. What only now and then does not settle is left at that: in folds that close
-    /// more iterations push tangled corners farther.
+    /// The limits of a step after so many in a row in which iterations have not settled within the usual number. What only now and then
+    /// does not settle is left at that: in folds that close more iterations push tangled corners farther.
     pub fn after(self, unsettled_steps: u64) -> Limits {
         let goes_on = unsettled_steps >= MANY_IN_A_ROW;
-        let beginning = if unsettled_steps == 0 && self.tolerance.is_finite() { BEGINNING_SETTLED } else { BEGINNING };
-        Limits { unsettled: if goes_on { self.unsettled } else { self.iterations }, beginning, ..self }
+        Limits { unsettled: if goes_on { self.unsettled } else { self.iterations }, ..self }
     }
 
     /// Whether a step has settled within the usual number of iterations.

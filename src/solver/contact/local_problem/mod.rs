@@ -287,7 +287,7 @@ impl LocalProblem {
         let LocalProblem { constraints, enforcer, motion, answers, .. } = self;
         // Of planes alone each rank knows its own.
         let ledger = if coupled { Ledger::Bank(bank) } else { Ledger::EachNode };
-        enforcer.prepare(constraints, motion, step.drift, &ledger, setting.limits.beginning);
+        enforcer.prepare(constraints, motion, step.drift, &ledger);
         for (c, state) in constraints.iter().zip(enforcer.states()).filter(|_| !answers.is_empty()) {
             state.own = answers[c.members[0] as usize];
         }

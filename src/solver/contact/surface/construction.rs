@@ -9,7 +9,7 @@ use crate::solver::contact::check::planes::PlaneNode;
 use crate::solver::contact::enforcement::accounts::certificate::Bank;
 use crate::solver::contact::enforcement::accounts::gain::Gain;
 use crate::solver::contact::enforcement::accounts::resultants::{Resultants, Subject};
-use crate::solver::contact::enforcement::iterations::{BEGINNING, Limits};
+use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::joints::Joints;
 use crate::solver::contact::local_problem::{LocalProblem, Numbering};
 use crate::solver::contact::nodes::ContactNodes;
@@ -214,14 +214,13 @@ fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limi
             iterations: control.passes,
             unsettled: control.unsettled_passes,
             tolerance: control.tolerance,
-            beginning: BEGINNING,
         };
     }
     let mut nodes = plane_node_sets.concat();
     nodes.sort_unstable();
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
     let iterations = if alone { 1 } else { control.passes };
-    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY, beginning: BEGINNING }
+    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY }
 }
 
 fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {

@@ -15,6 +15,10 @@ use crate::comm::ExactSum;
 use crate::common::vector::{dot, scaled, subtract};
 use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState};
 
+/// How far to go along the ray at most. Iterations that begin with less than the last forces end below what is needed, and
+/// everything that is pressed would creep into each other; the ray makes up for it on the whole.
+const FARTHEST: f64 = 2.0;
+
 /// A ray shortened by less than this is not shortened: round-off of its sums.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
@@ -149,8 +153,8 @@ impl Terms {
     }
 
     /// How far to go along the ray of these forces with these parts granted: to where they do no work against the targets, which is
-    /// also where they fit best, and at most `farthest`.
-    pub fn ray(&self, [rest, lift]: Granted, farthest: f64) -> f64 {
+    /// also where they fit best.
+    pub fn ray(&self, [rest, lift]: Granted) -> f64 {
         let wanted = self.least + rest * self.rest + lift * self.lift;
         let resisted = self.normal_change + self.friction_change;
         if resisted.is_nan() || wanted.is_nan() {
@@ -160,18 +164,18 @@ impl Terms {
             return 1.0;
         }
         // Where bodies slide, friction wants more than it may have: that must not press harder.
-        let farthest = if self.friction_change == 0.0 && self.friction_free == 0.0 { farthest } else { 1.0 };
+        let farthest = if self.friction_change == 0.0 && self.friction_free == 0.0 { FARTHEST } else { 1.0 };
         if resisted > 0.0 { (wanted / resisted).clamp(0.0, farthest) } else { 1.0 }
     }
 
-    /// How far to go along the ray of these forces, at most `farthest`, so that the bank can pay, and what that does to the bank. These
-    /// parts were `granted` when the forces were found; `kick` is the step's Δt̄.
-    pub fn settle(&self, (granted, farthest): (Granted, f64), kick: f64, bank: &mut Bank) -> f64 {
+    /// How far to go along the ray of these forces so that the bank can pay, and what that does to the bank. These parts were
+    /// `granted` when the forces were found; `kick` is the step's Δt̄.
+    pub fn settle(&self, granted: Granted, kick: f64, bank: &mut Bank) -> f64 {
         let asked = [0.5 * kick * self.rest, 0.5 * kick * self.lift];
         let rest = granted[0].min(paid(asked[0], bank.balance));
         let lift = granted[1].min(paid(asked[1], bank.balance - rest * asked[0]));
         let (claim, is_cut) = (rest * asked[0] + lift * asked[1], rest < granted[0] || lift < granted[1]);
-        let ray = self.ray([rest, lift], farthest);
+        let ray = self.ray([rest, lift]);
         // Longer forces claim more.
         let ray = if ray * claim > bank.balance { ray.min(1.0) } else { ray };
         let work = |free: f64, resisted: f64| 0.5 * kick * ray * (free + ray * resisted);
@@ -253,12 +257,12 @@ mod tests {
         let terms = Terms { least: -1.0, lift: 100.0, normal_change: 90.0, ..Default::default() };
         let mut bank = Bank { balance: 0.1, ..Default::default() };
         let granted = bank.granted();
-        assert_eq!((granted, terms.settle((granted, 2.0), 1.0, &mut bank)), ([1.0; 2], 0.0));
+        assert_eq!((granted, terms.settle(granted, 1.0, &mut bank)), ([1.0; 2], 0.0));
         let [_, mut lift] = bank.granted();
         assert!(lift < 0.01, "{lift}");
         // Nothing is asked for any more: it is granted again by and by.
         for _ in 0..30 {
-            Terms::default().settle((bank.granted(), 2.0), 1.0, &mut bank);
+            Terms::default().settle(bank.granted(), 1.0, &mut bank);
             let [_, next] = bank.granted();
             assert!(next > lift || next == 1.0, "{lift} {next}");
             lift = next;
