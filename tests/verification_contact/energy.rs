@@ -258,7 +258,7 @@ fn try_all(seeds: Range<u64>, scene: fn(u64) -> Scene, allowed: Allowed) {
 #[test]
 fn contact_gives_no_energy_in_confined_scenes() {
     // Sunk: folds, whose steps go a tenth of a face.
-    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 4, cut: 7 });
+    try_all(0..300, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 2, cut: 6 });
 }
 
 /// Scenes that had lost a node or an edge: noses that meet corner on corner, all of whose faces are met at the same time (485); what is
@@ -363,7 +363,6 @@ fn contact_of_shells_gives_no_energy_in_a_thousand_scenes() {
 #[test]
 #[ignore = "minutes in the release build: make verify"]
 fn contact_gives_no_energy_in_thousands_of_confined_scenes() {
-    // Deep: 4289 and 2345 (one pass a step), stacks of which nearly all corners have turned inside out, and 1204, a notch whose passes
-    // run out in 576 of 579 steps (3.1 motions). Sunk: folds.
-    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 3, sunk: 45, cut: 100 });
+    // Sunk: folds.
+    try_all(300..5000, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 20, cut: 55 });
 }

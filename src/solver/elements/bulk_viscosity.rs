@@ -1,4 +1,4 @@
-//! Bulk viscosity of solids and shells, and what it costs the stable step.
+//! Bulk viscosity of solid elements, and what it costs the stable step.
 
 use crate::lanes::Lanes;
 use crate::model::BulkViscosity;
@@ -7,13 +7,8 @@ use crate::model::BulkViscosity;
 /// without viscosity, `rate` tr D.
 #[inline(always)]
 pub fn damping<V: Lanes>(viscosity: BulkViscosity, bound: V, rate: V) -> V {
-    V::splat(viscosity.linear) + quadratic(viscosity, bound, rate)
-}
-
-/// The part of the damping ratio that grows with the rate, −b₂² Δt̂ min(0, tr D).
-#[inline(always)]
-pub fn quadratic<V: Lanes>(viscosity: BulkViscosity, bound: V, rate: V) -> V {
-    V::splat(-viscosity.quadratic * viscosity.quadratic) * bound * rate.min(V::splat(0.0))
+    let quadratic = V::splat(-viscosity.quadratic * viscosity.quadratic) * bound * rate.min(V::splat(0.0));
+    V::splat(viscosity.linear) + quadratic
 }
 
 /// What of the damping ratio acts in a material that answers with less than the modulus by which the step goes, `share` of it: its

@@ -8,7 +8,7 @@ use super::{point_rows, rows};
 use crate::lanes::{Lanes, Numbers, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
-use crate::solver::elements::bulk_viscosity::{damped_step, damping, quadratic};
+use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::accumulate;
 use std::marker::PhantomData;
@@ -292,8 +292,8 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         let elastic = self.elastic_part(rate, found.added);
         let bound = V::load(&state[rows::STEP], part);
         let linear = V::splat(self.viscosity.linear);
-        let viscous =
-            (linear * elastic + quadratic(self.viscosity, bound, rate) * rate) * V::splat(self.plane_modulus()) * bound;
+        let quadratic = damping(self.viscosity, bound, rate) - linear;
+        let viscous = (linear * elastic + quadratic * rate) * V::splat(self.plane_modulus()) * bound;
         let last = V::load(&state[S::ROWS.viscous_stress], part);
         viscous.store(&mut state[S::ROWS.viscous_stress], part);
         let work = (last + viscous) * rate * V::splat(0.5 * self.times[1]) * area * found.thickness;
