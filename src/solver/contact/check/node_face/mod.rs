@@ -2,7 +2,7 @@
 //!
 //! A point that comes anew is checked by motion: when does it come through the moving face from the front? A point
 //! that has touched before is checked where it would be at the end of the step. Of several faces those count that
-//! come first; ties go to the face that the point's body faces most, then to the lower number (Heinstein et al. 1993;
+//! come first, or as good as first; of these the face that the point's body faces most, then the lower number (Heinstein et al. 1993;
 //! Attaway et al. 1996, figures 3 and 4).
 
 mod newcomer;

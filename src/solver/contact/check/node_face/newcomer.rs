@@ -66,9 +66,8 @@ impl NodeFaceCheck<'_> {
     /// that border looks the same way as one of the point's own: what is as wide as the other body must not slip by for a little that
     /// it bulges. A pin in a hole that is a little wider finds no such side there.
     fn comes_flush(&self, point: u32, face: u32, [start, end]: [&Projection; 2]) -> Option<f64> {
-        let beyond = HOLD * self.faces.size[face as usize];
         let farther = if start.outside > end.outside { start } else { end };
-        if farther.outside <= 0.0 || farther.outside > beyond {
+        if farther.outside <= 0.0 || !self.is_hardly_beyond(face, farther) {
             return None;
         }
         let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
