@@ -158,6 +158,23 @@ fn laws_that_never_flow_keep_what_is_promised() {
     }
 }
 
+/// Of three plates of one element a rigid one does not bend, and one of eight points has stiffness in bending.
+#[test]
+fn walls_that_resist_bending_are_not_foretold() {
+    let desk = desk();
+    let plate = |block: u32| format!("BOX, {block}, 0., {block}., 0., 0.2, 0.02, 0.005, 20, 2, 1\n");
+    desk.put("walls.mesh", &format!("TITLE\n WALLS\n{}", [1, 2, 3].map(plate).concat()));
+    let law = |block: u32| format!("MATERIAL, {block}, ELASTIC, 7850.\n{STEEL}END\n");
+    let laws = [1, 2, 3].map(law).concat();
+    desk.put(
+        "walls.i",
+        &format!("TITLE\n WALLS\nTERMINATION TIME, 1.E-3\nRIGID BODY, 1\nELEMENT, 2, EIGHT POINTS\n{laws}EXIT\n"),
+    );
+    let told = desk.urto(&["check", "walls.i"]).with(0).out;
+    let walls: Vec<&str> = told.lines().filter(|line| line.contains("is a wall of one element")).collect();
+    assert!(walls.len() == 1 && walls[0].contains("block 3"), "{told}");
+}
+
 /// A plate of one element that bends, a single sliver, and states too far apart.
 #[test]
 fn what_a_scene_lacked_is_said() {

@@ -278,6 +278,33 @@ fn what_has_no_room_is_told() {
     assert!(first.contains("contact cannot move them"), "{}", left.err);
 }
 
+/// Rigid bricks that fly together, each turned in its own way, and nothing that holds or drives them: what passes that have not settled leave
+/// of an overlap is no lack of room.
+#[test]
+fn free_rigid_bodies_have_room() {
+    let places = [-0.16, 0.0, 0.16];
+    let centre = |i: usize| [places[i / 9], places[i / 3 % 3], places[i % 3]];
+    let (mut mesh, mut deck) =
+        (String::new(), "TERMINATION TIME, 0.06\nOUTPUT TIME, 0.002\nTIME STEP MAXIMUM, 2.E-4\n".to_string());
+    // Few passes leave much.
+    deck += "CONTACT MATERIAL, ALL\nCONTACT PASSES, 3, 1.E-5, 3\nCONTACT DATA, ALL, ALL, 0.3\n";
+    for (block, [x, y, z]) in (0..27).map(|i| (i + 1, centre(i))) {
+        mesh += &format!("BOX, {block}, {}, {}, {}, 0.09, 0.07, 0.06, 2, 2, 2\n", x - 0.045, y - 0.035, z - 0.03);
+        for (axis, turn) in [('X', 1.7), ('Y', 2.3), ('Z', 3.1)] {
+            mesh += &format!("ROTATE, {block}, {axis}, {}, {x}, {y}, {z}\n", 40.0 * (turn * block as f64).sin());
+        }
+        deck += &format!(
+            "RIGID BODY, {block}\nINITIAL VELOCITY MATERIAL, {block}, {}, {}, {}\n",
+            -20.0 * x,
+            -20.0 * y,
+            -20.0 * z
+        );
+        deck += &format!("MATERIAL, {block}, ELASTIC, 2000.\n{STEEL}");
+    }
+    let left = desk(&deck, &mesh).urto(&["case.i", "--ranks", "1"]).with(0);
+    assert!(!left.err.contains("contact cannot move them"), "{}", left.err);
+}
+
 /// Lines of a text that begin like this, which differ on no number of ranks.
 fn lines<'a>(text: &'a str, with: &str) -> Vec<&'a str> {
     text.lines().filter(|line| line.contains(with)).collect()

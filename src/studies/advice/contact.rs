@@ -14,6 +14,8 @@ const MANY_CANDIDATES: f64 = 0.05;
 const PAIRS: usize = 5;
 /// Part of all iterations from which a looser tolerance is worth words.
 const MANY_ITERATIONS: f64 = 0.1;
+/// Iterations that a step with contact makes at least, on average, where a looser tolerance is worth words: one or two cost next to nothing.
+const FEW_ITERATIONS: u64 = 3;
 
 pub fn advice(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
     let Some(contact) = &scene.solver.domain.contact else { return Vec::new() };
@@ -120,6 +122,9 @@ fn pairs(scene: &Scene, seen: &Seen, met: &[usize], list: &mut Vec<Advice>) {
 /// millionth of a face moves energies by a thousandth in the end.
 fn looser(scene: &Scene, seen: &Seen, list: &mut Vec<Advice>) {
     let control = &scene.model.contact.control;
+    if seen.iterations < FEW_ITERATIONS * seen.steps {
+        return;
+    }
     let spared = |(looser, factor): (&Looser, f64)| {
         (looser.iterations as f64 / seen.iterations.max(1) as f64, looser.moved, factor * control.tolerance)
     };

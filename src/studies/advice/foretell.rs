@@ -29,7 +29,7 @@ pub fn foretold(mesh: &Mesh, model: &Model, solver: &Solver) -> Vec<String> {
             ));
         }
     }
-    for index in thin_blocks(mesh) {
+    for index in thin_blocks(mesh, model) {
         let id = mesh.blocks[index].id;
         lines.push(format!(
             "block {id} is a wall of one element: where it bends, nothing but hourglass resistance holds it"

@@ -3,10 +3,11 @@
 use super::{Advice, Scene};
 use crate::comm::Communicator;
 use crate::mesh::exterior::{SIDES, exterior};
-use crate::mesh::{Mesh, Shape};
-use crate::model::Precision;
+use crate::mesh::{Block, Mesh, Shape};
+use crate::model::{Model, Precision};
 use crate::output::block_energies;
 use crate::solver::Finding;
+use crate::solver::elements::eight_points;
 
 /// Hourglass energy over internal energy from which a wall bends.
 const BENDS: f64 = 0.02;
@@ -17,7 +18,7 @@ pub fn advice(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
     let energies = block_energies(scene.mesh.blocks.len(), scene.solver, comm);
     let share = |index: usize| energies[4 * index + 2] / energies[4 * index + 1].abs();
     let bends = |index: usize| share(index) >= BENDS;
-    let thin = if (0..scene.mesh.blocks.len()).any(bends) { thin_blocks(scene.mesh) } else { Vec::new() };
+    let thin = if (0..scene.mesh.blocks.len()).any(bends) { thin_blocks(scene.mesh, scene.model) } else { Vec::new() };
     let thin: Vec<usize> = thin.into_iter().filter(|index| bends(*index)).collect();
     let words = |index: &usize| {
         let (id, percent) = (scene.mesh.blocks[*index].id, 100.0 * share(*index));
@@ -51,8 +52,9 @@ fn coarse(scene: &Scene, walls: &[usize]) -> Vec<Advice> {
 }
 
 /// Indices of the blocks of hexahedra most of whose elements reach from one side of the body to the other, and are less thick
-/// than wide.
-pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
+/// than wide; without rigid bodies, which do not bend, and elements of eight points, which have stiffness in bending.
+pub fn thin_blocks(mesh: &Mesh, model: &Model) -> Vec<usize> {
+    let resists = |block: &Block| model.is_rigid(block.id) || eight_points::asked_for(block.id, model);
     // A bit for each side.
     let mut outside = vec![0u8; mesh.element_count()];
     for face in exterior(mesh.shaped(), mesh.coordinates.len(), |_| true) {
@@ -63,7 +65,7 @@ pub fn thin_blocks(mesh: &Mesh) -> Vec<usize> {
     for (index, block) in mesh.blocks.iter().enumerate() {
         let own = first..first + block.len();
         first = own.end;
-        if block.shape != Shape::Hexahedron || block.is_empty() {
+        if block.shape != Shape::Hexahedron || block.is_empty() || resists(block) {
             continue;
         }
         let through =

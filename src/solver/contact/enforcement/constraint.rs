@@ -144,6 +144,8 @@ pub struct ConstraintState {
     pub closing: f64,
     /// How far the forces went along their ray, without dimension.
     pub ray: f64,
+    /// Whether it asks for less than it should because a rigid body has too little room.
+    pub pinned: bool,
     /// Whether this rank has made it.
     pub own: bool,
     /// Whether it pushed or overlapped at any time in this step: else nothing would be another without it.

@@ -50,7 +50,8 @@ pub(super) const HELD: f64 = 1e-6;
 /// What nothing can move out of a face is told once it is deeper than this part of the face's size.
 const DEEP: f64 = 0.05;
 
-/// The same of rigid bodies, which give way as a whole: what leaves them no room goes into them, whatever the iterations do.
+/// The same of rigid bodies that are pinned: what leaves them no room goes into them, whatever the iterations do. What iterations that have
+/// not settled leave between bodies that can give way is not of this kind.
 const DEEP_IN_RIGID: f64 = 0.002;
 
 /// Buffers of the iterations, kept from step to step.
@@ -75,7 +76,7 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
-    /// Deepest penetration before the step between members that nothing can move or between rigid bodies, or what is missing of the room
+    /// Deepest penetration before the step between members that nothing can move or of rigid bodies that are pinned, or what is missing of the room
     /// of a node between faces that nothing can move, as a part of the face's size, with a member; and on any rank. 0 where it is small.
     pub held: (f64, u32),
     pub(super) held_anywhere: f64,
@@ -144,6 +145,7 @@ impl Enforcer {
         let times = Times { drift: step.drift, kick: step.kick, both: step.drift * step.kick };
         self.list_members(constraints);
         self.iterates.begin(constraints, &self.states);
+        self.note_pinned(constraints);
         self.held_anywhere = self.held.0;
         if motion.mobility.joints.are_there() {
             self.joints.begin(&self.iterates, motion, others);
@@ -157,6 +159,7 @@ impl Enforcer {
             outcome = self.iterate(constraints, motion, times, limits, wanted, others);
             let has_run_out = outcome.is_some_and(|outcome| outcome.ran_out) && !motion.mobility.bodies.is_empty();
             if has_run_out && pinned_bodies::share_room(constraints, &mut self.states, motion, (Among::All, others)) {
+                self.note_pinned(constraints);
                 self.iterates.begin(constraints, &self.states);
                 outcome = self.iterate(constraints, motion, times, limits, true, others);
             }
@@ -285,7 +288,6 @@ impl Enforcer {
             let sunk = (c.carried.penetration / c.size, c.members[0]);
             if motion.mobility.is_rigid(c.parts(), &motion.inverse_mass) {
                 state.target = state.target.without_store(state.before);
-                self.note_held(sunk, DEEP_IN_RIGID);
             }
             // Where all members are held there is nothing to move.
             if inverse > HELD * isotropic {
@@ -305,6 +307,15 @@ impl Enforcer {
         }
         let pinned = pinned::share_room(constraints, &mut self.states, &self.lone);
         self.note_held(pinned, DEEP);
+    }
+
+    /// Notes how deep rigid bodies are in what leaves them no room.
+    fn note_pinned(&mut self, constraints: &[Constraint]) {
+        for (i, c) in constraints.iter().enumerate().take(self.states.len()) {
+            if self.states[i].pinned {
+                self.note_held((c.carried.penetration / c.size, c.members[0]), DEEP_IN_RIGID);
+            }
+        }
     }
 
     /// Notes how deep a member is in, a part of the face's size, that forces cannot bring out; not what is less deep than this part.

@@ -112,7 +112,7 @@ pub(in crate::solver::contact) fn share_room(
     shorter.sort_by_key(|(origin, _)| *origin);
     for (c, state) in constraints.iter().zip(states) {
         if let Ok(place) = shorter.binary_search_by_key(&c.origin, |(origin, _)| *origin) {
-            state.closing = shorter[place].1;
+            (state.closing, state.pinned) = (shorter[place].1, true);
         }
     }
     !shorter.is_empty()

@@ -30,6 +30,8 @@ pub struct Seen {
     pub friction: f64,
     /// Whether friction was ever as large as it can be, also while the forces of a step were sought.
     pub slid: bool,
+    /// Steps in which iterations were made.
+    pub steps: u64,
     /// Iterations made.
     pub iterations: u64,
     /// What tolerances so many times as large would have spared; the same on all ranks.
@@ -46,6 +48,7 @@ impl Seen {
             steps_before: f64::INFINITY,
             friction: -1.0,
             slid: false,
+            steps: 0,
             iterations: 0,
             looser: Default::default(),
         }
@@ -75,6 +78,7 @@ impl Seen {
 
     /// The iterations of a step.
     pub fn iterate(&mut self, outcome: &Outcome) {
+        self.steps += u64::from(outcome.iterations > 0);
         self.iterations += u64::from(outcome.iterations);
         for (all, spared) in self.looser.iter_mut().zip(&outcome.looser) {
             all.iterations += u64::from(spared.iterations);

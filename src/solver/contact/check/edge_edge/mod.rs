@@ -438,8 +438,11 @@ impl EdgeCheck<'_> {
         let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
             self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(separation, self.outwards(edge)) > 0.0
         });
+        // Over a line in a wall that ends at a rim an edge may slide, not over the rim itself.
         let is_in_the_way = || {
-            self.edges[pair[1] as usize].is_of_surface(self.faces)
+            let other = &self.edges[pair[1] as usize];
+            other.stands_out()
+                || other.is_of_surface(self.faces)
                 || !self.slides_over_rim((pair, half), end, f64::INFINITY)
         };
         (outwards && sense * end.gap < rim && is_in_the_way()).then_some(EdgeContact {
