@@ -17,6 +17,20 @@ pub struct Scene {
     pub friction: bool,
 }
 
+impl Scene {
+    /// The same scene whose mesh has the parts the other way round: nodes, faces and edges have other numbers, and nothing else is another.
+    pub fn in_another_order(self) -> Scene {
+        let makes = |line: &&str| ["BOX,", "SHEET", "LINE,"].iter().any(|verb| line.starts_with(verb));
+        let (mut parts, rest): (Vec<&str>, Vec<&str>) = self.recipe.lines().partition(makes);
+        parts.reverse();
+        // The title comes first, and what moves or names parts stands behind them.
+        let (title, rest) = rest.split_at(2);
+        let lines = title.iter().chain(&parts).chain(rest);
+        let recipe = lines.map(|line| format!("{line}\n")).collect();
+        Scene { recipe, ..self }
+    }
+}
+
 /// The seeds that `URTO_SCENES` asks for, or else these; and whether it asks.
 pub fn asked_for(seeds: Range<u64>) -> (Range<u64>, bool) {
     let asked = std::env::var("URTO_SCENES").ok().and_then(|text| {

@@ -341,6 +341,23 @@ fn contact_of_shells_gives_no_energy() {
     try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
+/// Which numbers nodes, faces and edges have must not matter.
+#[test]
+fn contact_gives_no_energy_in_any_order_of_the_parts() {
+    let allowed = Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 0, cut: 0 };
+    try_all(0..60, |seed| scene(seed).in_another_order(), allowed);
+    try_all(0..60, |seed| shell_scene(seed).in_another_order(), Allowed { deep: usize::MAX, ..allowed });
+}
+
+#[test]
+#[ignore = "minutes in the release build: make verify"]
+fn contact_gives_no_energy_in_any_order_of_the_parts_of_thousands() {
+    let allowed = Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 20, cut: 55 };
+    try_all(60..2000, |seed| scene(seed).in_another_order(), allowed);
+    let allowed = Allowed { crushed: 6, dipping: 9, deep: usize::MAX, sunk: 0, cut: 0 };
+    try_all(60..1200, |seed| shell_scene(seed).in_another_order(), allowed);
+}
+
 #[test]
 fn contact_of_triangles_gives_no_energy() {
     try_all(0..60, triangle_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });

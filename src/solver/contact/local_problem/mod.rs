@@ -408,9 +408,7 @@ impl LocalProblem {
                 motion.place_all(second.points(faces));
             }
             let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
-            // Surfaces have no depth to sink into: their edges look every step.
-            let waits = || !second.stands_out() && !first.is_of_surface(faces) && !check.comes_fast(pair, steps);
-            if !lines && past.is_none() && waits() {
+            if !lines && past.is_none() && check.may_wait(pair, steps) {
                 continue;
             }
             match check.pair(pair, past, pairing) {

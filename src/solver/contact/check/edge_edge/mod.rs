@@ -167,17 +167,23 @@ impl EdgeCheck<'_> {
         Box3::around(&[start(a), start(b), start(c), start(d), end(a), end(b), end(c), end(d)])
     }
 
-    /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
+    /// Box around the path of an edge over the step, in single precision.
     #[inline(always)]
-    fn apart(&self, pair: [u32; 2]) -> f64 {
-        let margins = pair.map(|edge| self.reaches[edge as usize]);
-        let distance = self.distance(pair);
-        let bounds = |edge: u32, margin: f64| {
-            let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
-            let of = |point: u32| self.motion.swept_box(point);
-            SweptBox::joined([of(a), of(b), of(c), of(d)], margin as f32)
-        };
-        f64::from(bounds(pair[0], margins[0].max(margins[1]) + distance).distance(&bounds(pair[1], 0.0)))
+    fn quick_box(&self, edge: u32) -> SweptBox {
+        let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
+        let motion = self.motion;
+        SweptBox::joined([motion.swept_box(a), motion.swept_box(b), motion.swept_box(c), motion.swept_box(d)], 0.0)
+    }
+
+    /// How far apart the swept boxes of two edges are along an axis, beyond where they are near, not above 0 where they are near; and beyond
+    /// where they touch.
+    #[inline(always)]
+    fn apart(&self, [first, second]: [u32; 2]) -> [f64; 2] {
+        let margin = self.reaches[first as usize].max(self.reaches[second as usize]);
+        let distance = self.distance([first, second]);
+        let (first, second) = (self.quick_box(first), self.quick_box(second));
+        let beyond = |margin: f64| f64::from(first.grown(margin as f32).distance(&second));
+        [beyond(margin + distance), beyond(distance)]
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
@@ -186,11 +192,14 @@ impl EdgeCheck<'_> {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
         let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
         if past.is_none() {
-            let apart = self.apart(pair);
-            if apart > 0.0 {
-                return EdgeVerdict::Apart(apart);
+            let [from_near, from_touching] = self.apart(pair);
+            if from_near > 0.0 {
+                return EdgeVerdict::Apart(from_near);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
+            if stand_out && from_touching > 0.0 {
+                return EdgeVerdict::Apart(0.0);
+            }
             let Some(crossing) = self.quick_crossing(pair) else { return EdgeVerdict::Apart(0.0) };
             if !stand_out && self.is_above(pair[1], &crossing) {
                 return EdgeVerdict::Apart(0.0);
@@ -201,14 +210,22 @@ impl EdgeCheck<'_> {
         match found {
             Some((now, constraint)) => EdgeVerdict::Touching(now, Box::new(constraint)),
             // Newcomers that come so far are near.
-            None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
+            None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair)[0].max(0.0))),
         }
+    }
+
+    /// Whether a pair that has not touched may wait until lines are looked for, so many steps like this one: edges of surfaces, which
+    /// have no depth to sink into, look in every step.
+    #[inline(always)]
+    pub fn may_wait(&self, pair: [u32; 2], steps: f64) -> bool {
+        let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
+        !second.stands_out() && !first.is_of_surface(self.faces) && !self.comes_fast(pair, steps)
     }
 
     /// Whether an edge may come to a line, within so many steps like this one, by more than the depth down to which the line takes it:
     /// one that is much longer than the face, whose nodes do not hold it back.
     #[inline(always)]
-    pub fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
+    fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
         let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
         let along = subtract(self.motion.start(first.ends[0]), self.motion.start(first.ends[1]));
         let size = second.faces.iter().map(|&face| self.faces.size[face as usize]).fold(f64::INFINITY, f64::min);

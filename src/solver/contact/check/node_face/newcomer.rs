@@ -27,14 +27,19 @@ impl NodeFaceCheck<'_> {
         if self.is_beyond_rim(point, face, &end) {
             return None;
         }
-        if !self.may_have_come_over(point, face, &end) || self.is_on_other_side(point, face) {
+        let distance = self.faces.distance(point, face);
+        let may_have_come = || self.may_have_come_over(point, face, &end);
+        if distance > 0.0 && !may_have_come() || self.is_on_other_side(point, face) {
             return None;
         }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights));
-        let distance = self.faces.distance(point, face);
         if distance == 0.0 && start.gap >= 0.0 {
+            // Most points near solids are behind their faces' planes, around a corner, before and after: they are not asked.
+            if !may_have_come() {
+                return None;
+            }
             let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
             return comes().then(|| contact(time, 0.0));
         }
