@@ -11,7 +11,7 @@ use crate::solver::{Body, state_names};
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
 /// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated;
 /// since 4 for how many steps contact has not settled.
-const FORMAT: &str = "4";
+const FORMAT: &str = "5";
 
 /// Differences told one by one.
 const TOLD: usize = 5;

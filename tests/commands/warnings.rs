@@ -432,7 +432,7 @@ fn a_state_without_findings_is_refused() {
     desk.put("case.i", &deck.replace("EXIT", "WRITE RESTART, 5.E-3\nEXIT"));
     desk.urto(&["case.i", "-q"]).with(0);
     let found = read_restart(&desk.path("case.rsout")).expect("a restart file");
-    let identity = found.identity.replace("format: 4", "format: 1");
+    let identity = found.identity.replace("format: 5", "format: 1");
     assert_ne!(identity, found.identity);
     let header =
         RestartHeader { mesh: &found.mesh, title: "old", qa: [const { String::new() }; 4], info: Vec::new(), identity };
@@ -442,7 +442,7 @@ fn a_state_without_findings_is_refused() {
     left.says(&[
         "error: old.rsout is of another version",
         "form 1",
-        "needs form 4",
+        "needs form 5",
         "what contact has made",
         "help: run from the start",
     ]);

@@ -61,6 +61,8 @@ pub struct Watch {
     supplied_before: [f64; 2],
     /// Time at the end of the last one.
     interval_end: f64,
+    /// Step of the last look at what is due at some lines only, see [`When::SomeLines`].
+    last_of_some: u64,
     /// What is worth a warning, in the order in which it was seen.
     findings: Vec<Finding>,
     /// How many of these have been handed out.
@@ -132,7 +134,7 @@ impl Watch {
     fn look(&mut self, solver: &Solver, totals: Totals, due: When, ends: bool, comm: &mut dyn Communicator) {
         // Lines are due at about a tenth as often as not: by the nearest boundary each of them counts for the same interval in any run.
         let interval = |time: f64| (time / (WINDOW * self.facts.termination_time)).round();
-        if due == When::Lines && interval(solver.time) > interval(self.interval_end) {
+        if due != When::Energies && interval(solver.time) > interval(self.interval_end) {
             self.supplied_before = [self.supplied_before[1], self.base()];
             self.interval_end = solver.time;
         }
@@ -154,12 +156,13 @@ impl Watch {
 
     /// Visits the state between two steps.
     pub fn visit_state(&mut self, archive: &mut dyn Archive) {
-        let Watch { facts: _, supplied, supplied_before: [earlier, before], interval_end, findings, told, causes } =
-            self;
+        let Watch { facts: _, supplied, supplied_before: [earlier, before], interval_end, last_of_some, .. } = self;
         archive.number("SUPPLIED", supplied);
         archive.number("SUPPLIEDEARLIER", earlier);
         archive.number("SUPPLIEDBEFORE", before);
         archive.number("SUPPLIEDTIME", interval_end);
+        archive.count("LOOKED", last_of_some);
+        let Watch { findings, told, causes, .. } = self;
         // Empty lists leave no trace in a file; this says that there was somebody who looked.
         let mut count = findings.len() as u64;
         archive.count("FINDINGS", &mut count);
@@ -230,6 +233,11 @@ impl Solver {
     fn look_for(&mut self, due: When, ends: bool, comm: &mut dyn Communicator) -> Totals {
         let totals = self.totals(comm);
         let mut watch = std::mem::take(&mut self.watch);
+        let is_some_time_ago = self.step >= watch.last_of_some + When::SOME_TIME;
+        let due = if due == When::Lines && (is_some_time_ago || ends) { When::SomeLines } else { due };
+        if due == When::SomeLines {
+            watch.last_of_some = self.step;
+        }
         let supplied = self.initial_energy + watch.facts.stored_energy + totals.external.max(0.0) + totals.press_fit;
         watch.supplied = watch.supplied.max(supplied);
         watch.look(self, totals, due, ends, comm);

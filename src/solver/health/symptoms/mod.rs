@@ -68,18 +68,25 @@ pub static SYMPTOMS: [Symptom; 18] = [
 pub enum When {
     /// At the first state: what the mesh begins with.
     Start,
-    /// Where a line of the log or a plot state is due: what costs as much as some steps.
+    /// Where a line of the log or a plot state is due and the last such look was some time ago, see [`When::SOME_TIME`], and at the end: what
+    /// costs as much as several steps.
+    SomeLines,
+    /// Where a line of the log or a plot state is due: what costs about as much as a step.
     Lines,
     /// Whenever energies are summed.
     Energies,
 }
 
 impl When {
+    /// Steps between looks at what is due at [`When::SomeLines`]: lines may be as close as a run is short, and must not cost more than it.
+    pub const SOME_TIME: u64 = 100;
+
     /// Whether it is due at a step where `look` is.
     pub fn is_due(self, look: When, step: u64) -> bool {
         match self {
             When::Start => step == 0,
-            When::Lines => look == When::Lines,
+            When::SomeLines => look == When::SomeLines,
+            When::Lines => look != When::Energies,
             When::Energies => true,
         }
     }

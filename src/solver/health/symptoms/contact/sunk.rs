@@ -10,7 +10,7 @@ use crate::solver::health::watch::Exam;
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 10,
-    when: When::Lines,
+    when: When::SomeLines,
     threshold: 0.0,
     cause: f64::INFINITY,
     measure,
