@@ -2,6 +2,7 @@
 
 use super::PlotError;
 use super::curve::Curve;
+use super::filter::Before;
 use super::options::PlotOptions;
 use super::run::{Run, Site};
 
@@ -37,8 +38,9 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
         for (chosen, right) in wanted {
             let y = values(run, &chosen)?;
             let (site, means) = (chosen.site, is_mean(run, &chosen));
+            let before = before(run, &chosen, means);
             let curve = Curve::of(chosen.label, run.times().to_vec(), y);
-            curves.push(Curve { right, run: number, site, means, ..curve });
+            curves.push(Curve { right, run: number, site, means, before, ..curve });
         }
     }
     name_runs(&mut curves, runs);
@@ -60,6 +62,16 @@ pub fn one(run: &Run, name: &str, options: &PlotOptions, site: Site) -> Result<(
 
 fn is_mean(run: &Run, chosen: &Chosen) -> bool {
     chosen.site == Site::Global && chosen.names.iter().all(|name| run.is_mean(name))
+}
+
+/// What a variable did before its first value.
+fn before(run: &Run, chosen: &Chosen, means: bool) -> Before {
+    let acceleration = || chosen.names.iter().all(|name| name.to_uppercase().starts_with("ACCL"));
+    match () {
+        () if run.begins_in_the_middle() => Before::Unknown,
+        () if means || acceleration() => Before::Steady,
+        () => Before::First,
+    }
 }
 
 fn values(run: &Run, chosen: &Chosen) -> Result<Vec<f64>, PlotError> {
