@@ -188,11 +188,12 @@ impl Tied {
     /// The node, with its weight, whose POINT MASS takes most off the mass of a node that it follows; `None` where that would not be
     /// positive without such masses either.
     fn heavy_follower(&self, mesh: &Mesh, model: &Model, leader: u32, mass: f64) -> Option<(u32, f64)> {
-        let sets: Vec<(Vec<u32>, f64)> =
-            model.point_masses.iter().map(|point| (mesh.distinct_nodes(point.node_set), point.mass)).collect();
-        let point_mass = |node: u32| -> f64 {
-            sets.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()).map(|(_, mass)| mass).sum()
-        };
+        let mut masses: BTreeMap<u32, f64> = BTreeMap::new();
+        for point in &model.point_masses {
+            let shares = mesh.shares_of(point.node_set).into_iter();
+            shares.for_each(|(node, factor)| *masses.entry(node).or_default() += factor * point.mass);
+        }
+        let point_mass = |node: u32| masses.get(&node).copied().unwrap_or_default();
         let weight = |one: &Follower| one.leaders.iter().find(|(node, _)| *node == leader).map(|(_, weight)| *weight);
         let given = |one: &Follower| weight(one).map(|weight| (one.node, weight, weight * point_mass(one.node)));
         let given: Vec<(u32, f64, f64)> = self.followers.iter().filter_map(given).collect();
