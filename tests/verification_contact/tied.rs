@@ -429,3 +429,32 @@ fn fixed_contact_is_tied() {
     assert_eq!(ties("CONTACT SURFACE, 200, 100, FIXED, 1."), expected);
     assert_ne!(ties("CONTACT SURFACE, 200, 100, FIXED, 0.5"), expected);
 }
+
+/// The deck drives followers: nothing is said where it drives what they follow alike, by whatever function, and else how many they are.
+#[test]
+fn followers_that_are_driven_otherwise_are_told() {
+    let mut mesh = stack(3, 2);
+    add_node_set(&mut mesh, 3, |x| x[2] == 0.6);
+    let of_second = |node: &u32| mesh.blocks[1].nodes.contains(node);
+    let (leading, following): (Vec<u32>, Vec<u32>) =
+        nodes_where(&mesh, |x| x[2] == 0.6).into_iter().partition(of_second);
+    mesh.node_sets.extend([(4, following), (5, leading)].map(|(id, nodes)| NodeSet { id, name: String::new(), nodes }));
+    let told = |drives: &str| {
+        let functions = "FUNCTION, 1\n 0., 0.\n 1., 1.\nEND\nFUNCTION, 2\n 0., 0.\n 1., 1.\nEND\nFUNCTION, 3\n 0., 1.\n 1., 1.\nEND\n";
+        let text = format!("TERMINATION TIME, 1.\nOUTPUT TIME, 1.\nTIED CONTACT, 100, 200\n{functions}{drives}{LAWS}");
+        Body::new(&mesh, &model(&text, &mesh)).expect("materials").tied.held.0
+    };
+    for (drives, count) in [
+        ("NO DISPLACEMENT, X, 4\nNO DISPLACEMENT, X, 5\n", 0),
+        ("NO DISPLACEMENT, X, 4\nNO DISPLACEMENT, Y, 5\n", 16),
+        ("PRESCRIBED VELOCITY, X, 4, 1, 5.\nNO DISPLACEMENT, X, 5\n", 16),
+        ("PRESCRIBED VELOCITY, X, 4, 1, 5.\nPRESCRIBED VELOCITY, X, 5, 1, 4.\n", 16),
+        ("PRESCRIBED VELOCITY, X, 4, 1, 5.\nPRESCRIBED VELOCITY, X, 5, 3, 5.\n", 16),
+        ("PRESCRIBED VELOCITY, X, 4, 1, 5.\nPRESCRIBED DISPLACEMENT, X, 5, 1, 5.\n", 16),
+        ("PRESCRIBED VELOCITY, X, 4, 1, 5.\nPRESCRIBED VELOCITY, X, 5, 2, 5.\n", 0),
+        ("PRESCRIBED VELOCITY, X, 3, 1, 5.\n", 0),
+        ("NO DISPLACEMENT, X, 5\n", 0),
+    ] {
+        assert_eq!(told(drives), count, "{drives}");
+    }
+}

@@ -8,6 +8,7 @@
 //! What a follower exerts and what its leaders do is known to all ranks, in the bits in which one of them computed it; each
 //! then finds the sums that it needs in the order of the followers.
 
+mod driven;
 mod mortar;
 
 pub use mortar::{Face, Follower, Joint, followers};
@@ -19,6 +20,7 @@ use crate::comm::Communicator;
 use crate::common::vector::{add, dot, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Model, Tie, Unknown};
+use driven::against_leaders;
 use std::collections::BTreeMap;
 
 /// The tied nodes of a body, and what was done to them.
@@ -31,7 +33,7 @@ pub struct Tied {
     /// How much faster than its elements a joint can vibrate: the largest eigenvalue of the masses of its nodes, as its elements have
     /// them, over those that are computed with, less 1; 0 where all weights are positive.
     pub excess: f64,
-    /// Those that the deck holds or drives although they follow, and the first of them, a node of the mesh.
+    /// Those that the deck holds or drives otherwise than what they follow, and the first of them, a node of the mesh.
     pub held: (usize, u32),
     /// For each command: nodes that follow, nodes of its first side set that do not, and the farthest that one was moved, a length.
     pub reports: Vec<TiedReport>,
@@ -71,7 +73,7 @@ impl Tied {
             all.reports.push(report);
         }
         all.place(positions);
-        all.held = held(mesh, model, &all.followers);
+        all.held = against_leaders(mesh, model, &all.followers);
         all
     }
 
@@ -238,18 +240,6 @@ pub fn held_nodes(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
     }
     held.iter_mut().for_each(|nodes| nodes.sort_unstable());
     held
-}
-
-/// How many of those that follow the deck holds or drives, while not all that they follow are; and the first.
-fn held(mesh: &Mesh, model: &Model, followers: &[Follower]) -> (usize, u32) {
-    let sets = held_nodes(mesh, model);
-    let has = |nodes: &[u32], node: u32| nodes.binary_search(&node).is_ok();
-    let loose = |one: &&Follower| {
-        sets.iter().any(|nodes| has(nodes, one.node) && one.leaders.iter().any(|(leader, _)| !has(nodes, *leader)))
-    };
-    let mut all = followers.iter().filter(loose).map(|one| one.node);
-    let first = all.next();
-    (first.map_or(0, |_| 1 + all.count()), first.unwrap_or(0))
 }
 
 /// Σ W of a vector of the leaders.
