@@ -10,6 +10,7 @@
 
 mod driven;
 mod mortar;
+mod ratio;
 
 pub use mortar::{Face, Follower, Joint, followers};
 
@@ -21,6 +22,7 @@ use crate::common::vector::{add, dot, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Model, Tie, Unknown};
 use driven::against_leaders;
+use ratio::Masses;
 use std::collections::BTreeMap;
 
 /// The tied nodes of a body, and what was done to them.
@@ -91,45 +93,8 @@ impl Tied {
         for (one, mass) in self.followers.iter().zip(&self.handed) {
             one.leaders.iter().for_each(|(node, weight)| masses[*node as usize] += weight * mass);
         }
-        self.excess = self.largest_ratio(&before, masses) - 1.0;
-    }
-
-    /// The largest λ with (m + Tᵀ m_f T) x = λ M x over the leaders, by power iteration: m their own masses, m_f those of
-    /// followers, T the weights, M the masses that are computed with, `after`. The step of elements is safe for the masses
-    /// on the left; M equals them for equal velocities, and is not below them for any where no weight is negative
-    /// (Gershgorin).
-    fn largest_ratio(&self, before: &[f64], after: &[f64]) -> f64 {
-        let negative = self.followers.iter().flat_map(|one| &one.leaders).any(|(_, weight)| *weight < 0.0);
-        let leaders = self.leaders();
-        if !negative || leaders.iter().any(|&node| after[node as usize] <= 0.0) {
-            return 1.0;
-        }
-        // Signs that follow no pattern of the mesh.
-        let mut x: Vec<f64> = vec![0.0; before.len()];
-        leaders
-            .iter()
-            .for_each(|&node| x[node as usize] = if node.wrapping_mul(2_654_435_769) >> 31 == 0 { 1.0 } else { -1.0 });
-        let mut ratio = 1.0;
-        for _ in 0..MOST_ITERATIONS {
-            let mut y: Vec<f64> = vec![0.0; before.len()];
-            leaders.iter().for_each(|&node| y[node as usize] = before[node as usize] * x[node as usize]);
-            for (one, mass) in self.followers.iter().zip(&self.handed) {
-                let sum: f64 = one.leaders.iter().map(|(node, weight)| weight * x[*node as usize]).sum();
-                one.leaders.iter().for_each(|(node, weight)| y[*node as usize] += weight * mass * sum);
-            }
-            let energy: f64 = leaders.iter().map(|&node| x[node as usize] * y[node as usize]).sum();
-            let whole: f64 = leaders.iter().map(|&node| after[node as usize] * x[node as usize].powi(2)).sum();
-            let found = energy / whole;
-            let settled = (found - ratio).abs() <= SETTLED * found;
-            ratio = found;
-            let largest =
-                leaders.iter().map(|&node| (y[node as usize] / after[node as usize]).abs()).fold(0.0, f64::max);
-            leaders.iter().for_each(|&node| x[node as usize] = y[node as usize] / (after[node as usize] * largest));
-            if settled {
-                break;
-            }
-        }
-        if ratio > 1.0 + SETTLED { ratio * MARGIN } else { 1.0 }
+        let joint = Masses::of(&self.followers, &self.handed, &before, masses);
+        self.excess = joint.map_or(1.0, |joint| joint.largest_ratio()) - 1.0;
     }
 
     /// Nodes that others follow, by their numbers, ascending.
@@ -220,15 +185,6 @@ impl Tied {
         Some(leaders.map(|(leader, weight)| weight * weight / masses[*leader as usize]).sum())
     }
 }
-
-/// Iterations for the largest ratio of masses at most.
-const MOST_ITERATIONS: usize = 300;
-
-/// Iterations end when it changes by less than this part.
-const SETTLED: f64 = 1e-4;
-
-/// What an iteration from below may have missed.
-const MARGIN: f64 = 1.02;
 
 /// Nodes whose positions the deck holds or drives along each axis, ascending.
 pub fn held_nodes(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
