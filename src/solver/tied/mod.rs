@@ -9,6 +9,7 @@
 //! then finds the sums that it needs in the order of the followers.
 
 mod driven;
+mod edges;
 mod mortar;
 mod ratio;
 
