@@ -405,7 +405,10 @@ fn a_blow_that_begins_with_the_run_is_filtered_as_one_that_comes_later() {
             let blow = last(&csv(&desk, &["bar.h", "-v", variable, "--integrate"]));
             let found = peak(&csv(&desk, &["bar.h", "-v", variable, "--filter", "CFC180"]));
             let expected = blow * corner * std::f64::consts::PI / std::f64::consts::SQRT_2;
-            assert!(blow > 0.0 && (found / expected - 1.0).abs() < 0.01, "{variable}, {gap}: {found} is not {expected}");
+            assert!(
+                blow > 0.0 && (found / expected - 1.0).abs() < 0.01,
+                "{variable}, {gap}: {found} is not {expected}"
+            );
         }
         let derived = peak(&csv(&desk, &["bar.h", "-v", "VELZ_BLOCK1", "--derive", "--filter", "CFC180"]));
         let own = peak(&csv(&desk, &["bar.h", "-v", "ACCLZ_BLOCK1", "--filter", "CFC180"]));
@@ -424,4 +427,27 @@ fn what_falls_freely_has_its_weight_from_the_beginning() {
     desk.urto(&["run", "bar.i", "-q"]).with(0);
     let found = csv(&desk, &["bar.h", "-v", "ACCLZ_BLOCK1", "--filter", "CFC180"]);
     assert!(found.len() > 90 && found.iter().all(|row| (row[1] + 9.81).abs() < 1e-6), "{found:?}");
+}
+
+/// What README shows: a plot file and its history, of which only one has energies.
+#[test]
+fn the_energies_of_a_plot_file_are_drawn_beside_a_history_without() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 0.5, 2.0]);
+    let header = ResultsHeader {
+        mesh: &cube(),
+        title: "A cube".to_owned(),
+        global: vec!["VELX_1".to_owned()],
+        nodal: Vec::new(),
+        element: Vec::new(),
+        qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+        info: Vec::new(),
+    };
+    let mut writer = ResultsWriter::create(&desk.path("run.h"), &header).expect("a file");
+    [0.0, 1.0].into_iter().for_each(|t| writer.write_state(t, &[3.0], &[], &[]).expect("a state"));
+    for files in [["run.e", "run.h"], ["run.h", "run.e"]] {
+        assert_eq!(csv(&desk, &files), [[0.0, 0.0], [0.5, 0.5], [2.0, 2.0]]);
+        assert_eq!(desk.text("out.csv").lines().next(), Some("time,run.e: KE"));
+    }
+    desk.urto(&["plot", "run.h", "-o", "h.png"]).with(2).says(&["VELX_1"]);
 }

@@ -22,13 +22,19 @@ struct Chosen {
 /// The curves that are asked for, of each run in turn.
 ///
 /// # Errors
-/// When a run lacks a variable, a node or an element.
+/// When a run lacks a variable, a node or an element; where none is asked for, when no run has energies.
 pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotError> {
     let mut curves = Vec::new();
+    let (mut without, asks) = (None, !options.variables.is_empty() || !options.right.is_empty());
     for (number, run) in runs.iter().enumerate() {
         let mut wanted: Vec<(Chosen, bool)> = Vec::new();
-        if options.variables.is_empty() && options.right.is_empty() {
-            wanted.extend(customary(run)?.into_iter().map(|chosen| (chosen, false)));
+        if !asks {
+            let energies = customary(run)?;
+            if energies.is_empty() {
+                // The history beside a plot file has none.
+                without = without.or(Some(run));
+            }
+            wanted.extend(energies.into_iter().map(|chosen| (chosen, false)));
         }
         for (names, right) in [(&options.variables, false), (&options.right, true)] {
             for name in names.iter() {
@@ -42,6 +48,10 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
             let curve = Curve::of(chosen.label, run.times().to_vec(), y);
             curves.push(Curve { right, run: number, site, means, before, ..curve });
         }
+    }
+    if let Some(run) = without.filter(|_| curves.is_empty()) {
+        let known = known(run).into_iter().map(str::to_owned).collect();
+        return Err(PlotError::Unsaid { path: run.path().to_owned(), known });
     }
     name_runs(&mut curves, runs);
     Ok(curves)
@@ -82,7 +92,7 @@ fn values(run: &Run, chosen: &Chosen) -> Result<Vec<f64>, PlotError> {
     })
 }
 
-/// The energies that are not zero all the time.
+/// The energies that are not zero all the time; none in a file that has none.
 fn customary(run: &Run) -> Result<Vec<Chosen>, PlotError> {
     let mut chosen = Vec::new();
     for name in CUSTOMARY {
@@ -91,10 +101,6 @@ fn customary(run: &Run) -> Result<Vec<Chosen>, PlotError> {
         {
             chosen.push(Chosen { label: name.to_owned(), names: vec![name.to_owned()], site: Site::Global });
         }
-    }
-    if chosen.is_empty() {
-        let known = known(run).into_iter().map(str::to_owned).collect();
-        return Err(PlotError::Unsaid { path: run.path().to_owned(), known });
     }
     Ok(chosen)
 }

@@ -100,9 +100,10 @@ fn subtract(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result
     }
     let other = [Run::open(path)?];
     let theirs = pick::curves(&other, options)?;
-    let per_run = curves.len() / runs.len().max(1);
-    for (place, curve) in curves.iter_mut().enumerate() {
-        let Some(their) = theirs.get(place % per_run.max(1)) else { continue };
+    let mut places = vec![0; runs.len()];
+    for curve in curves.iter_mut() {
+        let place = places.get_mut(curve.run).map_or(0, |next| std::mem::replace(next, *next + 1));
+        let Some(their) = theirs.get(place) else { continue };
         // Means over other intervals are others.
         curve.means &= their.means && their.x == curve.x;
         if their.before == Before::Unknown {
