@@ -326,10 +326,15 @@ pub fn is_recipe(path: &Path) -> bool {
 ///
 /// All mistakes of the recipe, or what cannot be read.
 pub fn make_mesh(recipe: &Path, refine: u32, given: &Arc<Definitions>, ranks: Option<u32>) -> Result<MeshOf, Failure> {
-    let source = open(recipe, given, ranks)
-        .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
-    let (mesh, found) =
-        mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))?;
+    let make = |refine: u32| {
+        let source = open(recipe, given, ranks)
+            .map_err(|e| Failure::input(format_args!("error: cannot read the recipe {}: {e}", recipe.display())))?;
+        mesher::make_with_warnings(source, refine as usize).map_err(|mistakes| Failure::input(render(&mistakes)))
+    };
+    let (mut mesh, found) = make(refine)?;
+    if refine > 1 && !mesh.node_sets.is_empty() {
+        mesh.share_out_as(&make(1)?.0);
+    }
     if !found.is_empty() {
         complain(render(&found));
     }

@@ -23,6 +23,8 @@ pub use part::{Part, Places};
 pub use shape::Shape;
 pub use shape::kind::Kind;
 
+use std::collections::BTreeMap;
+
 /// In how many dimensions the nodes of a mesh lie.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Dimension {
@@ -69,9 +71,12 @@ pub struct Mesh {
     pub element_ids: Vec<i64>,
     /// Quality-assurance records of the programs that made the mesh: name, version, date, time.
     pub qa: Vec<[String; 4]>,
-    /// Numbers of the node sets and of the side sets that the file gives distribution factors other than 1, which nothing
-    /// here uses: whoever loads such a set is told.
+    /// Numbers of the node sets and of the side sets that the file gives distribution factors other than 1. Those of side sets, and
+    /// those of node sets in motions, nothing here uses: whoever drives or presses such a set is told.
     pub weighted: [Vec<i64>; 2],
+    /// Distribution factors of node sets by their number, in the order of the set's nodes; sets without have 1. What is given per
+    /// node is multiplied by them: see [`Mesh::shares_of`].
+    pub node_factors: BTreeMap<i64, Vec<f64>>,
 }
 
 /// One element block: the elements of one material and one shape.

@@ -244,11 +244,10 @@ fn outside_the_mesh(point: [f64; 3], card: &Card, mesh: &Mesh, found: &mut Diagn
     );
 }
 
-/// Warns of a load or a motion on a set whose distribution factors would change it in other programs.
+/// Warns of a pressure or a motion on a set whose distribution factors would change it in other programs.
 fn unused_factors(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     /// Commands whose values other programs multiply by the factors.
-    const SCALED: [&str; 5] =
-        ["PRESSURE", "PRESCRIBED FORCE", "PRESCRIBED DISPLACEMENT", "PRESCRIBED VELOCITY", "PRESCRIBED ACCELERATION"];
+    const SCALED: [&str; 4] = ["PRESSURE", "PRESCRIBED DISPLACEMENT", "PRESCRIBED VELOCITY", "PRESCRIBED ACCELERATION"];
     if !SCALED.contains(&card.name.as_str()) {
         return;
     }

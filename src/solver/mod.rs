@@ -10,6 +10,7 @@ pub mod elements;
 mod erosion;
 mod forces;
 mod health;
+mod lanczos;
 pub mod loads;
 mod present;
 pub mod rigid;

@@ -201,3 +201,34 @@ fn contact_has_knobs_and_a_budget_is_kept() {
     desk.urto(&["trade", "two.i", "--within", "0"]).with(2).says(&["--within is 0"]);
     desk.urto(&["trade", "two.i", "--quantity", "KE:mean"]).with(2).says(&["expected NAME, NAME:last or NAME:peak"]);
 }
+
+/// A free bar that 250 N push at each of the four nodes of its end, and whose end carries 20 kg at each: momenta are those of 1000 N and
+/// 80 kg on any mesh, made anew or divided, and trade finds nothing to err in.
+#[test]
+fn forces_and_masses_per_node_keep_their_totals_on_finer_meshes() {
+    let desk = Desk::new();
+    desk.put("bar.mesh", "TITLE\n BAR\nBOX, 1, 0., 0., 0., 1., 0.1, 0.1, 4, 1, 1\nNODE SET FACE, 2, 1, RIGHT\n");
+    desk.put(
+        "bar.i",
+        "TITLE\n A BAR IS PUSHED\nTERMINATION TIME, 1.E-3\nPLOT TIME, 1.E-3\nFUNCTION, 1\n0., 1.\n1., 1.\nEND\n\
+         PRESCRIBED FORCE, X, 2, 1, 250.\nPOINT MASS, 2, 20.\nINITIAL VELOCITY MATERIAL, 1, 0., 0., -1.\n\
+         MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.\nEND\nEXIT\n",
+    );
+    desk.urto(&["mesh", "bar.mesh", "-o", "coarse.g"]).with(0);
+    desk.urto(&["refine", "coarse.g", "-o", "fine.g"]).with(0);
+    desk.urto(&["refine", "fine.g", "-o", "finest.g"]).with(0);
+    desk.urto(&["mesh", "bar.mesh", "--refine", "3", "-o", "three.g"]).with(0);
+    for mesh in
+        [&["--refine", "2"][..], &["-m", "coarse.g"], &["-m", "fine.g"], &["-m", "finest.g"], &["-m", "three.g"]]
+    {
+        let said = desk.urto(&[&["run", "bar.i", "-q", "--summary", "s.json"], mesh].concat());
+        said.with(0);
+        let found: Value = serde_json::from_str(&desk.text("s.json")).expect("JSON");
+        let last = |name: &str| found["globals"][name]["last"].as_f64().unwrap_or(f64::NAN);
+        assert!((last("XMOM") - 1.0).abs() < 1e-9, "{mesh:?}: {}", last("XMOM"));
+        assert!((last("ZMOM") + 158.5).abs() < 1e-9, "{mesh:?}: {}", last("ZMOM"));
+    }
+    let traded = desk.urto(&["trade", "bar.i", "--levels", "2,4", "--quantity", "XMOM,ZMOM"]).with(0);
+    assert!(traded.out.contains("The deck as it is: last XMOM is wrong by"), "{}", traded.out);
+    assert!(!traded.out.contains("CONVERGE"), "{}", traded.out);
+}

@@ -383,3 +383,71 @@ fn contact_tells_what_it_does_to_rigid_and_tied_bodies() {
         }
     }
 }
+
+/// A short blow of impulse J gives a filtered peak of J h(0), whose h(0) = ∫ df / (1 + (f/f_c)⁴) = f_c π/√2 is that of both passes of
+/// the filter, f_c 2.0775 times the class. When the run begins does not matter: at the wall, or 2 ms before it.
+#[test]
+fn a_blow_that_begins_with_the_run_is_filtered_as_one_that_comes_later() {
+    let desk = Desk::new();
+    desk.put("bar.mesh", "TITLE\n BAR\nBOX, 1, 0., 0., 0., .02, .02, .1, 1, 1, 10\nSIDE SET FACE, 100, 1, BOTTOM\n");
+    let corner = 2.0775 * 180.0;
+    for gap in [0.0, 0.01] {
+        let deck = format!(
+            "TITLE\n BAR ON A WALL\nTERMINATION TIME, 0.01\nHISTORY TIME, 2.E-5\nHISTORY RIGID SURFACE, 100\nHISTORY BLOCK, 1\n\
+             INITIAL VELOCITY MATERIAL, 1, 0., 0., -5.\nRIGID SURFACE, 100, 0., 0., -{gap:?}, 0., 0., 1.\n\
+             MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.\nEND\n"
+        );
+        desk.put("bar.i", &deck);
+        desk.urto(&["run", "bar.i", "-q"]).with(0);
+        let last = |rows: &[Vec<f64>]| rows.last().map_or(f64::NAN, |row| row[1]);
+        let peak = |rows: &[Vec<f64>]| rows.iter().map(|row| row[1]).fold(f64::NEG_INFINITY, f64::max);
+        for variable in ["FZ_WALL100", "ACCLZ_BLOCK1"] {
+            let blow = last(&csv(&desk, &["bar.h", "-v", variable, "--integrate"]));
+            let found = peak(&csv(&desk, &["bar.h", "-v", variable, "--filter", "CFC180"]));
+            let expected = blow * corner * std::f64::consts::PI / std::f64::consts::SQRT_2;
+            assert!(
+                blow > 0.0 && (found / expected - 1.0).abs() < 0.01,
+                "{variable}, {gap}: {found} is not {expected}"
+            );
+        }
+        let derived = peak(&csv(&desk, &["bar.h", "-v", "VELZ_BLOCK1", "--derive", "--filter", "CFC180"]));
+        let own = peak(&csv(&desk, &["bar.h", "-v", "ACCLZ_BLOCK1", "--filter", "CFC180"]));
+        assert!((derived / own - 1.0).abs() < 0.01, "{derived} {own}");
+    }
+}
+
+#[test]
+fn what_falls_freely_has_its_weight_from_the_beginning() {
+    let desk = Desk::new();
+    desk.put("bar.mesh", "TITLE\n BAR\nBOX, 1, 0., 0., 0., .02, .02, .1, 1, 1, 5\n");
+    let deck = "TITLE\n FREE FALL\nTERMINATION TIME, 0.01\nHISTORY TIME, 1.E-4\nHISTORY BLOCK, 1\nGRAVITY, 0., 0., -9.81\n\
+                INITIAL VELOCITY MATERIAL, 1, 0., 0., -5.\n\
+                MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+    desk.put("bar.i", deck);
+    desk.urto(&["run", "bar.i", "-q"]).with(0);
+    let found = csv(&desk, &["bar.h", "-v", "ACCLZ_BLOCK1", "--filter", "CFC180"]);
+    assert!(found.len() > 90 && found.iter().all(|row| (row[1] + 9.81).abs() < 1e-6), "{found:?}");
+}
+
+/// What README shows: a plot file and its history, of which only one has energies.
+#[test]
+fn the_energies_of_a_plot_file_are_drawn_beside_a_history_without() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 0.5, 2.0]);
+    let header = ResultsHeader {
+        mesh: &cube(),
+        title: "A cube".to_owned(),
+        global: vec!["VELX_1".to_owned()],
+        nodal: Vec::new(),
+        element: Vec::new(),
+        qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+        info: Vec::new(),
+    };
+    let mut writer = ResultsWriter::create(&desk.path("run.h"), &header).expect("a file");
+    [0.0, 1.0].into_iter().for_each(|t| writer.write_state(t, &[3.0], &[], &[]).expect("a state"));
+    for files in [["run.e", "run.h"], ["run.h", "run.e"]] {
+        assert_eq!(csv(&desk, &files), [[0.0, 0.0], [0.5, 0.5], [2.0, 2.0]]);
+        assert_eq!(desk.text("out.csv").lines().next(), Some("time,run.e: KE"));
+    }
+    desk.urto(&["plot", "run.h", "-o", "h.png"]).with(2).says(&["VELX_1"]);
+}

@@ -15,7 +15,8 @@ pub struct Mesh {
     /// The mesh to write; else the recipe's name with .g, here
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Multiplies every number of elements along an edge
+    /// Multiplies every number of elements along an edge; node sets get distribution factors, with which they bear what a deck gives
+    /// per node as often as without
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
     /// Turns a two-dimensional mesh about its y axis by so many degrees into hexahedra
@@ -39,7 +40,8 @@ pub struct Mesh {
 ///
 /// Hexahedra become eight, quadrilaterals four, bars two, wedges six hexahedra, pyramids four hexahedra and four pyramids.
 /// Old nodes keep their numbers, elements are numbered anew; blocks, sets, names and attributes stay, and so does the
-/// surface: curved sides keep their facets. A model that is run on both meshes tells how far it is from converged. Recipes
+/// surface: curved sides keep their facets. Node sets get distribution factors, with which forces and masses per node add up to the same
+/// as before. A model that is run on both meshes tells how far it is from converged. Recipes
 /// are better made anew: `urto mesh x.mesh --refine 2`.
 #[derive(Debug, Args)]
 pub struct Refine {

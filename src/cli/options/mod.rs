@@ -77,7 +77,8 @@ pub struct Input {
     /// Gives a name in the expressions of deck and recipe this value, in place of what {NAME = ...} gives it there
     #[arg(short = 'D', long, value_name = "NAME=VALUE")]
     pub define: Vec<String>,
-    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe
+    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe; what the deck gives per node of a set
+    /// keeps its total
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
 }

@@ -76,7 +76,8 @@ pub struct Sweep {
     /// Folder of the study; else the deck's name with _sweep, here
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
-    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe
+    /// Multiplies every number of elements along an edge, of a mesh that is made from a recipe; what the deck gives per node of a set
+    /// keeps its total
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub refine: u32,
     /// Ranks of each run
@@ -107,7 +108,8 @@ pub struct Sweep {
 /// Runs the deck in variants, one at a time: as it is, with a perturbation of the size of round-off, on finer meshes, and with each
 /// knob that the scene has turned by itself. Each is measured: processor time, steps, memory, and the error of what you care for,
 /// against the finest mesh and what its convergence says lies behind it. The table, the front of time over error and what
-/// refinement does come into a folder, as text, CSV and PNG, with the cheapest variant that is good enough in words. What was run
+/// refinement does come into a folder, as text, CSV and PNG, with the cheapest variant that is good enough in words. Forces and masses
+/// per node of a set keep their totals on finer meshes. What was run
 /// before is not run again: it can be stopped and continued, with a larger budget, too.
 #[derive(Debug, Args)]
 pub struct Trade {

@@ -98,7 +98,8 @@ pub fn refine(options: &options::Refine) -> Result<u8, Failure> {
     });
     Inputs::default().with("the mesh", [path]).spare(exodus::names_in_writing(&output), ANOTHER_NAME)?;
     let coarse = exodus::read_mesh(path).map_err(Failure::input)?;
-    let fine = refined(&coarse).map_err(|e| Failure::input(format_args!("error: {}: {e}", path.display())))?;
+    let mut fine = refined(&coarse).map_err(|e| Failure::input(format_args!("error: {}: {e}", path.display())))?;
+    fine.share_out_as(&coarse);
     exodus::write_mesh(&output, &fine).map_err(|e| Failure::run(format_args!("error: {e}")))?;
     let counts = |mesh: &Mesh| format!("{} nodes, {} elements", mesh.coordinates.len(), mesh.element_count());
     say(format_args!("{}: {}; {} had {}", output.display(), counts(&fine), path.display(), counts(&coarse)));

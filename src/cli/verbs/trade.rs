@@ -262,6 +262,7 @@ impl<'a> Trial<'a> {
             for _ in 1..refine.ilog2() {
                 divided = refined(&divided).map_err(Failure::input_error)?;
             }
+            divided.share_out_as(mesh);
             finer = divided;
             mesh = &finer;
         }

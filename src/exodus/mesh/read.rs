@@ -343,8 +343,8 @@ impl Reader<'_, '_> {
         let variable = names::node_set_nodes(n);
         let absent = self.arrays.dimension(&names::node_set_size(n)).is_none() && !self.arrays.has(&variable);
         let nodes = if null || absent { Vec::new() } else { self.required(&variable, &format!("node set {id}")) };
-        let weighted = !nodes.is_empty() && self.weighted(&names::node_set_factors(n));
-        NodeSetTable { id, name, nodes, weighted }
+        let factors = if nodes.is_empty() { Vec::new() } else { self.factors(&names::node_set_factors(n)) };
+        NodeSetTable { id, name, nodes, factors }
     }
 
     fn side_set(&mut self, n: usize, null: bool, id: i64, name: String) -> SideSetTable {
@@ -359,13 +359,14 @@ impl Reader<'_, '_> {
             name,
             elements: self.required(&elements, &place),
             sides: self.required(&sides, &place),
-            weighted: self.weighted(&names::side_set_factors(n)),
+            weighted: !self.factors(&names::side_set_factors(n)).is_empty(),
         }
     }
 
-    /// Whether an array of distribution factors says anything: programs that have none to give write ones, or zeros.
-    fn weighted(&mut self, name: &str) -> bool {
+    /// Distribution factors that say anything: programs that have none to give write ones, or zeros.
+    fn factors(&mut self, name: &str) -> Vec<f64> {
         let factors = self.whole_reals(name).ok().flatten().unwrap_or_default();
-        !factors.iter().all(|&factor| factor == 1.0) && !factors.iter().all(|&factor| factor == 0.0)
+        let says_nothing = [0.0, 1.0].iter().any(|nothing| factors.iter().all(|factor| factor == nothing));
+        if says_nothing { Vec::new() } else { factors }
     }
 }

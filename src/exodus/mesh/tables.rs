@@ -66,8 +66,8 @@ pub struct NodeSetTable {
     pub name: String,
     /// Node positions, one-based.
     pub nodes: Vec<i64>,
-    /// Whether it has distribution factors other than 1.
-    pub weighted: bool,
+    /// Distribution factors, one a node; empty where they say nothing.
+    pub factors: Vec<f64>,
 }
 
 /// One side set's arrays.
@@ -116,10 +116,12 @@ impl Tables {
         let mut ids = element_ids.iter();
         let blocks = self.blocks.into_iter().map(|b| b.assemble((dimension, nodes), &mut ids, &mut problems)).collect();
         let weighted = [
-            self.node_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
+            self.node_sets.iter().filter(|set| !set.factors.is_empty()).map(|set| set.id).collect(),
             self.side_sets.iter().filter(|set| set.weighted).map(|set| set.id).collect(),
         ];
         unique("node set", self.node_sets.iter().map(|s| s.id), &mut problems);
+        let factors = self.node_sets.iter().filter(|set| !set.factors.is_empty());
+        let node_factors = factors.map(|set| (set.id, set.factors.clone())).collect();
         let node_sets = self.node_sets.into_iter().map(|s| s.assemble(nodes, &mut problems)).collect();
         unique("side set", self.side_sets.iter().map(|s| s.id), &mut problems);
         let side_sets = self.side_sets.into_iter().map(|s| s.assemble(elements, &kinds, &mut problems)).collect();
@@ -133,7 +135,19 @@ impl Tables {
         }
         let coordinates = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect();
         let (title, qa) = (self.title, self.qa);
-        Ok(Mesh { title, dimension, coordinates, blocks, node_sets, side_sets, node_ids, element_ids, qa, weighted })
+        Ok(Mesh {
+            title,
+            dimension,
+            coordinates,
+            blocks,
+            node_sets,
+            side_sets,
+            node_ids,
+            element_ids,
+            qa,
+            weighted,
+            node_factors,
+        })
     }
 
     /// Number of nodes, once all that speak of it agree.
@@ -286,7 +300,16 @@ impl BlockTable {
 
 impl NodeSetTable {
     fn assemble(self, nodes: usize, problems: &mut Problems) -> NodeSet {
-        let references = References::new(format!("node set {}", self.id), Target::Node, nodes, problems);
+        let place = format!("node set {}", self.id);
+        if !self.factors.is_empty() && self.factors.len() != self.nodes.len() {
+            let (own, others) = (counted(self.nodes.len(), "node"), counted(self.factors.len(), "distribution factor"));
+            problems.add(|| Problem::new(format!("{place}: {own} but {others}"), "write the mesh again"));
+        }
+        if self.factors.iter().any(|factor| !factor.is_finite()) {
+            let what = format!("{place}: a distribution factor is no number");
+            problems.add(|| Problem::new(what, "write the mesh again"));
+        }
+        let references = References::new(place, Target::Node, nodes, problems);
         NodeSet { id: self.id, name: self.name, nodes: references.resolve_all(&self.nodes) }
     }
 }

@@ -204,6 +204,9 @@ impl<'a> Writer<'a> {
             let size = names::node_set_size(n);
             self.dimensions(&[(&size, set.nodes.len())])?;
             self.variable::<i32>(&names::node_set_nodes(n), &[&size])?;
+            if mesh.node_factors.contains_key(&set.id) {
+                self.variable::<f64>(&names::node_set_factors(n), &[&size])?;
+            }
         }
         self.define_family(&names::SIDE_SETS, mesh.side_sets.len())?;
         for (n, set) in mesh.side_sets.iter().enumerate().filter(|(_, set)| !set.sides.is_empty()) {
@@ -351,6 +354,9 @@ impl<'a> Writer<'a> {
         self.put_family(&names::NODE_SETS, list)?;
         for (n, set) in mesh.node_sets.iter().enumerate().filter(|(_, set)| !set.nodes.is_empty()) {
             self.values(&names::node_set_nodes(n), &one_based(&set.nodes))?;
+            if let Some(factors) = mesh.node_factors.get(&set.id) {
+                self.values(&names::node_set_factors(n), factors)?;
+            }
         }
         let list = mesh.side_sets.iter().map(|s| (s.id, s.name.as_str(), !s.sides.is_empty()));
         self.put_family(&names::SIDE_SETS, list)?;

@@ -44,6 +44,7 @@ impl Gathering {
             element_ids: vec![0; sizes.elements()],
             qa: Vec::new(),
             weighted: Default::default(),
+            node_factors: Default::default(),
         };
         Gathering { mesh, node_seen: vec![false; sizes.nodes], sizes: sizes.clone() }
     }

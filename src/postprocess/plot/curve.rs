@@ -1,5 +1,6 @@
 //! A curve: what is drawn, written as numbers, and told in words.
 
+use super::filter::Before;
 use super::run::Site;
 
 /// Values over something.
@@ -23,6 +24,8 @@ pub struct Curve {
     pub site: Site,
     /// Each value is the mean from the value before it to its own place.
     pub means: bool,
+    /// What it did before its first value.
+    pub before: Before,
 }
 
 /// A curve's least, greatest and last value.
@@ -48,7 +51,8 @@ impl Curve {
     pub fn of(label: impl Into<String>, x: Vec<f64>, y: Vec<f64>) -> Curve {
         let label = label.into();
         let site = Site::Global;
-        Curve { label, x, y, right: false, points: false, reference: false, run: 0, site, means: false }
+        let before = Before::default();
+        Curve { label, x, y, right: false, points: false, reference: false, run: 0, site, means: false, before }
     }
 
     /// The extremes among finite values; `None` where there are none.

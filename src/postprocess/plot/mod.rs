@@ -20,7 +20,7 @@ use std::path::Path;
 
 pub use curve::{Curve, Extremes};
 pub use error::PlotError;
-pub use filter::Class;
+pub use filter::{Before, Class};
 pub use options::{Log, PlotOptions, Range};
 pub use paper::Texts;
 pub use run::{Run, Site};

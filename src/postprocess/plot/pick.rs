@@ -2,6 +2,7 @@
 
 use super::PlotError;
 use super::curve::Curve;
+use super::filter::Before;
 use super::options::PlotOptions;
 use super::run::{Run, Site};
 
@@ -21,13 +22,19 @@ struct Chosen {
 /// The curves that are asked for, of each run in turn.
 ///
 /// # Errors
-/// When a run lacks a variable, a node or an element.
+/// When a run lacks a variable, a node or an element; where none is asked for, when no run has energies.
 pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotError> {
     let mut curves = Vec::new();
+    let (mut without, asks) = (None, !options.variables.is_empty() || !options.right.is_empty());
     for (number, run) in runs.iter().enumerate() {
         let mut wanted: Vec<(Chosen, bool)> = Vec::new();
-        if options.variables.is_empty() && options.right.is_empty() {
-            wanted.extend(customary(run)?.into_iter().map(|chosen| (chosen, false)));
+        if !asks {
+            let energies = customary(run)?;
+            if energies.is_empty() {
+                // The history beside a plot file has none.
+                without = without.or(Some(run));
+            }
+            wanted.extend(energies.into_iter().map(|chosen| (chosen, false)));
         }
         for (names, right) in [(&options.variables, false), (&options.right, true)] {
             for name in names.iter() {
@@ -37,9 +44,14 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
         for (chosen, right) in wanted {
             let y = values(run, &chosen)?;
             let (site, means) = (chosen.site, is_mean(run, &chosen));
+            let before = before(run, &chosen, means);
             let curve = Curve::of(chosen.label, run.times().to_vec(), y);
-            curves.push(Curve { right, run: number, site, means, ..curve });
+            curves.push(Curve { right, run: number, site, means, before, ..curve });
         }
+    }
+    if let Some(run) = without.filter(|_| curves.is_empty()) {
+        let known = known(run).into_iter().map(str::to_owned).collect();
+        return Err(PlotError::Unsaid { path: run.path().to_owned(), known });
     }
     name_runs(&mut curves, runs);
     Ok(curves)
@@ -62,6 +74,16 @@ fn is_mean(run: &Run, chosen: &Chosen) -> bool {
     chosen.site == Site::Global && chosen.names.iter().all(|name| run.is_mean(name))
 }
 
+/// What a variable did before its first value.
+fn before(run: &Run, chosen: &Chosen, means: bool) -> Before {
+    let acceleration = || chosen.names.iter().all(|name| name.to_uppercase().starts_with("ACCL"));
+    match () {
+        () if run.begins_in_the_middle() => Before::Unknown,
+        () if means || acceleration() => Before::Steady,
+        () => Before::First,
+    }
+}
+
 fn values(run: &Run, chosen: &Chosen) -> Result<Vec<f64>, PlotError> {
     let parts = chosen.names.iter().map(|name| run.values(name, chosen.site)).collect::<Result<Vec<_>, _>>()?;
     Ok(match parts.as_slice() {
@@ -70,7 +92,7 @@ fn values(run: &Run, chosen: &Chosen) -> Result<Vec<f64>, PlotError> {
     })
 }
 
-/// The energies that are not zero all the time.
+/// The energies that are not zero all the time; none in a file that has none.
 fn customary(run: &Run) -> Result<Vec<Chosen>, PlotError> {
     let mut chosen = Vec::new();
     for name in CUSTOMARY {
@@ -79,10 +101,6 @@ fn customary(run: &Run) -> Result<Vec<Chosen>, PlotError> {
         {
             chosen.push(Chosen { label: name.to_owned(), names: vec![name.to_owned()], site: Site::Global });
         }
-    }
-    if chosen.is_empty() {
-        let known = known(run).into_iter().map(str::to_owned).collect();
-        return Err(PlotError::Unsaid { path: run.path().to_owned(), known });
     }
     Ok(chosen)
 }

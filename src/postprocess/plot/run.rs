@@ -111,6 +111,11 @@ impl Run {
         own.peek().is_some() && own.all(|part| part.means.is_mean(name))
     }
 
+    /// Whether its first state is in the middle of an event: what was written before is not among its parts.
+    pub fn begins_in_the_middle(&self) -> bool {
+        self.parts.iter().find(|part| part.states > 0).is_some_and(|part| part.means.since.is_some())
+    }
+
     /// Names of variables at a site, in any part.
     pub fn names(&self, site: Site) -> &[String] {
         let [global, nodal, element] = &self.names;

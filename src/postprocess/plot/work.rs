@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::PlotError;
 use super::curve::Curve;
-use super::filter::{Class, ENOUGH_SAMPLES, filtered};
+use super::filter::{Before, Class, ENOUGH_SAMPLES, filtered};
 use super::options::PlotOptions;
 use super::pick;
 use super::run::Run;
@@ -24,6 +24,7 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
         if options.derive {
             enough(curve)?;
             curve.y = derivative(&curve.x, &curve.y);
+            curve.before = before_derivative(curve);
             curve.label = format!("d/dt {}", curve.label);
             curve.means = false;
         }
@@ -31,6 +32,8 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
             curve.y = if curve.means { sum_of_means(&curve.x, &curve.y) } else { integral(&curve.x, &curve.y) };
             curve.label = format!("integral of {}", curve.label);
             curve.means = false;
+            // It begins with nothing.
+            curve.before = Before::First;
         }
         if let Some(class) = options.filter {
             enough(curve)?;
@@ -54,8 +57,21 @@ pub fn on(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result<V
 fn without_ends(curve: &mut Curve) {
     let Some(first) = curve.y.iter().position(|value| value.is_finite()) else { return };
     let behind = curve.y.iter().rposition(|value| value.is_finite()).map_or(first, |last| last + 1);
+    if first > 0 {
+        curve.before = Before::Unknown;
+    }
     curve.x = curve.x[first..behind].to_vec();
     curve.y = curve.y[first..behind].to_vec();
+}
+
+/// What the derivative of a curve did before its first value: a velocity becomes an acceleration.
+fn before_derivative(curve: &Curve) -> Before {
+    let velocity = || ["VEL", "|VEL", "ROT", "|ROT"].iter().any(|stem| curve.label.starts_with(stem));
+    match curve.before {
+        Before::First if velocity() => Before::Slope,
+        Before::First | Before::Steady | Before::Slope => Before::First,
+        Before::Unknown => Before::Unknown,
+    }
 }
 
 fn enough(curve: &Curve) -> Result<(), PlotError> {
@@ -84,11 +100,15 @@ fn subtract(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result
     }
     let other = [Run::open(path)?];
     let theirs = pick::curves(&other, options)?;
-    let per_run = curves.len() / runs.len().max(1);
-    for (place, curve) in curves.iter_mut().enumerate() {
-        let Some(their) = theirs.get(place % per_run.max(1)) else { continue };
+    let mut places = vec![0; runs.len()];
+    for curve in curves.iter_mut() {
+        let place = places.get_mut(curve.run).map_or(0, |next| std::mem::replace(next, *next + 1));
+        let Some(their) = theirs.get(place) else { continue };
         // Means over other intervals are others.
         curve.means &= their.means && their.x == curve.x;
+        if their.before == Before::Unknown {
+            curve.before = Before::Unknown;
+        }
         let at = |time: &f64| interpolate(&their.x, &their.y, *time);
         let differences = curve.x.iter().zip(&curve.y).map(|(time, y)| y - at(time)).collect();
         curve.y = differences;
@@ -115,7 +135,7 @@ fn filter(curve: &mut Curve, class: Class, second: f64) -> Result<Option<String>
     );
     let values: Vec<f64> = times.iter().map(|&time| interpolate(&curve.x, &curve.y, time)).collect();
     let class_name = format!("CFC{}", class.hertz);
-    curve.y = filtered(&values, frequency, interval).ok_or_else(|| {
+    curve.y = filtered(&values, frequency, interval, curve.before).ok_or_else(|| {
         wrong(format!("states every {interval:.2e} are too far apart for {class_name}\n  help: {hint}"))
     })?;
     curve.x = times;

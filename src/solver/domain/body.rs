@@ -278,12 +278,12 @@ impl Body {
     fn add_point_masses(&mut self, mesh: &Mesh, model: &Model) {
         for point in &model.point_masses {
             // A node that its set names twice has the mass once.
-            for node in mesh.distinct_nodes(point.node_set) {
+            for (node, factor) in mesh.shares_of(point.node_set) {
                 if self.node_mass[node as usize] > 0.0 {
-                    self.node_mass[node as usize] += point.mass;
+                    self.node_mass[node as usize] += factor * point.mass;
                 }
                 if let Some(rotation) = self.rotations.of(node) {
-                    self.node_mass[rotation as usize] += point.inertia;
+                    self.node_mass[rotation as usize] += factor * point.inertia;
                 }
             }
         }

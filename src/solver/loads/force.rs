@@ -4,7 +4,7 @@ use super::{Account, Key, Load, LoadEntry, Places, Setting, Turn, function_numbe
 use crate::common::numbers::number;
 use crate::model::{Function, Model, PrescribedForce, Unknown};
 use crate::solver::constraints::StepTimes;
-use crate::solver::domain::unknowns_of_set;
+use crate::solver::domain::ABSENT;
 use crate::solver::nodes::Nodes;
 
 pub(super) static ENTRY: LoadEntry =
@@ -24,13 +24,21 @@ fn make(setting: &Setting) -> Option<Box<dyn Load>> {
     let mut forces = Vec::new();
     for load in &setting.model.prescribed_forces {
         // A node that its set names twice gets the force once.
-        let rotations = &setting.body.rotations;
-        let mut nodes: Vec<u32> =
-            unknowns_of_set(setting.mesh, load.node_set, load.of, rotations, setting.local).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let (axis, function, scale) = (load.direction.axis(), load.function, load.scale);
-        forces.extend(nodes.into_iter().map(|node| NodeForce { node, axis, function, scale, force: 0.0, work: 0.0 }));
+        let shares = setting.mesh.shares_of(load.node_set).into_iter();
+        let unknown = |node: u32| match load.of {
+            Unknown::Position => Some(node),
+            Unknown::Rotation => setting.body.rotations.of(node),
+        };
+        let mut nodes: Vec<(u32, f64)> = shares
+            .filter_map(|(node, factor)| Some((setting.local[unknown(node)? as usize], factor)))
+            .filter(|(node, _)| *node != ABSENT)
+            .collect();
+        nodes.sort_by_key(|(node, _)| *node);
+        let (axis, function) = (load.direction.axis(), load.function);
+        forces.extend(nodes.into_iter().map(|(node, factor)| {
+            let scale = load.scale * factor;
+            NodeForce { node, axis, function, scale, force: 0.0, work: 0.0 }
+        }));
     }
     (!forces.is_empty()).then(|| Box::new(NodeForces(forces)) as Box<dyn Load>)
 }

@@ -427,7 +427,7 @@ fn moments(mesh: &Mesh, model: &Model, body: &Body) -> Vec<BodyMoment> {
     for load in model.prescribed_forces.iter().filter(|load| load.of == Unknown::Rotation) {
         for (number, shape) in (0..).zip(&body.rigid) {
             let nodes = shape.without_rotation(mesh, load.node_set, &body.rotations);
-            let (axis, scale) = (load.direction.axis(), load.scale * nodes as f64);
+            let (axis, scale) = (load.direction.axis(), load.scale * nodes);
             moments.push(BodyMoment { body: number, axis, function: load.function, scale });
         }
     }

@@ -41,10 +41,10 @@ pub struct BodyShape {
 }
 
 impl BodyShape {
-    /// How many nodes of a node set are the body's and turn with it only, having no rotation of their own.
-    pub fn without_rotation(&self, mesh: &Mesh, node_set: i64, rotations: &Rotations) -> usize {
-        let is_own = |node: &&u32| self.nodes.binary_search(node).is_ok() && rotations.of(**node).is_none();
-        mesh.distinct_nodes(node_set).iter().filter(is_own).count()
+    /// How many nodes of a node set are the body's and turn with it only, having no rotation of their own; by their factors.
+    pub fn without_rotation(&self, mesh: &Mesh, node_set: i64, rotations: &Rotations) -> f64 {
+        let is_own = |node: u32| self.nodes.binary_search(&node).is_ok() && rotations.of(node).is_none();
+        mesh.shares_of(node_set).iter().filter(|(node, _)| is_own(*node)).map(|(_, factor)| factor).sum()
     }
 }
 
@@ -143,7 +143,7 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
     shape.surplus_of = owned.map(|block| (block, surpluses[block].inertia())).collect();
     let mut points = Moments::default();
     for point in &model.point_masses {
-        points.turning(point.inertia * shape.without_rotation(mesh, point.node_set, &body.rotations) as f64);
+        points.turning(point.inertia * shape.without_rotation(mesh, point.node_set, &body.rotations));
     }
     let surplus = shape.surplus_of.iter().fold(points.inertia(), |all, (_, own)| sum(&all, own));
     let inertia = sum(&of_rows.inertia(), &surplus);

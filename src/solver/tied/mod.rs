@@ -8,7 +8,10 @@
 //! What a follower exerts and what its leaders do is known to all ranks, in the bits in which one of them computed it; each
 //! then finds the sums that it needs in the order of the followers.
 
+mod driven;
+mod edges;
 mod mortar;
+mod ratio;
 
 pub use mortar::{Face, Follower, Joint, followers};
 
@@ -19,6 +22,8 @@ use crate::comm::Communicator;
 use crate::common::vector::{add, dot, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::{Model, Tie, Unknown};
+use driven::against_leaders;
+use ratio::Masses;
 use std::collections::BTreeMap;
 
 /// The tied nodes of a body, and what was done to them.
@@ -31,7 +36,7 @@ pub struct Tied {
     /// How much faster than its elements a joint can vibrate: the largest eigenvalue of the masses of its nodes, as its elements have
     /// them, over those that are computed with, less 1; 0 where all weights are positive.
     pub excess: f64,
-    /// Those that the deck holds or drives although they follow, and the first of them, a node of the mesh.
+    /// Those that the deck holds or drives otherwise than what they follow, and the first of them, a node of the mesh.
     pub held: (usize, u32),
     /// For each command: nodes that follow, nodes of its first side set that do not, and the farthest that one was moved, a length.
     pub reports: Vec<TiedReport>,
@@ -71,7 +76,7 @@ impl Tied {
             all.reports.push(report);
         }
         all.place(positions);
-        all.held = held(mesh, model, &all.followers);
+        all.held = against_leaders(mesh, model, &all.followers);
         all
     }
 
@@ -89,45 +94,8 @@ impl Tied {
         for (one, mass) in self.followers.iter().zip(&self.handed) {
             one.leaders.iter().for_each(|(node, weight)| masses[*node as usize] += weight * mass);
         }
-        self.excess = self.largest_ratio(&before, masses) - 1.0;
-    }
-
-    /// The largest λ with (m + Tᵀ m_f T) x = λ M x over the leaders, by power iteration: m their own masses, m_f those of
-    /// followers, T the weights, M the masses that are computed with, `after`. The step of elements is safe for the masses
-    /// on the left; M equals them for equal velocities, and is not below them for any where no weight is negative
-    /// (Gershgorin).
-    fn largest_ratio(&self, before: &[f64], after: &[f64]) -> f64 {
-        let negative = self.followers.iter().flat_map(|one| &one.leaders).any(|(_, weight)| *weight < 0.0);
-        let leaders = self.leaders();
-        if !negative || leaders.iter().any(|&node| after[node as usize] <= 0.0) {
-            return 1.0;
-        }
-        // Signs that follow no pattern of the mesh.
-        let mut x: Vec<f64> = vec![0.0; before.len()];
-        leaders
-            .iter()
-            .for_each(|&node| x[node as usize] = if node.wrapping_mul(2_654_435_769) >> 31 == 0 { 1.0 } else { -1.0 });
-        let mut ratio = 1.0;
-        for _ in 0..MOST_ITERATIONS {
-            let mut y: Vec<f64> = vec![0.0; before.len()];
-            leaders.iter().for_each(|&node| y[node as usize] = before[node as usize] * x[node as usize]);
-            for (one, mass) in self.followers.iter().zip(&self.handed) {
-                let sum: f64 = one.leaders.iter().map(|(node, weight)| weight * x[*node as usize]).sum();
-                one.leaders.iter().for_each(|(node, weight)| y[*node as usize] += weight * mass * sum);
-            }
-            let energy: f64 = leaders.iter().map(|&node| x[node as usize] * y[node as usize]).sum();
-            let whole: f64 = leaders.iter().map(|&node| after[node as usize] * x[node as usize].powi(2)).sum();
-            let found = energy / whole;
-            let settled = (found - ratio).abs() <= SETTLED * found;
-            ratio = found;
-            let largest =
-                leaders.iter().map(|&node| (y[node as usize] / after[node as usize]).abs()).fold(0.0, f64::max);
-            leaders.iter().for_each(|&node| x[node as usize] = y[node as usize] / (after[node as usize] * largest));
-            if settled {
-                break;
-            }
-        }
-        if ratio > 1.0 + SETTLED { ratio * MARGIN } else { 1.0 }
+        let joint = Masses::of(&self.followers, &self.handed, &before, masses);
+        self.excess = joint.map_or(1.0, |joint| joint.largest_ratio()) - 1.0;
     }
 
     /// Nodes that others follow, by their numbers, ascending.
@@ -188,11 +156,12 @@ impl Tied {
     /// The node, with its weight, whose POINT MASS takes most off the mass of a node that it follows; `None` where that would not be
     /// positive without such masses either.
     fn heavy_follower(&self, mesh: &Mesh, model: &Model, leader: u32, mass: f64) -> Option<(u32, f64)> {
-        let sets: Vec<(Vec<u32>, f64)> =
-            model.point_masses.iter().map(|point| (mesh.distinct_nodes(point.node_set), point.mass)).collect();
-        let point_mass = |node: u32| -> f64 {
-            sets.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()).map(|(_, mass)| mass).sum()
-        };
+        let mut masses: BTreeMap<u32, f64> = BTreeMap::new();
+        for point in &model.point_masses {
+            let shares = mesh.shares_of(point.node_set).into_iter();
+            shares.for_each(|(node, factor)| *masses.entry(node).or_default() += factor * point.mass);
+        }
+        let point_mass = |node: u32| masses.get(&node).copied().unwrap_or_default();
         let weight = |one: &Follower| one.leaders.iter().find(|(node, _)| *node == leader).map(|(_, weight)| *weight);
         let given = |one: &Follower| weight(one).map(|weight| (one.node, weight, weight * point_mass(one.node)));
         let given: Vec<(u32, f64, f64)> = self.followers.iter().filter_map(given).collect();
@@ -218,15 +187,6 @@ impl Tied {
     }
 }
 
-/// Iterations for the largest ratio of masses at most.
-const MOST_ITERATIONS: usize = 300;
-
-/// Iterations end when it changes by less than this part.
-const SETTLED: f64 = 1e-4;
-
-/// What an iteration from below may have missed.
-const MARGIN: f64 = 1.02;
-
 /// Nodes whose positions the deck holds or drives along each axis, ascending.
 pub fn held_nodes(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
     let still = model.no_displacements.iter().map(|c| (c.of, c.direction, c.node_set));
@@ -237,18 +197,6 @@ pub fn held_nodes(mesh: &Mesh, model: &Model) -> [Vec<u32>; 3] {
     }
     held.iter_mut().for_each(|nodes| nodes.sort_unstable());
     held
-}
-
-/// How many of those that follow the deck holds or drives, while not all that they follow are; and the first.
-fn held(mesh: &Mesh, model: &Model, followers: &[Follower]) -> (usize, u32) {
-    let sets = held_nodes(mesh, model);
-    let has = |nodes: &[u32], node: u32| nodes.binary_search(&node).is_ok();
-    let loose = |one: &&Follower| {
-        sets.iter().any(|nodes| has(nodes, one.node) && one.leaders.iter().any(|(leader, _)| !has(nodes, *leader)))
-    };
-    let mut all = followers.iter().filter(loose).map(|one| one.node);
-    let first = all.next();
-    (first.map_or(0, |_| 1 + all.count()), first.unwrap_or(0))
 }
 
 /// Σ W of a vector of the leaders.

@@ -7,10 +7,16 @@
 //! (Wohlmuth, "A mortar finite element method using dual spaces for the Lagrange multiplier", SIAM J. Numer. Anal. 38,
 //! 2000): ∫ µ_s N_t dA = δ_st D_s. Then D_s x_s = Σ_I ∫ µ_s N_I dA x_I, node by node, without a system to solve.
 //!
+//! Where the surface turns at an edge no such functions are: a node there belongs to both sides, and what one of them exerts on
+//! it would go to leaders of the other. The nodes of edges follow the point where they lie (`edges`), and only those beside them have a
+//! multiplier. These add up to 1 on each face all the same, which is all that a uniform stress needs: the mean gap of the face is
+//! zero, whatever moves its nodes.
+//!
 //! Integrals run over the pieces that pairs of faces have in common. Whatever the rule of integration, linear fields are
 //! met exactly, because µ is made with the same points; uniform stress is handed on as exactly as the rule integrates N_I,
 //! which is to round-off for parallelograms.
 
+use super::edges::{self, Edges};
 use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::projection::area_normal;
 use std::collections::BTreeMap;
@@ -50,18 +56,18 @@ const TRIANGLE: [([f64; 3], f64); 7] = {
 const LEAST_COVER: f64 = 1e-3;
 
 /// A point in the plane of a face.
-type Point = [f64; 2];
+pub(super) type Point = [f64; 2];
 
 /// The plane of a face, with its corners in it.
-struct Plane {
+pub(super) struct Plane {
     origin: [f64; 3],
     axes: [[f64; 3]; 2],
-    normal: [f64; 3],
+    pub normal: [f64; 3],
     area: f64,
 }
 
 impl Plane {
-    fn of(corners: &[[f64; 3]; 4]) -> Option<Plane> {
+    pub fn of(corners: &[[f64; 3]; 4]) -> Option<Plane> {
         let area = area_normal(corners);
         let normal = normalized(area)?;
         let along = subtract(corners[1], corners[0]);
@@ -70,7 +76,7 @@ impl Plane {
         Some(Plane { origin, axes: [first, cross(normal, first)], normal, area: dot(area, normal) })
     }
 
-    fn seen(&self, x: [f64; 3]) -> Point {
+    pub fn seen(&self, x: [f64; 3]) -> Point {
         let r = subtract(x, self.origin);
         [dot(r, self.axes[0]), dot(r, self.axes[1])]
     }
@@ -81,7 +87,7 @@ impl Plane {
 }
 
 /// Shape functions of a quadrilateral.
-fn shapes([x, y]: Point) -> [f64; 4] {
+pub(super) fn shapes([x, y]: Point) -> [f64; 4] {
     [(1.0 - x) * (1.0 - y), (1.0 + x) * (1.0 - y), (1.0 + x) * (1.0 + y), (1.0 - x) * (1.0 + y)].map(|n| 0.25 * n)
 }
 
@@ -90,7 +96,7 @@ fn interpolated(corners: &[Point; 4], n: &[f64; 4]) -> Point {
 }
 
 /// Natural coordinates of a point of a quadrilateral, by Newton's method.
-fn natural(corners: &[Point; 4], at: Point) -> Point {
+pub(super) fn natural(corners: &[Point; 4], at: Point) -> Point {
     let mut xi = [0.0; 2];
     for _ in 0..30 {
         let [x, y] = xi;
@@ -199,11 +205,35 @@ impl OfFace {
         }
     }
 
-    /// A in µ = A N, so that ∫ µ_s N_t = δ_st ∫ N_s.
-    fn dual(&self) -> Option<[[f64; 4]; 4]> {
-        let matrix = nalgebra::Matrix4::from_fn(|i, j| self.own[i][j]);
+    /// A in µ = A N, so that ∫ µ_s N_t = δ_st ∫ N_s for all corners s and t that lie on no edge, and Σ µ_s = 1.
+    ///
+    /// The functions are combined of those of these corners, to which those of an edge are added, each to its neighbours.
+    fn dual(&self, on_edge: [bool; 4]) -> Option<[[f64; 4]; 4]> {
+        let functions = nalgebra::Matrix4::from_fn(|t, v| part_of(t, v, on_edge));
+        let own = nalgebra::Matrix4::from_fn(|i, j| self.own[i][j]);
+        let mut matrix = if on_edge.contains(&true) { functions * own } else { own };
+        for edge in (0..4).filter(|&corner| on_edge[corner]) {
+            (0..4).for_each(|other| (matrix[(edge, other)], matrix[(other, edge)]) = (0.0, 0.0));
+            matrix[(edge, edge)] = 1.0;
+        }
         let inverse = matrix.try_inverse()?;
-        Some(std::array::from_fn(|s| std::array::from_fn(|t| self.whole[s] * inverse[(s, t)])))
+        let combined = if on_edge.contains(&true) { inverse * functions } else { inverse };
+        Some(std::array::from_fn(|s| std::array::from_fn(|t| self.whole[s] * combined[(s, t)])))
+    }
+}
+
+/// How much of the function of corner v belongs to that of corner t: all of its own, and of a corner on an edge a share of each neighbour that
+/// is not, or the corner across where there is none.
+fn part_of(t: usize, v: usize, on_edge: [bool; 4]) -> f64 {
+    let beside = |corner: usize| [(corner + 1) % 4, (corner + 3) % 4];
+    match (on_edge[t], on_edge[v]) {
+        (true, _) => 0.0,
+        (false, false) => f64::from(u8::from(t == v)),
+        (false, true) => {
+            let near = beside(v).into_iter().filter(|&corner| !on_edge[corner]).count();
+            let has = if near == 0 { t == (v + 2) % 4 } else { beside(v).contains(&t) };
+            if has { 1.0 / near.max(1) as f64 } else { 0.0 }
+        }
     }
 }
 
@@ -221,11 +251,23 @@ pub struct Joint {
 /// What is integrated around each node that follows: ∫ N_s, and ∫ µ_s N_I by the node I.
 type Sums = BTreeMap<u32, (f64, BTreeMap<u32, f64>)>;
 
+/// A face of the side that follows, with what it has in common with the other side.
+pub(super) struct Covered {
+    /// Place of its joint.
+    pub joint: usize,
+    pub face: Face,
+    pub normal: [f64; 3],
+    integrals: OfFace,
+}
+
 /// Lets nodes of the following faces of joints follow those of the leading ones that they face. A node of several joints follows the
 /// leaders of all.
 pub fn followers(joints: &[Joint], position: impl Fn(u32) -> [f64; 3]) -> Vec<Follower> {
+    let covered: Vec<Covered> =
+        joints.iter().enumerate().flat_map(|(place, joint)| integrate(place, joint, &position)).collect();
+    let edges = edges::of(&covered, joints, &position);
     let mut sums = Sums::new();
-    joints.iter().for_each(|joint| integrate(joint, &position, &mut sums));
+    covered.iter().for_each(|face| share_out(face, &edges, &mut sums));
     let follower = |(node, (whole, leaders)): (u32, (f64, BTreeMap<u32, f64>))| {
         let least = 1e-12 * whole;
         let mut leaders: Vec<(u32, f64)> = leaders
@@ -237,11 +279,34 @@ pub fn followers(joints: &[Joint], position: impl Fn(u32) -> [f64; 3]) -> Vec<Fo
         leaders.iter_mut().for_each(|(_, weight)| *weight /= sum);
         Follower { node, leaders }
     };
-    sums.into_iter().map(follower).filter(|follower| !follower.leaders.is_empty()).collect()
+    let inside = sums.into_iter().map(follower).filter(|follower| !follower.leaders.is_empty());
+    let on_edges = edges.iter().map(|(&node, leaders)| Follower { node, leaders: leaders.clone() });
+    let mut all: Vec<Follower> = inside.chain(on_edges).collect();
+    all.sort_by_key(|follower| follower.node);
+    all
+}
+
+/// Adds what a face asks of its nodes that are on no edge: that the gap vanishes in the mean, with what those on edges do of themselves.
+fn share_out(Covered { face, integrals, .. }: &Covered, edges: &Edges, sums: &mut Sums) {
+    let on_edge = face.map(|node| edges.contains_key(&node));
+    let Some(dual) = integrals.dual(on_edge) else { return };
+    for (s, &node) in face.iter().enumerate().filter(|(s, _)| !on_edge[*s]) {
+        let (whole, leaders) = sums.entry(node).or_default();
+        *whole += integrals.whole[s];
+        for (&leader, parts) in &integrals.others {
+            *leaders.entry(leader).or_default() += (0..4).map(|t| dual[s][t] * parts[t]).sum::<f64>();
+        }
+        for (e, node) in face.iter().enumerate() {
+            let Some(followed) = edges.get(node) else { continue };
+            let part: f64 = (0..4).map(|t| dual[s][t] * integrals.own[t][e]).sum();
+            followed.iter().for_each(|(leader, weight)| *leaders.entry(*leader).or_default() -= part * weight);
+        }
+    }
 }
 
 /// Integrates over what the faces of a joint have in common.
-fn integrate(joint: &Joint, position: impl Fn(u32) -> [f64; 3], sums: &mut Sums) {
+fn integrate(place: usize, joint: &Joint, position: impl Fn(u32) -> [f64; 3]) -> Vec<Covered> {
+    let mut covered = Vec::new();
     let Joint { following, leading, tolerance } = joint;
     let corners = |face: &Face| face.map(&position);
     let extent = |corners: &[[f64; 3]; 4], axis: usize| {
@@ -275,15 +340,9 @@ fn integrate(joint: &Joint, position: impl Fn(u32) -> [f64; 3], sums: &mut Sums)
         if of_face.whole.iter().sum::<f64>() < LEAST_COVER * plane.area {
             continue;
         }
-        let Some(dual) = of_face.dual() else { continue };
-        for (s, &node) in face.iter().enumerate() {
-            let (whole, leaders) = sums.entry(node).or_default();
-            *whole += of_face.whole[s];
-            for (&leader, parts) in &of_face.others {
-                *leaders.entry(leader).or_default() += (0..4).map(|t| dual[s][t] * parts[t]).sum::<f64>();
-            }
-        }
+        covered.push(Covered { joint: place, face: *face, normal: plane.normal, integrals: of_face });
     }
+    covered
 }
 
 #[cfg(test)]
@@ -327,6 +386,75 @@ mod tests {
                 let edges = |x: f64| if x == 0.0 || x == 1.0 { 0.5 } else { 1.0 };
                 let expected = edges(places[node][0]) * edges(places[node][1]) / f64::from(m * m);
                 assert!((force - expected).abs() < 1e-14, "{force} is not {expected}");
+            }
+        }
+    }
+
+    /// The sides z = 0 of a cube of n elements along each edge, x = 0 and y = 0, as faces whose nodes are shared; numbers from `first`.
+    fn corner(n: u32, first: u32, sides: usize, outward: bool) -> (Vec<[f64; 3]>, Vec<Vec<Face>>) {
+        let at = |i: u32| f64::from(i) / f64::from(n);
+        let node = |p: [u32; 3]| first + p[0] + (n + 1) * (p[1] + (n + 1) * p[2]);
+        let places = (0..(n + 1).pow(3)).map(|k| [at(k % (n + 1)), at(k / (n + 1) % (n + 1)), at(k / (n + 1).pow(2))]);
+        let side = |axis: usize| {
+            let faces = (0..n * n).map(|k| {
+                let corner = |a: u32, b: u32| {
+                    let mut p = [0; 3];
+                    (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (k % n + a, k / n + b);
+                    node(p)
+                };
+                let face = [corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)];
+                if outward { face } else { [face[0], face[3], face[2], face[1]] }
+            });
+            faces.collect()
+        };
+        (places.collect(), (0..sides).map(side).collect())
+    }
+
+    /// A cube in a corner of two or three walls, tied to all, whether by a command for each or in one: each side's uniform stress goes to the
+    /// leaders of that side, and what is linear is followed.
+    #[test]
+    fn a_corner_hands_on_the_stress_of_each_side() {
+        for (n, m, sides, single) in
+            [(4, 3, 2, false), (3, 4, 2, false), (5, 2, 3, false), (2, 5, 3, false), (3, 4, 3, true), (3, 3, 2, true)]
+        {
+            let (mut places, following) = corner(n, 0, sides, true);
+            let begin = places.len();
+            let (others, leading) = corner(m, begin as u32, sides, false);
+            places.extend(others);
+            let joint = |following: Vec<Face>, leading: Vec<Face>| Joint { following, leading, tolerance: 0.05 };
+            let joints: Vec<Joint> = if single {
+                vec![joint(following.concat(), leading.concat())]
+            } else {
+                following.iter().cloned().zip(leading.iter().cloned()).map(|(a, b)| joint(a, b)).collect()
+            };
+            let found = followers(&joints, |node| places[node as usize]);
+            for one in &found {
+                for axis in 0..3 {
+                    let there: f64 = one.leaders.iter().map(|(node, w)| w * places[*node as usize][axis]).sum();
+                    assert!((there - places[one.node as usize][axis]).abs() < 1e-13, "{n} on {m}: {one:?}");
+                }
+            }
+            // A quarter of each face around a node.
+            let of_side = |faces: &[Face], n: u32| {
+                let mut areas = vec![0.0; places.len()];
+                faces.iter().flatten().for_each(|&node| areas[node as usize] += 0.25 / f64::from(n * n));
+                areas
+            };
+            for side in 0..sides {
+                let (from, to) = (of_side(&following[side], n), of_side(&leading[side], m));
+                let mut handed = vec![0.0; places.len()];
+                for one in &found {
+                    one.leaders.iter().for_each(|(node, w)| handed[*node as usize] += w * from[one.node as usize]);
+                }
+                for node in begin..places.len() {
+                    assert!(
+                        (handed[node] - to[node]).abs() < 1e-14,
+                        "{n} on {m}, side {side} of {sides}, {:?}: {} is not {}",
+                        places[node],
+                        handed[node],
+                        to[node]
+                    );
+                }
             }
         }
     }

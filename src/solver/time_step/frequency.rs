@@ -24,6 +24,7 @@ use crate::lanes::{CHUNK, Force, Row};
 use crate::restart::Archive;
 use crate::solver::domain::{ABSENT, Domain};
 use crate::solver::elements::{PassOutcome, PassSettings, Probe, Sink};
+use crate::solver::lanczos::{iterations, largest_eigenvalue, normal};
 
 /// ε: share of λ that the iterations may miss; the step gives away half of it.
 const MISSED: f64 = 0.06;
@@ -321,9 +322,7 @@ impl<'a> Operator<'a> {
     /// Normal numbers that depend on unknown and step alone, 0 where nothing moves.
     fn start(&self, step: u64) -> Vec<[f64; 3]> {
         let normal = |file: u32, axis: usize| {
-            let mut dice = Dice(step.wrapping_mul(0xd134_2543_de82_ef95) ^ (3 * u64::from(file) + axis as u64));
-            let (radius, angle) = (libm::sqrt(-2.0 * libm::log(dice.next())), std::f64::consts::TAU * dice.next());
-            radius * libm::cos(angle)
+            normal(step.wrapping_mul(0xd134_2543_de82_ef95) ^ (3 * u64::from(file) + axis as u64))
         };
         let unknowns = self.domain.nodes.file.iter().zip(&self.scale);
         unknowns.map(|(&file, scale)| [0, 1, 2].map(|i| if scale[i] > 0.0 { normal(file, i) } else { 0.0 })).collect()
@@ -344,7 +343,7 @@ impl<'a> Operator<'a> {
         let mut before = vec![[0.0; 3]; v.len()];
         let mut image = vec![[0.0; 3]; v.len()];
         let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
-        for _ in 0..iterations(free[0]) {
+        for _ in 0..iterations(free[0], MISSED, CHANCE) {
             self.apply(&v, &mut image, comm);
             let along = self.product(&v, &image, comm);
             let last = beside.last().copied().unwrap_or(0.0);
@@ -367,71 +366,5 @@ impl<'a> Operator<'a> {
         }
         let largest = largest_eigenvalue(&diagonal, &beside);
         if largest > 0.0 { 2.0 * ((1.0 - MISSED) / largest).sqrt() } else { f64::INFINITY }
-    }
-}
-
-/// Iterations after which the chance of missing more than ε of the largest eigenvalue of so many unknowns is small enough.
-fn iterations(unknowns: u64) -> u64 {
-    let wanted = libm::log(1.648 * (unknowns as f64).sqrt() / CHANCE) / MISSED.sqrt();
-    ((0.5 * (wanted + 1.0)).ceil() as u64).clamp(1, unknowns.max(1))
-}
-
-/// The largest eigenvalue of a symmetric tridiagonal matrix, from above by bisection with Sturm's sequence.
-fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
-    let at = |i: usize| beside.get(i).copied().unwrap_or(0.0);
-    let reach = |i: usize| at(i) + if i > 0 { at(i - 1) } else { 0.0 };
-    let count = diagonal.len();
-    // The last of `beside` leads out of the matrix.
-    let inner = |i: usize| if i + 1 < count { at(i) } else { 0.0 };
-    let (mut low, mut high) = (0.0f64, 0.0f64);
-    for (i, d) in diagonal.iter().enumerate() {
-        low = low.max(*d);
-        high = high.max(d + reach(i));
-    }
-    let is_above = |x: f64| {
-        let mut q = 1.0;
-        (0..count).all(|i| {
-            let square = if i > 0 { inner(i - 1) * inner(i - 1) / q } else { 0.0 };
-            q = diagonal[i] - x - square;
-            q < 0.0
-        })
-    };
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if is_above(middle) { high = middle } else { low = middle }
-    }
-    high
-}
-
-/// Numbers that look random and follow from a seed, above 0 and below 1 (splitmix64: Steele, Lea and Flood 2014).
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1u64 << 53) as f64
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The matrix with 2 on its diagonal and −1 beside it has the eigenvalues 2 − 2 cos(kπ/(n + 1)).
-    #[test]
-    fn the_largest_eigenvalue_of_a_chain() {
-        for n in [1usize, 2, 5, 40] {
-            let found = largest_eigenvalue(&vec![2.0; n], &vec![1.0; n]);
-            let exact = 2.0 + 2.0 * (std::f64::consts::PI / (n as f64 + 1.0)).cos();
-            assert!((found / exact - 1.0).abs() < 1e-12, "{n}: {found} is not {exact}");
-        }
-    }
-
-    #[test]
-    fn iterations_grow_with_the_logarithm_of_the_unknowns() {
-        assert_eq!([1, 100, 10_000, 3_000_000].map(iterations), [1, 44, 49, 55]);
     }
 }

@@ -5,6 +5,9 @@ use super::knobs::Knob;
 use super::quantities::Quantity;
 use super::{Measured, Row};
 
+/// Part of a value by which meshes may differ without telling anything, as momenta do that are the same on all.
+const ROUND_OFF: f64 = 1e-9;
+
 /// What is known of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
@@ -20,7 +23,7 @@ pub struct Verdict {
     pub finest: f64,
     /// Refinements with their values.
     pub meshes: Vec<(f64, f64)>,
-    /// Error of each row, as a part of the best value; NaN where there is none.
+    /// Difference of each row from the best value, as a part of it; NaN where there is none. An error only if the quantity converges.
     pub errors: Vec<f64>,
 }
 
@@ -29,10 +32,17 @@ pub struct Verdict {
 pub struct Judgement {
     /// One for each quantity.
     pub verdicts: Vec<Verdict>,
-    /// Largest error of each row over all quantities that converge; NaN where it was not measured.
+    /// Largest error of each row over all quantities that converge; NaN where it was not measured, or none does.
     pub errors: Vec<f64>,
     /// Rows than which none is both cheaper and better, the cheapest first.
     pub front: Vec<usize>,
+}
+
+impl Verdict {
+    /// Whether meshes show where it goes, so that errors can be claimed; where there is one mesh, differences from it.
+    pub fn converges(&self) -> bool {
+        !matches!(self.refinement, Refinement::Wanders { .. })
+    }
 }
 
 impl Judgement {
@@ -40,14 +50,12 @@ impl Judgement {
     pub fn of(quantities: &[Quantity], rows: &[Row]) -> Judgement {
         let verdicts: Vec<Verdict> =
             (0..quantities.len()).map(|place| verdict(&quantities[place], place, rows)).collect();
-        let believed: Vec<&Verdict> =
-            verdicts.iter().filter(|verdict| !matches!(verdict.refinement, Refinement::Wanders { .. })).collect();
-        let counted = if believed.is_empty() { verdicts.iter().collect() } else { believed };
+        let believed: Vec<&Verdict> = verdicts.iter().filter(|verdict| verdict.converges()).collect();
         let largest = |row: usize| {
-            if rows[row].outcome.is_err() {
+            if rows[row].outcome.is_err() || believed.is_empty() {
                 return f64::NAN;
             }
-            counted.iter().map(|verdict| verdict.errors[row].max(verdict.scatter)).fold(0.0, f64::max)
+            believed.iter().map(|verdict| verdict.errors[row].max(verdict.scatter)).fold(0.0, f64::max)
         };
         let errors: Vec<f64> = (0..rows.len()).map(largest).collect();
         let front = front(rows, &errors);
@@ -92,7 +100,7 @@ fn verdict(quantity: &Quantity, place: usize, rows: &[Row]) -> Verdict {
     let mut meshes: Vec<(f64, f64)> =
         rows.iter().filter(on_mesh).filter_map(|row| Some((f64::from(row.variant.refine), value(row)?))).collect();
     meshes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let refinement = refinement(&meshes, scatter);
+    let refinement = refinement(&meshes, scatter.max(ROUND_OFF * base.abs()));
     let finest = meshes.last().map_or(base, |mesh| mesh.1);
     let (best, bound) = match refinement {
         Refinement::Converges { limit, finest, .. } => (limit, finest),

@@ -52,9 +52,14 @@ pub fn text(judgement: &Judgement, rows: &[Row]) -> String {
         quantities.push(vec![
             verdict.quantity.to_string(),
             scientific(verdict.best, 4),
-            percent(verdict.errors.first().copied().unwrap_or(f64::NAN)),
+            percent(verdict.errors.first().copied().filter(|_| verdict.converges()).unwrap_or(f64::NAN)),
             percent(verdict.scatter),
-            if verdict.finest.is_finite() { percent(verdict.finest) } else { "-".into() },
+            match verdict.finest {
+                finest if !finest.is_finite() => "-".into(),
+                finest if verdict.converges() => percent(finest),
+                // The last change is the least that can be wrong.
+                finest => format!("> {}", percent(finest)),
+            },
             refined(verdict),
         ]);
     }
@@ -100,11 +105,10 @@ pub fn csv(judgement: &Judgement, rows: &[Row]) -> String {
                 let memory = measured.memory.map_or(String::new(), |bytes| format!("{bytes}"));
                 let values: String = measured.values.iter().map(|value| format!(",{value:e}")).collect();
                 let on_front = judgement.front.contains(&place);
-                let _ = writeln!(
-                    out,
-                    "{own},{},{},{memory},{:e},{on_front}{values}",
-                    measured.seconds, measured.steps, judgement.errors[place]
-                );
+                let error = judgement.errors[place];
+                let error = if error.is_nan() { String::new() } else { format!("{error:e}") };
+                let _ =
+                    writeln!(out, "{own},{},{},{memory},{error},{on_front}{values}", measured.seconds, measured.steps);
             }
             Err(_) => {
                 let _ = writeln!(out, "{own},,,,,{}", ",".repeat(judgement.verdicts.len()));
@@ -122,7 +126,12 @@ pub fn words(judgement: &Judgement, rows: &[Row], within: f64) -> String {
     if !known {
         out += "No finer mesh was run: the errors are differences from the deck as it is, and its own error is not known.\n";
     }
+    let wanders = judgement.verdicts.iter().filter(|verdict| !verdict.converges()).count();
     match judgement.cheapest(within, rows) {
+        _ if wanders > 0 && wanders == judgement.verdicts.len() => {
+            out += "No quantity converges on these meshes: no error is known, and nothing can be advised. Finer meshes may tell more \
+                    (--levels), or other quantities (--quantity).\n";
+        }
         Some(row) => {
             let variant = &rows[row].variant;
             let seconds = rows[row].outcome.as_ref().map_or(f64::NAN, |measured| measured.seconds);
@@ -137,7 +146,8 @@ pub fn words(judgement: &Judgement, rows: &[Row], within: f64) -> String {
             } else {
                 format!("{} ({})", variant.name, variant.words)
             };
-            let _ = writeln!(out, "The cheapest within {}: {what}{than}.", percent(within));
+            let of = if wanders > 0 { ", in what converges" } else { "" };
+            let _ = writeln!(out, "The cheapest within {}{of}: {what}{than}.", percent(within));
         }
         None => {
             let best = judgement.front.last().map_or("none", |&row| rows[row].variant.name.as_str());
@@ -174,4 +184,47 @@ pub fn words(judgement: &Judgement, rows: &[Row], within: f64) -> String {
         };
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Measured, Variant};
+    use super::*;
+
+    /// A row on a mesh so many times finer, with these values of the quantities.
+    fn row(refine: u32, values: &[f64]) -> Row {
+        let knob = if refine == 1 { Knob::None } else { Knob::Mesh };
+        let name = format!("mesh-{refine}");
+        let variant = Variant { name, knob, words: "a mesh".into(), change: Default::default(), refine, work: 1.0 };
+        let [seconds, steps] = [f64::from(refine), 10.0 * f64::from(refine)];
+        let (steps, values) = (steps as u64, values.to_vec());
+        Row { variant, outcome: Ok(Measured { seconds, wall: seconds, steps, time: 1.0, memory: None, values }) }
+    }
+
+    /// What grows with each mesh does not converge. Nothing is claimed of it, neither in the table nor in words; of what converges beside it,
+    /// the error is.
+    #[test]
+    fn no_error_is_claimed_where_nothing_converges() {
+        let quantities = ["last A", "last B"].map(|name| name["last ".len()..].parse().expect("a quantity"));
+        let all = [row(1, &[1.0, 1.5]), row(2, &[2.0, 1.25]), row(4, &[4.0, 1.125])];
+        let one = all.clone().map(|row| Row {
+            outcome: row.outcome.map(|measured| Measured { values: measured.values[..1].to_vec(), ..measured }),
+            ..row
+        });
+        let judgement = Judgement::of(&quantities[..1], &one);
+        assert!(judgement.errors.iter().all(|error| error.is_nan()) && judgement.front.is_empty());
+        assert_eq!(judgement.cheapest(1e9, &one), None);
+        let (told, table) = (words(&judgement, &one, 0.01), text(&judgement, &one));
+        assert!(
+            told.contains("No quantity converges") && !told.contains("within") && !told.contains("wrong by"),
+            "{told}"
+        );
+        assert!(!table.contains("front") && table.lines().nth(1).is_some_and(|line| !line.contains('%')), "{table}");
+        assert!(table.contains("-      0 %  > 50 %  DOES NOT CONVERGE"), "{table}");
+        let judgement = Judgement::of(&quantities, &all);
+        let told = words(&judgement, &all, 0.2);
+        assert!((judgement.errors[0] - 0.5).abs() < 1e-12 && judgement.cheapest(0.2, &all) == Some(2), "{told}");
+        assert!(told.contains("The cheapest within 20 %, in what converges: mesh-4"), "{told}");
+        assert!(told.contains("last A does not converge") && told.contains("last B is wrong by 50 %"), "{told}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Nodes that follow others by TIED CONTACT are held or driven by the deck: what is said of them has no effect.
+//! Nodes that follow others by TIED CONTACT are held or driven by the deck otherwise than these: what is said of them has no effect.
 
 use crate::solver::health::finding::Evidence;
 use crate::solver::health::symptoms::{Symptom, When};

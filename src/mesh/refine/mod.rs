@@ -8,6 +8,8 @@
 //! three corners is then divided in three in all elements that share it. Inside a pyramid these share faces that are not
 //! plane, and the two sides of which are not the same surface: a hundredth of its volume is lost.
 
+mod shares;
+
 use super::hexahedron::{HEX_SIDES, is_collapsed};
 use super::{Block, Mesh, NodeSet, Shape, SideSet, UNIT_CUBE};
 use std::collections::HashMap;
@@ -39,7 +41,7 @@ struct Child {
 
 /// The mesh with every element divided. Old nodes keep place and number, new ones follow; elements are numbered anew from
 /// one. A new node belongs to the node sets that all corners of its edge, face or element belong to; side sets have the
-/// same surface.
+/// same surface. Who loads node sets shares loads out anew: [`Mesh::share_out_as`].
 ///
 /// # Errors
 /// [`Undivided`].
@@ -87,6 +89,7 @@ pub fn refined(mesh: &Mesh) -> Result<Mesh, Undivided> {
             .chain([["urto refine", env!("CARGO_PKG_VERSION"), "", ""].map(str::to_owned)])
             .collect(),
         weighted: mesh.weighted.clone(),
+        ..Mesh::default()
     })
 }
 
