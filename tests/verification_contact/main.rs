@@ -16,6 +16,7 @@ mod sliding;
 mod solids;
 mod through;
 mod tied;
+mod touching;
 
 #[path = "../support/mod.rs"]
 mod support;

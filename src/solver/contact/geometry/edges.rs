@@ -148,15 +148,19 @@ impl Edge {
     }
 }
 
-/// The two faces that stand for an edge: those that meet there; of the four of two surface elements two that look the same way, of
-/// one surface element both. `None` where others meet.
+/// The two faces that stand for an edge: of a solid those that meet there, whatever surfaces end there as well; of several surface elements two
+/// that look the same way, or any two of different ones; of one surface element both. `None` where more faces of solids meet.
 fn pair_at(same: &[([u32; 2], u32)], faces: &Faces) -> Option<[u32; 2]> {
-    match *same {
-        [(_, a), (_, b)] if faces.is_two_sided(a) == faces.is_two_sided(b) => Some([a, b]),
-        [(_, a), (_, b), (_, c), (_, d)] if [a, b, c, d].iter().all(|&face| faces.is_two_sided(face)) => {
-            let other = [b, c, d].into_iter().find(|&other| {
-                faces.number[other as usize] / 6 != faces.number[a as usize] / 6 && faces.go_on(a, other) == Some(true)
-            })?;
+    let (surfaces, solids): (Vec<u32>, Vec<u32>) =
+        same.iter().map(|(_, face)| *face).partition(|&face| faces.is_two_sided(face));
+    match (&solids[..], &surfaces[..]) {
+        (&[a, b], _) => Some([a, b]),
+        (&[], &[a, b]) => Some([a, b]),
+        (&[], &[a, ref others @ ..]) => {
+            let element = |face: u32| faces.number[face as usize] / 6;
+            let of_others = || others.iter().copied().filter(|&other| element(other) != element(a));
+            let other =
+                of_others().find(|&other| faces.go_on(a, other) == Some(true)).or_else(|| of_others().next())?;
             Some([a, other])
         }
         _ => None,

@@ -8,6 +8,7 @@ use super::crossing::{self, Path};
 use super::motion::Four;
 use super::strip;
 use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
+use crate::lanes::array;
 
 /// Beyond a triangle's border by this part of it is still on it. Bodies whose sides are flush meet corner on corner, and
 /// round-off decides which corner is inside; without the margin each may be beyond the other's border, and they pass
@@ -17,6 +18,9 @@ pub(super) const BORDER: f64 = 1e-6;
 /// A foot nearer to the line between triangles or faces than this part of them is on both, for the normal. Below a node of a
 /// tilted surface the feet of the perpendiculars are not quite at the node.
 pub const TIE: f64 = 1e-3;
+
+/// A point that is nearer to a plane than this part of the face may be on either side of it.
+const ROUND_OFF: f64 = 1e-9;
 
 /// A point against a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,6 +123,30 @@ pub fn is_in_front([a, b, c, d]: [Four; 4], point: Four) -> bool {
     // The diagonals are parallel to that plane, so the corners are above it and below by the same height.
     let warp = along(less(a, middle)).abs();
     along(less(point, middle)) > warp * (1.0 + BORDER)
+}
+
+/// Whether the gap of a point is surely below zero: behind the planes of all four triangles, and where two of them are blended, too. Cheap, for
+/// the many that are, and in whole vectors. A foot on the line between two triangles lies off the plane of either by no more than [`TIE`] of
+/// what the other arms do, and these all span the same volume with a triangle.
+#[inline(always)]
+pub fn is_behind(corners: &[[f64; 3]; 4], point: [f64; 3]) -> bool {
+    let middle = centre(corners);
+    let [x, y, z] = array!(i in 3 => array!(k in 4 => corners[k][i] - middle[i]));
+    let next = |[a, b, c, d]: Four| [b, c, d, a];
+    let (u, v, w) = (next(x), next(y), next(z));
+    let normal: [Four; 3] = [
+        array!(k in 4 => y[k] * w[k] - z[k] * v[k]),
+        array!(k in 4 => z[k] * u[k] - x[k] * w[k]),
+        array!(k in 4 => x[k] * v[k] - y[k] * u[k]),
+    ];
+    let r = [point[0] - middle[0], point[1] - middle[1], point[2] - middle[2]];
+    let height: Four = array!(k in 4 => r[0] * normal[0][k] + r[1] * normal[1][k] + r[2] * normal[2][k]);
+    let volume = x[2] * normal[0][0] + y[2] * normal[1][0] + z[2] * normal[2][0];
+    let round_off = ROUND_OFF
+        * (x[0].abs() + y[0].abs() + z[0].abs())
+        * (normal[0][0].abs() + normal[1][0].abs() + normal[2][0].abs());
+    let least = -(2.0 * TIE * volume.abs() + round_off);
+    (height[0] < least) & (height[1] < least) & (height[2] < least) & (height[3] < least)
 }
 
 /// The same of a point that touches the face from farther away, at some distance, a length.
@@ -337,6 +365,20 @@ mod tests {
             // Margins and round-off decide between these.
             prop_assume!((above(x[4]) - highest).abs() > 1e-5);
             prop_assert_eq!(is_in_front([a, b, c, d], point), above(x[4]) > highest);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn behind_all_triangles_the_gap_is_below_zero(
+            x in prop::array::uniform4(prop::array::uniform3(-0.4..0.4)), point in prop::array::uniform3(-3.0..3.0), flat in 0.0..1.0,
+        ) {
+            let corners = [0, 1, 2, 3].map(|i| [SQUARE[i][0] + x[i][0], SQUARE[i][1] + x[i][1], flat * x[i][2]]);
+            if is_behind(&corners, point) {
+                let gap = project(&corners, point).map_or(-1.0, |projection| projection.gap);
+                prop_assert!(gap < 0.0, "{gap}");
+            }
+            prop_assert!(is_behind(&SQUARE, [point[0], point[1], -1e-8 - point[2].abs()]));
         }
     }
 

@@ -36,6 +36,9 @@ const KEEP: f64 = 0.01;
 /// Pairs that overlap by more than this part of an edge near an end are not held by a node there.
 const CLEARLY: f64 = 1e-3;
 
+/// Pairs that are nearer than this part of an edge touch.
+const TOUCHING: f64 = 1e-9;
+
 /// Pairs that overlap by more than this part of an edge did not come through each other.
 const DEEP: f64 = 0.25;
 
@@ -176,14 +179,14 @@ impl EdgeCheck<'_> {
     }
 
     /// How far apart the swept boxes of two edges are along an axis, beyond where they are near, not above 0 where they are near; and beyond
-    /// where they touch.
+    /// where the first one that stands out looks for the second.
     #[inline(always)]
-    fn apart(&self, [first, second]: [u32; 2]) -> [f64; 2] {
-        let margin = self.reaches[first as usize].max(self.reaches[second as usize]);
-        let distance = self.distance([first, second]);
-        let (first, second) = (self.quick_box(first), self.quick_box(second));
-        let beyond = |margin: f64| f64::from(first.grown(margin as f32).distance(&second));
-        [beyond(margin + distance), beyond(distance)]
+    fn apart(&self, pair: [u32; 2]) -> [f64; 2] {
+        let distance = self.distance(pair);
+        let [own, other] = [self.reaches[pair[0] as usize], self.reaches[pair[1] as usize]];
+        let (first, second) = (self.quick_box(pair[0]), self.quick_box(pair[1]));
+        let beyond = |margin: f64| f64::from(first.grown((margin + distance) as f32).distance(&second));
+        [beyond(own.max(other)), beyond(own)]
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
@@ -192,12 +195,12 @@ impl EdgeCheck<'_> {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
         let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
         if past.is_none() {
-            let [from_near, from_touching] = self.apart(pair);
+            let [from_near, from_looking] = self.apart(pair);
             if from_near > 0.0 {
                 return EdgeVerdict::Apart(from_near);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
-            if stand_out && from_touching > 0.0 {
+            if stand_out && from_looking > 0.0 {
                 return EdgeVerdict::Apart(0.0);
             }
             let Some(crossing) = self.quick_crossing(pair) else { return EdgeVerdict::Apart(0.0) };
@@ -255,7 +258,8 @@ impl EdgeCheck<'_> {
         past: Option<&EdgeContact>,
         pairing: Pairing,
     ) -> Option<(EdgeContact, Constraint)> {
-        let margin = past.map_or(0.0, |_| self.reaches[pair[0] as usize]);
+        // Edges that are in each other already need no common place on their paths.
+        let margin = self.reaches[pair[0] as usize];
         let distance = self.distance(pair);
         if !self.swept_box(pair[0]).grown(margin + distance).overlaps(&self.swept_box(pair[1])) {
             return None;
@@ -474,15 +478,21 @@ impl EdgeCheck<'_> {
     fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<EdgeContact> {
         let start = Crossing::of(self.starts(pair, 0))?;
         // Turning through parallel within a step leaves no sense to compare.
-        if dot(start.normal, end.normal) <= 0.0 || start.gap == 0.0 {
+        if dot(start.normal, end.normal) <= 0.0 {
             return None;
         }
         let outwards = |sense: f64, normal: [f64; 3]| {
             // Pushed along the normal, the first edge goes back into its own body.
             sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
         };
-        let sense = start.gap.signum();
         let touch = |sense, tolerated| EdgeContact { pair, sense, tolerated, carried: Carried::NOTHING };
+        // Where they touch already, as a mesh may have it, the faces say on which side the other one is, and round-off nothing.
+        if start.gap.abs() <= TOUCHING * start.shorter() {
+            let comes = |sense: &f64| outwards(*sense, start.normal) && sense * end.gap < 0.0;
+            let sense = [1.0, -1.0].into_iter().find(comes).filter(|_| start.between_ends(0.0))?;
+            return Some(touch(sense, (sense * start.gap).min(0.0)));
+        }
+        let sense = start.gap.signum();
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
             return self.meets(pair).then_some(touch(sense, 0.0));
         }

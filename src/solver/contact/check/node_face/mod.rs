@@ -44,6 +44,9 @@ const SAME_WAY: f64 = 0.8;
 /// would be nearer to the other by as much.
 const SAME_WAY_AT_DISTANCE: f64 = 0.995;
 
+/// A point that is nearer to the middle of a surface than this part of a face's size is on neither side; a cosine below it is round-off.
+const IN_SURFACE: f64 = 1e-9;
+
 /// A sum of the area normals around a node that is shorter than this part of a face's area is round-off.
 const NO_NORMAL: f64 = 1e-9;
 
@@ -251,12 +254,27 @@ impl NodeFaceCheck<'_> {
             || self.faces.go_on(old, face).unwrap_or_else(|| self.begins_in_front(point, face))
     }
 
-    /// Whether a point begins the step on the side of a surface to which a face belongs. Where it is in the surface itself, it
-    /// belongs to the top.
+    /// Whether a point begins the step on the side of a surface to which a face belongs. Where it is in the surface itself, as a mesh may have
+    /// it, it belongs to the side at which its own body looks, or else to that from which it comes, or else to the top.
     fn begins_in_front(&self, point: u32, face: u32) -> bool {
-        let start = self.projection_at_start(point, face);
-        let top = self.faces.number[face as usize].is_multiple_of(6);
-        start.is_some_and(|start| start.gap > 0.0 || start.gap == 0.0 && top)
+        let Some(start) = self.projection_at_start(point, face) else { return false };
+        if start.gap.abs() > IN_SURFACE * self.faces.size[face as usize] || !self.faces.is_two_sided(face) {
+            return start.gap > 0.0;
+        }
+        let cosine = if self.faces.is_on_surface(point) { 0.0 } else { self.opposition(point, &start) };
+        if cosine.abs() > IN_SURFACE && !self.faces.around(point).is_empty() {
+            return cosine < 0.0;
+        }
+        let leaves = self.leaving(point, face, &start);
+        leaves < 0.0 || leaves == 0.0 && self.faces.number[face as usize].is_multiple_of(6)
+    }
+
+    /// How far a point would go in the step away from the foot that it has on a face, along its normal: a length.
+    fn leaving(&self, point: u32, face: u32, start: &Projection) -> f64 {
+        let ([before, after], at) =
+            ([self.faces.start(face, self.motion), self.faces.end(face, self.motion)], &start.weights);
+        let of_foot = subtract(projection::foot(&after, at), projection::foot(&before, at));
+        dot(subtract(subtract(self.motion.end(point), self.motion.start(point)), of_foot), start.normal)
     }
 
     /// Whether a point that a face has held before still is in its reach. What begins the step at a face comes from there, however far it

@@ -32,11 +32,13 @@ impl NodeFaceCheck<'_> {
         if distance > 0.0 && !may_have_come() || self.is_on_other_side(point, face) {
             return None;
         }
+        if self.is_around_corner(point, face, &end) {
+            return None;
+        }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights));
         if distance == 0.0 && start.gap >= 0.0 {
-            // Most points near solids are behind their faces' planes, around a corner, before and after: they are not asked.
             if !may_have_come() {
                 return None;
             }
@@ -65,6 +67,16 @@ impl NodeFaceCheck<'_> {
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &start.weights);
         inside.then(|| contact(0.0, start.gap))
+    }
+
+    /// Whether a point that ends the step behind the plane of a solid's face, but not where the solid is, has begun it behind that plane, too:
+    /// most do that are near a face and not in front of it.
+    #[inline(always)]
+    fn is_around_corner(&self, point: u32, face: u32, end: &Projection) -> bool {
+        let is_elsewhere = end.outside > 0.0 || end.gap <= -self.faces.depth[face as usize];
+        is_elsewhere
+            && self.faces.distance(point, face) == 0.0
+            && projection::is_behind(&self.faces.start(face, self.motion), self.motion.start(point))
     }
 
     /// Part of the step after which a point comes through the plane of a face of a solid hardly beyond its border, where the face around
