@@ -66,7 +66,7 @@ fields! {
         /// V
         Stretch = "STRETCH", ["STRETXX", "STRETYY", "STRETZZ", "STRETXY", "STRETYZ", "STRETZX"], "left stretch V, the stretch seen in space";
         /// R
-        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R; of trusses the smallest that takes them where they lie";
+        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element since the start, with F = V R; of trusses the smallest that takes them where they lie";
         /// q
         BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
         /// corner Jacobian

@@ -278,8 +278,8 @@ impl Formulation for Beam {
         columns(axes(&chord(group, i, nodes), &group.values(i, rows::AXIS)).e)
     }
 
-    fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        let [a, b] = [0, 1].map(|corner| nodes.initial(group.node(i, corner)));
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        let [a, b]: [[f64; 3]; 2] = group.initial_positions(i, nodes);
         let along = subtract(b, a);
         columns(axes(&along, &self.y_axis(along)).e)
     }

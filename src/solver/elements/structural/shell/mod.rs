@@ -285,9 +285,11 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
     }
 
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        let geometry = S::Facet::<f64>::new(&group.positions(i, nodes), 0.0);
-        let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
-        geometry.material_axes(turn)
+        material_axes::<S, C, R>(&group.positions(i, nodes), group, i)
+    }
+
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        material_axes::<S, C, R>(&group.initial_positions(i, nodes), group, i)
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
@@ -351,6 +353,17 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         let work = 0.5 * time_step * geometry.area() * (work + viscous);
         if work.is_finite() { work } else { 0.0 }
     }
+}
+
+/// Axes of the material of an element whose corners are here, which the mesh has had elsewhere.
+fn material_axes<S: Kind<C, R>, const C: usize, const R: usize>(
+    corners: &Corners<f64, C>,
+    group: &Group,
+    i: usize,
+) -> Matrix3<f64> {
+    let geometry = S::Facet::<f64>::new(corners, 0.0);
+    let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
+    geometry.material_axes(turn)
 }
 
 /// Rotary inertia of a corner over its mass: that of the section, or more, so that rotations seldom set the time step.
