@@ -1,8 +1,8 @@
-//! What the plot file says of elements: how they have turned.
+//! What the plot file says of elements: how they have turned, transverse shear of shells.
 
 use crate::support::meshes::recipe;
-use crate::support::run::{State, run};
-use crate::support::between;
+use crate::support::run::{Run, State, run};
+use crate::support::{between, close};
 
 const NAMES: [[&str; 3]; 3] = [["R11", "R12", "R13"], ["R21", "R22", "R23"], ["R31", "R32", "R33"]];
 
@@ -63,4 +63,53 @@ fn rotations_are_those_since_the_start() {
             between(case, "R at the end from the rotation", apart(rotation(last, element), turned), 0.0, 1e-3);
         }
     }
+}
+
+/// A load that rises slowly to 1.
+const RAMP: &str = "FUNCTION, 1\n0., 0.\n0.02, 0.1\n0.04, 0.35\n0.06, 0.65\n0.08, 0.9\n0.1, 1.\nEND\n";
+
+/// Mean of an element variable over the states after a time.
+fn mean(run: &Run, name: &str, element: usize, after: f64) -> f64 {
+    let values: Vec<f64> =
+        run.states.iter().filter(|state| state.time > after).map(|s| s.element(name)[element]).collect();
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// A cantilevered strip, 0.1 wide and 0.02 thick, with a force of 100 at its end: the mean shear stress over the thickness is
+/// 100/(0.1 · 0.02) = 5e4, and in the middle plane, where nothing else is, √3 of it is the equivalent stress.
+#[test]
+fn shear_stress_of_shells_is_the_shear_force_over_the_thickness() {
+    for (case, kind) in [("quadrilaterals", ""), ("triangles", "TRIANGLES, 1, CROSS\n")] {
+        let mesh = recipe(&format!(
+            "SHEET, 1, 0., 0., 0., 0.2, 0.1, 0., 6, 3\n{kind}NODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 0.2\n"
+        ));
+        let ends = mesh.node_set(2).map_or(0, |set| set.nodes.len());
+        let held: String = ["X", "Y", "Z"].map(|c| format!("NO DISPLACEMENT, {c}, 1\nNO ROTATION, {c}, 1\n")).concat();
+        let deck = format!(
+            "TERMINATION TIME, 0.12\nPLOT TIME, 1.E-4\nPLOT ELEMENT, STRESS, VONMISES, RESULTANTS, THICKNESS\n{RAMP}{held}\
+             SHELL THICKNESS, 1, 0.02\nPRESCRIBED FORCE, Z, 2, 1, {}\nMATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 70.E9\n\
+             POISSONS RATIO = 0.\nEND\n",
+            100.0 / ends as f64
+        );
+        let bent = run(&deck, &mesh);
+        let end = bent.end();
+        for element in 0..mesh.element_count() {
+            let [zx, yz, t, qx, qy] =
+                ["TAUZX", "TAUYZ", "THICKNESS", "QX", "QY"].map(|name| end.element(name)[element]);
+            close(case, "shear force over thickness", zx.hypot(yz), qx.hypot(qy) / t, 1e-6);
+        }
+        let middle: Vec<usize> = (0..mesh.element_count()).filter(|&e| is_in_the_middle(&mesh, e)).collect();
+        let over = |name: &str| middle.iter().map(|&e| mean(&bent, name, e, 0.1)).sum::<f64>() / middle.len() as f64;
+        close(case, "mean shear stress", over("TAUZX"), 5e4, 0.01);
+        close(case, "shear stress in the middle plane", over("TAUZX_M"), 5e4, 0.01);
+        if kind.is_empty() {
+            close(case, "equivalent stress in the middle plane", over("VONMISES_M"), 3f64.sqrt() * 5e4, 0.02);
+        }
+    }
+}
+
+/// Whether an element lies in the middle third of the strip.
+fn is_in_the_middle(mesh: &urto::mesh::Mesh, element: usize) -> bool {
+    let nodes = mesh.elements().nth(element).map(|(_, nodes)| nodes).expect("an element");
+    nodes.iter().all(|&node| (0.06..0.14).contains(&mesh.coordinates[node as usize][0]))
 }
