@@ -1,4 +1,4 @@
-//! What the plot file says of elements: how they have turned, transverse shear of shells.
+//! What the plot file says of elements: how they have turned, transverse shear of shells, the stress of beams.
 
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, State, run};
@@ -112,4 +112,25 @@ fn shear_stress_of_shells_is_the_shear_force_over_the_thickness() {
 fn is_in_the_middle(mesh: &urto::mesh::Mesh, element: usize) -> bool {
     let nodes = mesh.elements().nth(element).map(|(_, nodes)| nodes).expect("an element");
     nodes.iter().all(|&node| (0.06..0.14).contains(&mesh.coordinates[node as usize][0]))
+}
+
+/// A beam bent by a moment M: the outermost fibre of a rectangle stands at ½ (½ + ½/√3) of the height b from its middle, and has
+/// M z/I; the mean stress is nothing.
+#[test]
+fn equivalent_stress_of_beams_is_that_of_their_worst_fibre() {
+    let mesh = recipe("LINE, 1, 0., 0., 0., 0.2, 0., 0., 4\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 0.2\n");
+    let held: String = ["X", "Y", "Z"].map(|c| format!("NO DISPLACEMENT, {c}, 1\nNO ROTATION, {c}, 1\n")).concat();
+    let deck = format!(
+        "TERMINATION TIME, 0.12\nPLOT TIME, 1.E-4\nPLOT ELEMENT, STRESS, VONMISES, RESULTANTS\n{RAMP}{held}\
+         BEAM SECTION, 1, RECTANGLE, 0.01, 0.02, , , 0., 1., 0.\nPRESCRIBED MOMENT, Y, 2, 1, 50.\nMATERIAL, 1, ELASTIC, 7850.\n\
+         YOUNGS MODULUS = 210.E9\nPOISSONS RATIO = 0.3\nEND\n"
+    );
+    let bent = run(&deck, &mesh);
+    let place = 0.25 * (1.0 + 1.0 / 3f64.sqrt()) * 0.02;
+    let expected = 50.0 * place / (0.01 * 0.02f64.powi(3) / 12.0);
+    for element in 0..4 {
+        close("beam", "moment about y", mean(&bent, "MXX", element, 0.1), 50.0, 0.005);
+        close("beam", "largest stress of a fibre", mean(&bent, "VONMISES", element, 0.1), expected, 0.005);
+        between("beam", "mean stress", mean(&bent, "SIGXX", element, 0.1).abs(), 0.0, 1e-3 * expected);
+    }
 }

@@ -173,6 +173,12 @@ pub trait Formulation: Sized {
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
 
+    /// The same where the element is stressed most, if it has no other point for that in the plot file: of a bar that bends, its
+    /// mean says little.
+    fn governing_stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+        self.stress(group, i)
+    }
+
     /// Whether it resists that its nodes turn against each other.
     fn bends(&self) -> bool {
         false

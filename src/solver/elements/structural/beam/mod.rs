@@ -288,6 +288,12 @@ impl Formulation for Beam {
         uniaxial_stress(group.value(i, rows::RESULTANTS) / self.area(group, i))
     }
 
+    /// That of the fibre with the largest.
+    fn governing_stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+        let stresses = (0..self.points()).map(|point| self.point_stress(group, i, point).xx);
+        uniaxial_stress(stresses.fold(0.0, |most: f64, stress| if stress.abs() > most.abs() { stress } else { most }))
+    }
+
     fn touch(&self, _: &[f64]) -> Touch {
         Touch::Nodes(self.section.radius)
     }
