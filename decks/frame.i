@@ -1,6 +1,6 @@
 $ A frame of beams with a roof of sheet: the ground under its posts is moved by an earthquake's pulse, and a heavy thing stands in
 $ the middle of the roof. Posts are I beams, the ring is of round tube.
-$ Look: urto view frame.e -v VONMISES; the posts flow at their feet.
+$ Look: urto view frame.e -v VONMISES, in beams the largest stress of a fibre; the posts flow at their feet, where EQPS is not zero.
 TITLE
  FRAME OF BEAMS WITH A ROOF OF SHEET
 TERMINATION TIME, 0.6

@@ -360,3 +360,28 @@ fn blocks_and_sets_may_be_number_zero() {
     desk.put("bar.i", &bar_deck(SOON, loads).replace("MATERIAL, 1,", "MATERIAL, -1,"));
     desk.urto(&["bar.i", "-q"]).with(2).says(&["it must be 0 or more, as the number of every block is"]);
 }
+
+/// Beams along the vector of their section, or nearly: 1e-4 of it across them is a sine of 1e-4. One of 0.01 says where y is.
+#[test]
+fn vectors_along_beams_are_refused() {
+    let desk = Desk::new();
+    desk.put("case.mesh", "TITLE\n column\nLINE, 1, 0., 0., 0., 1., 0., 0., 2\nLINE, 1, 1., 0., 0., 1., 0., 3., 4\n");
+    let deck = |vector: &str| {
+        format!(
+            "TITLE\n column\nTERMINATION TIME, 1.E-6\nBEAM SECTION, 1, RECTANGLE, 0.1, 0.2, , , {vector}\nMATERIAL, 1, ELASTIC, 7800.\n\
+             YOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\nEXIT\n"
+        )
+    };
+    for vector in ["0., 0., 1.", "1.E-4, 0., 1.", "0., 0., -5."] {
+        desk.put("case.i", &deck(vector));
+        for arguments in [&["check", "case.i"][..], &["case.i", "-q"]] {
+            let told = desk.urto(arguments).with(2);
+            let words = "block 1: BEAM SECTION: the vector lies along beam 3, and 3 more";
+            assert!(told.err.contains(words) && told.err.contains("such as 1.0, 0.0, 0.0"), "{}", told.err);
+        }
+    }
+    for vector in ["0.01, 0., 1.", "0., 1., 0."] {
+        desk.put("case.i", &deck(vector));
+        desk.urto(&["check", "case.i"]).with(0);
+    }
+}

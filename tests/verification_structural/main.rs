@@ -1,6 +1,7 @@
 //! Shells, beams and trusses against known answers.
 
 mod beams;
+mod plotted;
 mod shell_extremes;
 mod shell_tubes;
 mod shells;

@@ -46,13 +46,13 @@ fields! {
     /// What PLOT ELEMENT can ask for.
     ElementField {
         /// Cauchy stress
-        Stress = "STRESS", ["SIGXX", "SIGYY", "SIGZZ", "TAUXY", "TAUYZ", "TAUZX"], "Cauchy stress without bulk viscosity, positive in tension, force/length squared";
+        Stress = "STRESS", ["SIGXX", "SIGYY", "SIGZZ", "TAUXY", "TAUYZ", "TAUZX"], "Cauchy stress without bulk viscosity, positive in tension, force/length squared; of shells transverse shear is the shear force over the thickness, of beams the normal force over the area and nothing else";
         /// Hencky strain
         Strain = "STRAIN", ["EPSXX", "EPSYY", "EPSZZ", "EPSXY", "EPSYZ", "EPSZX"], "logarithmic strain ln V, tensor shear components";
         /// p
-        Pressure = "PRESSURE", ["PRESSURE"], "minus the mean stress, positive in compression";
+        Pressure = "PRESSURE", ["PRESSURE"], "minus the mean stress, positive in compression; of beams that of the normal force over the area";
         /// von Mises
-        VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress";
+        VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress; of shells that of the mean stress, of beams the largest normal stress of a fibre, without torsion and shear";
         /// energy per volume
         Energy = "ENERGY", ["ENERGY"], "work of the stress since the start per unit initial volume: internal energy without the heat of viscosities";
         /// energy per mass
@@ -66,7 +66,7 @@ fields! {
         /// V
         Stretch = "STRETCH", ["STRETXX", "STRETYY", "STRETZZ", "STRETXY", "STRETYZ", "STRETZX"], "left stretch V, the stretch seen in space";
         /// R
-        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element, with F = V R; of trusses the smallest that takes them where they lie";
+        Rotation = "ROTATION", ["R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"], "rotation R of the element since the start, with F = V R; of trusses the smallest that takes them where they lie";
         /// q
         BulkViscosity = "BULKQ", ["BULKQ"], "pressure of the bulk viscosity in the last step, positive in compression";
         /// corner Jacobian
@@ -74,7 +74,7 @@ fields! {
         /// thickness
         Thickness = "THICKNESS", ["THICKNESS"], "present thickness of shells, length";
         /// resultants
-        Resultants = "RESULTANTS", ["NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"], "forces and moments of shells per length, in the frame of the element";
+        Resultants = "RESULTANTS", ["NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"], "of shells forces and moments per length, in axes that turn with the material; of beams normal force (NXX), moments about y and z of the section (MXX, MYY), torque (MXY), shear forces along y and z (QX, QY)";
         /// alive
         Status = "STATUS", ["STATUS"], "1 for an element, 0 for one that was taken away";
         /// rank

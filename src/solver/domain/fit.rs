@@ -9,7 +9,19 @@ use std::collections::BTreeSet;
 pub fn unfit_blocks(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
     let unfit = |block: &crate::mesh::Block| Some((block.id, elements::Element::of_block(block, model).err()?));
     let all = mesh.blocks.iter().filter_map(unfit);
-    all.chain(without_eight_points(mesh, model)).chain(beyond_single(mesh, model)).collect()
+    let of_blocks = all.chain(without_eight_points(mesh, model)).chain(beyond_single(mesh, model));
+    of_blocks.chain(beams_along_their_vector(mesh, model)).collect()
+}
+
+/// Blocks of beams whose vector does not say how the section lies.
+fn beams_along_their_vector(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
+    let mut numbers = &mesh.element_ids[..];
+    let unfit = |block: &crate::mesh::Block| {
+        let (own, others) = numbers.split_at_checked(block.len())?;
+        numbers = others;
+        Some((block.id, elements::beam::unfit_direction(mesh, block, own, model)?))
+    };
+    mesh.blocks.iter().filter_map(unfit).collect()
 }
 
 /// Blocks whose numbers single precision cannot hold.

@@ -259,6 +259,11 @@ impl Group {
         positions
     }
 
+    /// Positions in the mesh of the nodes of the `i`-th element, which has as many.
+    pub fn initial_positions<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
+        std::array::from_fn(|corner| nodes.initial(self.node(i, corner)))
+    }
+
     /// Velocities of the nodes of the `i`-th element, which has as many.
     pub fn velocities<const N: usize>(&self, i: usize, nodes: &Nodes) -> [[f64; 3]; N] {
         std::array::from_fn(|corner| nodes.velocity(self.node(i, corner)))

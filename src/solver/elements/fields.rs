@@ -29,7 +29,7 @@ pub fn field_values(
         ElementField::Stress => filled(&in_space(element.stress(group, i))),
         ElementField::Strain => filled(&in_space(logarithm(element.stretch(group, i, nodes)))),
         ElementField::Pressure => filled(&[pressure(element.stress(group, i))]),
-        ElementField::VonMises => filled(&[von_mises(element.stress(group, i))]),
+        ElementField::VonMises => filled(&[von_mises(element.governing_stress(group, i))]),
         ElementField::Energy => filled(&[per_volume(Some(entry.energies.internal))]),
         ElementField::SpecificEnergy => filled(&[specific_energy(block, group, i)]),
         ElementField::Temperature => filled(&[temperature(block, group, i, nodes)]),

@@ -7,7 +7,7 @@ use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Law, Start};
 use crate::mesh::{Block, Shape};
 use crate::model::{Model, Precision};
-use crate::solver::nodes::Nodes;
+use crate::solver::nodes::{Nodes, dot};
 
 /// What the deck, the manual, restart files and the energy balance need to know of a kind of element.
 pub struct Entry {
@@ -159,14 +159,25 @@ pub trait Formulation: Sized {
     /// The rotation from the frame of the `i`-th element into space; columns are its axes.
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64>;
 
-    /// How the `i`-th element has turned. Bars say it since the start, solids and shells by their frame, which begins as the axes of
-    /// space where they lie along these.
+    /// What [`Formulation::frame`] was at the start: an element lies in the mesh as it likes.
+    fn initial_frame(&self, _group: &Group, _i: usize, _nodes: &Nodes) -> Matrix3<f64> {
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    }
+
+    /// How the `i`-th element has turned since the start: the R of F = V R.
     fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        self.frame(group, i, nodes)
+        let start = self.initial_frame(group, i, nodes);
+        self.frame(group, i, nodes).map(|row| start.map(|other| dot(row, other)))
     }
 
     /// Cauchy stress without bulk viscosity in the frame of the `i`-th element, force/length².
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64>;
+
+    /// The same where the element is stressed most, if it has no other point for that in the plot file: of a bar that bends, its
+    /// mean says little.
+    fn governing_stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+        self.stress(group, i)
+    }
 
     /// Whether it resists that its nodes turn against each other.
     fn bends(&self) -> bool {

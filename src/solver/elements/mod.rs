@@ -112,6 +112,11 @@ macro_rules! elements {
                 match self { $(Element::$element(own) => own.stress(group, i),)+ }
             }
 
+            /// See [`Formulation::governing_stress`].
+            pub fn governing_stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+                match self { $(Element::$element(own) => own.governing_stress(group, i),)+ }
+            }
+
             /// See [`Formulation::bends`].
             pub fn bends(&self) -> bool {
                 match self { $(Element::$element(own) => own.bends(),)+ }

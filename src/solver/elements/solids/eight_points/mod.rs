@@ -11,7 +11,7 @@ mod kernel;
 use super::hexahedron::hourglass::{AssumedStrain, Either};
 use super::hexahedron::kinematics::rotation_matrix;
 use super::hexahedron::vibration::{FrameRows, Vibration};
-use super::hexahedron::{HasConstantStiffness, begin, mean_power, weigh};
+use super::hexahedron::{HasConstantStiffness, begin, mean_power, own_axes, weigh};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
@@ -194,6 +194,10 @@ impl Formulation for EightPoints {
 
     fn frame(&self, group: &Group, i: usize, _: &Nodes) -> Matrix3<f64> {
         rotation_matrix(&group.values::<4>(i, rows::FRAME))
+    }
+
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        rotation_matrix(&own_axes(&group.initial_positions(i, nodes)))
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {

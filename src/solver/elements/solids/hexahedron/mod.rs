@@ -25,7 +25,7 @@ use crate::solver::elements::{
     StoredRow, Unfit,
 };
 use crate::solver::nodes::Nodes;
-use frame::own_axes;
+pub(super) use frame::own_axes;
 use geometry::{corners, gradient, modes};
 use hourglass::{AssumedStrain, Control, Either, FlanaganBelytschko};
 use kernel::{Physics, Settings};
@@ -192,6 +192,10 @@ impl Formulation for Hexahedron {
 
     fn frame(&self, group: &Group, i: usize, _: &Nodes) -> Matrix3<f64> {
         rotation_matrix(&group.values::<4>(i, rows::FRAME))
+    }
+
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        rotation_matrix(&own_axes(&group.initial_positions(i, nodes)))
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {

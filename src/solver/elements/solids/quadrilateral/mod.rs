@@ -173,6 +173,10 @@ impl Formulation for Quadrilateral {
         matrix(group.values::<2>(i, rows::FRAME))
     }
 
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        matrix(own_axis(&group.initial_positions(i, nodes)))
+    }
+
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         tensor(group, i, rows::STRESS)
     }

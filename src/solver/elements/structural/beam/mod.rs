@@ -9,18 +9,19 @@
 //! fibres and keeps its form, so that areas grow with exp(2ε_t), distances with exp(ε_t).
 
 mod kernel;
+mod orientation;
 mod section;
 
 use super::shell::unfit_law;
 use crate::common::vector::{dot, normalized, scaled, subtract};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
-use crate::mesh::{Block, Shape};
+use crate::mesh::{Block, Mesh, Shape};
 use crate::model::{self, Model};
 use crate::solver::body::centroid;
 use crate::solver::elements::{
-    Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample, StoredRow,
-    Touch, Unfit,
+    Element, Energies, Entry, Formulation, Group, NewElement, Pass, PassOutcome, PassSettings, PointEntry, Sample,
+    StoredRow, Touch, Unfit,
 };
 use crate::solver::nodes::Nodes;
 use kernel::{BeamStep, axes, young_and_shear};
@@ -137,6 +138,31 @@ fn given_by(command: &model::Section, block: &Block) -> Result<([f64; 4], [f64; 
     Ok((dimensions, if given { vector } else { of_mesh.unwrap_or(vector) }))
 }
 
+/// Why a block of beams cannot be computed of which some lie along the vector that is to be in the plane of their y axis.
+pub fn unfit_direction(mesh: &Mesh, block: &Block, numbers: &[i64], model: &Model) -> Option<Unfit> {
+    let Ok(Element::Beam(beam)) = Element::of_block(block, model) else { return None };
+    let direction = beam.direction?;
+    let ends = |nodes: &[u32]| [nodes[0], nodes[1]].map(|node| mesh.coordinates[node as usize]);
+    let lies_along = |(nodes, _): &(&[u32], &i64)| orientation::sine(ends(nodes), direction) < orientation::PARALLEL;
+    let mut along = block.elements().zip(numbers).filter(lies_along);
+    let (nodes, number) = along.next()?;
+    let more = match along.count() {
+        0 => String::new(),
+        more => format!(", and {more} more"),
+    };
+    let [a, b] = ends(nodes);
+    let [x, y, z] = orientation::axis_across(subtract(b, a));
+    Some(Unfit {
+        reason: format!(
+            "BEAM SECTION: the vector lies along beam {number}{more}, and does not say where the y axis of the section is"
+        ),
+        help: format!(
+            "give one across the beam, such as {x:?}, {y:?}, {z:?}, which without a vector is taken for it; beams that no vector suits \
+             need blocks of their own"
+        ),
+    })
+}
+
 /// The cross section of a form with these dimensions, of which there may be fewer.
 fn section(form: &str, [a, b, c, d]: [f64; 4]) -> Result<Section, Unfit> {
     let unfit = |reason: String| Err(Unfit { reason: format!("BEAM SECTION: {reason}"), help: String::new() });
@@ -158,11 +184,7 @@ fn section(form: &str, [a, b, c, d]: [f64; 4]) -> Result<Section, Unfit> {
 impl Beam {
     /// The y axis of a beam that lies along a vector, at the start.
     fn y_axis(&self, along: [f64; 3]) -> [f64; 3] {
-        let least =
-            (0..3).fold(0, |least: usize, axis| if along[axis].abs() < along[least].abs() { axis } else { least });
-        let mut other = [0.0; 3];
-        other[least] = 1.0;
-        axes(&along, &self.direction.unwrap_or(other)).e[1]
+        orientation::y_axis(along, self.direction)
     }
 
     /// Rotary inertia of a node over its mass, by which no rotation is faster than the beam stretches: that about its line, or more
@@ -256,15 +278,20 @@ impl Formulation for Beam {
         columns(axes(&chord(group, i, nodes), &group.values(i, rows::AXIS)).e)
     }
 
-    fn rotation(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        let [a, b] = [0, 1].map(|corner| nodes.initial(group.node(i, corner)));
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        let [a, b]: [[f64; 3]; 2] = group.initial_positions(i, nodes);
         let along = subtract(b, a);
-        let start = columns(axes(&along, &self.y_axis(along)).e);
-        self.frame(group, i, nodes).map(|row| start.map(|other| dot(row, other)))
+        columns(axes(&along, &self.y_axis(along)).e)
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         uniaxial_stress(group.value(i, rows::RESULTANTS) / self.area(group, i))
+    }
+
+    /// That of the fibre with the largest.
+    fn governing_stress(&self, group: &Group, i: usize) -> Sym3<f64> {
+        let stresses = (0..self.points()).map(|point| self.point_stress(group, i, point).xx);
+        uniaxial_stress(stresses.fold(0.0, |most: f64, stress| if stress.abs() > most.abs() { stress } else { most }))
     }
 
     fn touch(&self, _: &[f64]) -> Touch {

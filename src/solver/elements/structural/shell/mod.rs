@@ -176,6 +176,27 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         self.points.iter().map(|[place, weight]| 1.5 * weight * place * place).sum()
     }
 
+    /// Stress at a point as the law has it. Its transverse shear is that of a uniform angle, and larger than what is carried.
+    fn law_stress(&self, group: &Group, i: usize, point: usize) -> Sym3<f64> {
+        let stride = (group.stride - S::ROWS.points) / self.points.len();
+        let first = S::ROWS.points + point * stride;
+        let [xx, yy, xy, yz, zx] = group.values(i, first + point_rows::XX);
+        Sym3 { xx, yy, zz: 0.0, xy, yz, zx }
+    }
+
+    /// The part of the law's transverse shear that the section carries, so that its mean is the shear force over the thickness: the
+    /// correction of the section, and in triangles what is taken off where they are slender. Both are in the force.
+    fn shear_share(&self, group: &Group, i: usize) -> f64 {
+        let [.., qx, qy] = group.values::<8>(i, S::ROWS.resultants);
+        let [yz, zx] = (0..self.points.len()).fold([0.0; 2], |[yz, zx], point| {
+            let (share, stress) = (0.5 * self.points[point][1], self.law_stress(group, i, point));
+            [yz + share * stress.yz, zx + share * stress.zx]
+        });
+        let carried = (qx * zx + qy * yz) / (group.value(i, rows::THICKNESS) * (zx * zx + yz * yz));
+        // Nothing is sheared, or by so little that its square is no number.
+        if carried.is_finite() { carried } else { SHEAR_CORRECTION }
+    }
+
     fn stiffness(&self, law: &Law) -> Stiffness {
         let membrane = self.points.len() == 1;
         Stiffness {
@@ -285,17 +306,22 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
     }
 
     fn frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
-        let geometry = S::Facet::<f64>::new(&group.positions(i, nodes), 0.0);
-        let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
-        geometry.material_axes(turn)
+        material_axes::<S, C, R>(&group.positions(i, nodes), group, i)
+    }
+
+    fn initial_frame(&self, group: &Group, i: usize, nodes: &Nodes) -> Matrix3<f64> {
+        material_axes::<S, C, R>(&group.initial_positions(i, nodes), group, i)
     }
 
     fn stress(&self, group: &Group, i: usize) -> Sym3<f64> {
         let nothing = Sym3 { xx: 0.0, yy: 0.0, zz: 0.0, xy: 0.0, yz: 0.0, zx: 0.0 };
-        (0..self.points.len()).fold(nothing, |sum, point| {
+        let [.., qx, qy] = self.resultants(group, i);
+        let thickness = self.thickness(group, i);
+        let mean = (0..self.points.len()).fold(nothing, |sum, point| {
             let share = self.point_share(point);
-            sum.zip(self.point_stress(group, i, point), |sum, stress| sum + share * stress)
-        })
+            sum.zip(self.law_stress(group, i, point), |sum, stress| sum + share * stress)
+        });
+        Sym3 { yz: qy / thickness, zx: qx / thickness, ..mean }
     }
 
     /// One point in the middle makes a membrane of it.
@@ -312,10 +338,9 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
     }
 
     fn point_stress(&self, group: &Group, i: usize, point: usize) -> Sym3<f64> {
-        let stride = (group.stride - S::ROWS.points) / self.points.len();
-        let first = S::ROWS.points + point * stride;
-        let [xx, yy, xy, yz, zx] = group.values(i, first + point_rows::XX);
-        Sym3 { xx, yy, zz: 0.0, xy, yz, zx }
+        let stress = self.law_stress(group, i, point);
+        let share = self.shear_share(group, i);
+        Sym3 { yz: share * stress.yz, zx: share * stress.zx, ..stress }
     }
 
     fn thickness(&self, group: &Group, i: usize) -> f64 {
@@ -351,6 +376,17 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         let work = 0.5 * time_step * geometry.area() * (work + viscous);
         if work.is_finite() { work } else { 0.0 }
     }
+}
+
+/// Axes of the material of an element whose corners are here, which the mesh has had elsewhere.
+fn material_axes<S: Kind<C, R>, const C: usize, const R: usize>(
+    corners: &Corners<f64, C>,
+    group: &Group,
+    i: usize,
+) -> Matrix3<f64> {
+    let geometry = S::Facet::<f64>::new(corners, 0.0);
+    let (turn, _) = geometry.turn(&group.values(i, rows::REFERENCE));
+    geometry.material_axes(turn)
 }
 
 /// Rotary inertia of a corner over its mass: that of the section, or more, so that rotations seldom set the time step.
