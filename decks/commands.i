@@ -83,6 +83,6 @@ PRESCRIBED ACCELERATION, X, 1, 1, 1.E5
 PRESCRIBED VELOCITY, Y, 5, 1, 2.
 PRESCRIBED FORCE, X, 5, 1, 10.
 PRESSURE, 300, 1, 1.E6
-SILENT BC, 200                                      $ waves may leave through the top
+SILENT BC, 200                                      $ waves may leave through the top, were it not driven: check says so
 GRAVITY, 0., 0., -9.81, 2
 EXIT

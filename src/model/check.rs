@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     Analysis, Contact, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
-    conditions::boundary::direction,
+    conditions::{boundary::direction, doubts},
     interactions::{contact, rigid, tied},
     materials::explosive,
     problem::those_there_are,
@@ -59,6 +59,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     }
     choices_without_effect(problem, mesh, &mut found);
     elements_twice(mesh, &mut found);
+    doubts::check(problem, mesh, &mut found);
     contact::check(problem, mesh, &mut found);
     rigid::check(problem, mesh, &mut found);
     tied::check(problem, mesh, &mut found);
@@ -448,7 +449,7 @@ fn conflicts(problem: &Problem, mesh: &Mesh, axis: Direction, found: &mut Diagno
 }
 
 /// Whether a card holds or drives nodes in a direction.
-fn moves(card: &Card, axis: Direction) -> bool {
+pub(super) fn moves(card: &Card, axis: Direction) -> bool {
     const MOVING: [&str; 4] =
         ["NO DISPLACEMENT", "PRESCRIBED DISPLACEMENT", "PRESCRIBED VELOCITY", "PRESCRIBED ACCELERATION"];
     card.complete && MOVING.contains(&card.name.as_str()) && direction(card) == axis

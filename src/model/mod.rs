@@ -12,7 +12,7 @@ mod problem;
 
 pub use check::check;
 pub use conditions::{
-    Direction, Function, Gravity, InitialVelocity, MotionKind, NoDisplacement, PointMass, PrescribedForce,
+    Direction, Function, Gravity, InitialVelocity, Jump, MotionKind, NoDisplacement, PointMass, PrescribedForce,
     PrescribedMotion, Pressure, Pulse, Unknown,
 };
 pub use control::{

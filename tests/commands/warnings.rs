@@ -483,3 +483,24 @@ fn corners_are_plotted_and_may_end_an_element() {
     assert!(desk.text("dead.o").contains("ELEMENTS TAKEN AWAY"));
     assert!(!desk.text("dead.o").contains("INSIDE OUT"), "they are gone before a line is due");
 }
+
+/// A displacement of a centimetre from the start on, in a step of a microsecond: 10 km/s.
+#[test]
+fn displacements_that_jump_are_told() {
+    let deck = |first: f64| {
+        format!(
+            "TERMINATION TIME, 1.E-4\nTIME STEP MAXIMUM, 1.E-6\nFUNCTION, 1\n0., {first}\n1.E-3, 0.01\nEND\n\
+             PRESCRIBED DISPLACEMENT, X, 1, 1\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}"
+        )
+    };
+    let mesh = "BOX, 1, 0., 0., 0., 1., 1., 1., 5, 5, 5\nNODE SET PLANE, 1, X, 0.\n";
+    let jumps = desk(&deck(0.01), mesh);
+    let told = "node set 1 jumps by 1.0000e-2 in X within the first step, at a velocity of 1.000e4";
+    jumps.urto(&["check", "case.i"]).with(0).says(&[told]);
+    let told = jumps.urto(&["case.i", "-q"]).with(0);
+    let words = "PRESCRIBED DISPLACEMENT, X of node set 1 is 1.0000e-2 at the start instead of 0: its nodes jump there within the first \
+                 step, at a velocity of 1.000e4";
+    assert!(told.err.contains(words), "{}", told.err);
+    let rises = desk(&deck(0.0), mesh).urto(&["case.i", "-q"]).with(0);
+    assert!(!rises.err.contains("jump"), "{}", rises.err);
+}

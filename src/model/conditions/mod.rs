@@ -1,8 +1,10 @@
 //! Conditions of the body: what is held, driven, loaded, and how it moves at the start.
 
 pub(super) mod boundary;
+pub(super) mod doubts;
 pub(super) mod function;
 pub(super) mod initial;
+pub(super) mod jump;
 pub(super) mod pulse;
 
 pub use boundary::{
@@ -10,4 +12,5 @@ pub use boundary::{
 };
 pub use function::Function;
 pub use initial::InitialVelocity;
+pub use jump::Jump;
 pub use pulse::Pulse;

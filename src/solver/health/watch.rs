@@ -5,7 +5,7 @@ use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
 use crate::mesh::{Mesh, counts_from_one};
-use crate::model::{Model, Pulse};
+use crate::model::{Jump, Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
@@ -38,6 +38,8 @@ pub struct Facts {
     pub tied_held: (usize, Option<Spot>),
     /// The shortest pulse of the functions that drive and load.
     pub pulse: Option<Pulse>,
+    /// The largest displacement that is prescribed for the first instant.
+    pub jump: Option<Jump>,
 }
 
 /// A block of the mesh.
@@ -110,6 +112,7 @@ impl Watch {
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
             tied_held: tied_held(mesh, body),
             pulse: model.shortest_pulse(),
+            jump: model.largest_jump(),
         };
         Watch { facts, supplied: initial_energy, supplied_before: [initial_energy; 2], ..Watch::default() }
     }

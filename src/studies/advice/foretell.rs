@@ -4,7 +4,7 @@ use super::steps;
 use super::walls::thin_blocks;
 use crate::common::numbers::scientific;
 use crate::mesh::{Block, Mesh};
-use crate::model::{Model, Pulse};
+use crate::model::{Jump, Model, Pulse};
 use crate::solver::Solver;
 
 /// How much farther than the fastest of its nodes at the start something may go: bodies spring back.
@@ -28,6 +28,13 @@ pub fn foretold(mesh: &Mesh, model: &Model, solver: &Solver) -> Vec<String> {
                 "function {function} goes up or down and comes back within {seen:.2} steps from time {start:.4e} on: steps hardly see it"
             ));
         }
+    }
+    if let Some(Jump { node_set, direction, size }) = model.largest_jump() {
+        lines.push(format!(
+            "node set {node_set} jumps by {size:.4e} in {direction:?} within the first step, at a velocity of {:.3e}: its PRESCRIBED \
+             DISPLACEMENT does not begin with 0",
+            size.abs() / solver.time_step
+        ));
     }
     for index in thin_blocks(mesh, model) {
         let id = mesh.blocks[index].id;

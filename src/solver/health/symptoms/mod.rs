@@ -10,6 +10,7 @@ mod debris;
 mod given_back;
 pub mod hourglass;
 mod imbalance;
+mod jump;
 mod runaway;
 mod short_pulse;
 
@@ -42,7 +43,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 18] = [
+pub static SYMPTOMS: [Symptom; 19] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -59,6 +60,7 @@ pub static SYMPTOMS: [Symptom; 18] = [
     brief::SYMPTOM,
     tied_held::SYMPTOM,
     short_pulse::SYMPTOM,
+    jump::SYMPTOM,
     beyond_hugoniot::SYMPTOM,
     damped_flow::SYMPTOM,
 ];
