@@ -52,14 +52,8 @@ impl SweptBox {
     /// The box around four others, grown by a margin.
     #[inline(always)]
     pub fn joined([a, b, c, d]: [&SweptBox; 4], margin: f32) -> SweptBox {
-        SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])))).grown(margin)
-    }
-
-    /// The same box grown by a margin.
-    #[inline(always)]
-    pub fn grown(&self, margin: f32) -> SweptBox {
         let margin = margin * (1.0 + OUTWARDS);
-        SweptBox(std::array::from_fn(|i| self.0[i] - margin))
+        SweptBox(std::array::from_fn(|i| smaller(smaller(a.0[i], b.0[i]), smaller(c.0[i], d.0[i])) - margin))
     }
 
     /// Its low and its high corner.

@@ -170,23 +170,20 @@ impl EdgeCheck<'_> {
         Box3::around(&[start(a), start(b), start(c), start(d), end(a), end(b), end(c), end(d)])
     }
 
-    /// Box around the path of an edge over the step, in single precision.
+    /// Box around the path of an edge over the step, grown by a margin, in single precision.
     #[inline(always)]
-    fn quick_box(&self, edge: u32) -> SweptBox {
+    fn quick_box(&self, edge: u32, margin: f64) -> SweptBox {
         let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
         let motion = self.motion;
-        SweptBox::joined([motion.swept_box(a), motion.swept_box(b), motion.swept_box(c), motion.swept_box(d)], 0.0)
+        let boxes = [motion.swept_box(a), motion.swept_box(b), motion.swept_box(c), motion.swept_box(d)];
+        SweptBox::joined(boxes, margin as f32)
     }
 
-    /// How far apart the swept boxes of two edges are along an axis, beyond where they are near, not above 0 where they are near; and beyond
-    /// where the first one that stands out looks for the second.
+    /// How far apart the swept boxes of two edges are along an axis, beyond where they are near; not above 0 where they are near.
     #[inline(always)]
-    fn apart(&self, pair: [u32; 2]) -> [f64; 2] {
-        let distance = self.distance(pair);
-        let [own, other] = [self.reaches[pair[0] as usize], self.reaches[pair[1] as usize]];
-        let (first, second) = (self.quick_box(pair[0]), self.quick_box(pair[1]));
-        let beyond = |margin: f64| f64::from(first.grown((margin + distance) as f32).distance(&second));
-        [beyond(own.max(other)), beyond(own)]
+    fn apart(&self, [first, second]: [u32; 2]) -> f64 {
+        let margin = self.reaches[first as usize].max(self.reaches[second as usize]) + self.distance([first, second]);
+        f64::from(self.quick_box(first, margin).distance(&self.quick_box(second, 0.0)))
     }
 
     /// Whether two edges touch in the coming step: the pair to remember and its constraint.
@@ -195,14 +192,11 @@ impl EdgeCheck<'_> {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
         let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
         if past.is_none() {
-            let [from_near, from_looking] = self.apart(pair);
-            if from_near > 0.0 {
-                return EdgeVerdict::Apart(from_near);
+            let apart = self.apart(pair);
+            if apart > 0.0 {
+                return EdgeVerdict::Apart(apart);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
-            if stand_out && from_looking > 0.0 {
-                return EdgeVerdict::Apart(0.0);
-            }
             let Some(crossing) = self.quick_crossing(pair) else { return EdgeVerdict::Apart(0.0) };
             if !stand_out && self.is_above(pair[1], &crossing) {
                 return EdgeVerdict::Apart(0.0);
@@ -213,7 +207,7 @@ impl EdgeCheck<'_> {
         match found {
             Some((now, constraint)) => EdgeVerdict::Touching(now, Box::new(constraint)),
             // Newcomers that come so far are near.
-            None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair)[0].max(0.0))),
+            None => EdgeVerdict::Apart(past.map_or(0.0, |_| self.apart(pair).max(0.0))),
         }
     }
 
