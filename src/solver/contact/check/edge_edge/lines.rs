@@ -21,6 +21,8 @@ pub struct Crossing {
     pub gap: f64,
     /// Lengths of the edges.
     pub lengths: [f64; 2],
+    /// Sine of the angle between them.
+    pub sine: f64,
 }
 
 impl Crossing {
@@ -40,19 +42,15 @@ impl Crossing {
         let places = [dot(cross(r, v), product) / square, dot(cross(r, u), product) / square];
         let length = square.sqrt();
         let normal = scaled(product, 1.0 / length);
-        Some(Crossing { normal, places, gap: -dot(r, normal), lengths: [uu.sqrt(), vv.sqrt()] })
+        let lengths = [uu.sqrt(), vv.sqrt()];
+        Some(Crossing { normal, places, gap: -dot(r, normal), lengths, sine: length / (lengths[0] * lengths[1]) })
     }
 
-    /// Whether they cross between their ends, by more than `depth` from every end: nearer to an end, a node or another
-    /// edge is in the way before these two.
-    pub fn between_ends(&self, depth: f64) -> bool {
-        self.within(depth, WHOLE)
-    }
-
-    /// The same where the second line reaches from `low` to `high`, as parts of it.
-    pub fn within(&self, depth: f64, [low, high]: [f64; 2]) -> bool {
-        let [first, second] = self.places;
-        first.min(1.0 - first) * self.lengths[0] > depth && (second - low).min(high - second) * self.lengths[1] > depth
+    /// Whether they cross by more than `depth` from every end: nearer to an end, a node or another edge is in the way before these two.
+    /// Each line reaches from and to these parts of it.
+    pub fn within(&self, depth: f64, parts: [[f64; 2]; 2]) -> bool {
+        let inside = |place: f64, [low, high]: [f64; 2], length: f64| (place - low).min(high - place) * length > depth;
+        inside(self.places[0], parts[0], self.lengths[0]) && inside(self.places[1], parts[1], self.lengths[1])
     }
 
     /// Length of the shorter one.
@@ -71,14 +69,14 @@ pub struct QuickCrossing {
 }
 
 impl QuickCrossing {
-    /// How two lines cross; `None` where they do not between their ends, where the second reaches from `low` to `high`, as parts of it.
+    /// How two lines cross; `None` where they do not between their ends. Each reaches from and to these parts of it.
     #[inline(always)]
-    pub fn of([a, b]: [Line; 2], [low, high]: [f64; 2]) -> Option<QuickCrossing> {
+    pub fn of([a, b]: [Line; 2], parts: [[f64; 2]; 2]) -> Option<QuickCrossing> {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
         let within = |place: f64, [low, high]: [f64; 2]| place >= low * square && place <= high * square;
-        let crosses = within(dot(cross(r, v), product), WHOLE) && within(dot(cross(r, u), product), [low, high]);
+        let crosses = within(dot(cross(r, v), product), parts[0]) && within(dot(cross(r, u), product), parts[1]);
         crosses.then(|| QuickCrossing { product, square, fall: dot(r, product) })
     }
 }

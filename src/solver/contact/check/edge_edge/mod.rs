@@ -5,6 +5,7 @@
 //! would be at the end of the step for one that has touched before.
 
 mod constraint;
+mod ends;
 mod lines;
 mod reach;
 
@@ -20,6 +21,7 @@ use crate::solver::contact::geometry::projection::{area_normal, centre};
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
+use ends::BEYOND_END;
 use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE, between};
 pub use reach::{farthest_reach, largest_reach, reach};
 
@@ -32,9 +34,6 @@ const SAME_SIDE: f64 = 0.5;
 
 /// A pair that has parted by less than this part of an edge is still watched.
 const KEEP: f64 = 0.01;
-
-/// Pairs that overlap by more than this part of an edge near an end are not held by a node there.
-const CLEARLY: f64 = 1e-3;
 
 /// Pairs that are nearer than this part of an edge touch.
 const TOUCHING: f64 = 1e-9;
@@ -278,7 +277,7 @@ impl EdgeCheck<'_> {
         let (depth, deepest) =
             if of_surface { (0.0, DEEP * reach + distance) } else { ((-gap).max(0.0), DEEP * reach) };
         let between = if of_surface {
-            end.within(depth, self.parts(pair[1], half))
+            end.within(depth, [WHOLE, self.parts(pair[1], half)])
         } else {
             self.is_between_ends(pair, &end, depth, |point| self.motion.end(point))
         };
@@ -288,37 +287,16 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
     }
 
-    /// Whether edges of solids cross between their ends. Nearer to an end than they are deep a node or another edge is in the way before
-    /// them, unless that end is outside the other body: what has slid over its rim. That counts where they are clearly deep: else a
-    /// face may hold the end as well.
-    fn is_between_ends(&self, pair: [u32; 2], crossing: &Crossing, depth: f64, at: impl Fn(u32) -> [f64; 3]) -> bool {
-        if crossing.within(depth, WHOLE) {
-            return true;
-        }
-        let is_outside = |point: u32, other: u32| {
-            let Edge { ends, faces, .. } = self.edges[other as usize];
-            let arm = subtract(at(point), at(ends[0]));
-            faces.iter().any(|&face| {
-                let corners = self.faces.corners[face as usize];
-                dot(arm, area_normal(&corners.map(&at))) > 0.0
-            })
-        };
-        let ends_are_outside = |i: usize| {
-            let (place, length) = (crossing.places[i], crossing.lengths[i]);
-            let ends = self.edges[pair[i] as usize].ends;
-            let far = [place * length > depth, (1.0 - place) * length > depth];
-            ends.iter().zip(far).all(|(&point, is_far)| is_far || is_outside(point, pair[1 - i]))
-        };
-        let clearly = depth > CLEARLY * crossing.shorter();
-        clearly && crossing.within(0.0, WHOLE) && ends_are_outside(0) && ends_are_outside(1)
-    }
-
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
     #[inline(always)]
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
-        let of = |half: usize, parts: [f64; 2]| QuickCrossing::of(self.ends(pair, half), parts);
+        let second = &self.edges[pair[1] as usize];
+        if second.stands_out() {
+            return QuickCrossing::of(self.ends(pair, 0), [BEYOND_END; 2]);
+        }
+        let of = |half: usize, parts: [f64; 2]| QuickCrossing::of(self.ends(pair, half), [WHOLE, parts]);
         let first = of(0, WHOLE);
-        if first.is_some() || !self.edges[pair[1] as usize].is_ridge() {
+        if first.is_some() || !second.is_ridge() {
             return first;
         }
         let beyond = |half: usize| of(half, self.parts(pair[1], half));
@@ -346,7 +324,7 @@ impl EdgeCheck<'_> {
         }
         let half = self.half(pair);
         let end = Crossing::of(self.ends(pair, half))?;
-        if !end.within(0.0, self.parts(pair[1], half)) {
+        if !end.within(0.0, [WHOLE, self.parts(pair[1], half)]) {
             return None;
         }
         let line = self.outwards(pair[1]);
@@ -483,7 +461,10 @@ impl EdgeCheck<'_> {
         // Where they touch already, as a mesh may have it, the faces say on which side the other one is, and round-off nothing.
         if start.gap.abs() <= TOUCHING * start.shorter() {
             let comes = |sense: &f64| outwards(*sense, start.normal) && sense * end.gap < 0.0;
-            let sense = [1.0, -1.0].into_iter().find(comes).filter(|_| start.between_ends(0.0))?;
+            let sense = [1.0, -1.0].into_iter().find(comes)?;
+            if !self.is_between_ends(pair, &start, 0.0, |point| self.motion.start(point)) {
+                return None;
+            }
             return Some(touch(sense, (sense * start.gap).min(0.0)));
         }
         let sense = start.gap.signum();
@@ -510,7 +491,8 @@ impl EdgeCheck<'_> {
         );
         crossing::roots(&volume).any(|t| {
             let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
-            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]]).is_some_and(|c| c.between_ends(0.0))
+            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]])
+                .is_some_and(|crossing| self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point)))
         })
     }
 }
