@@ -90,6 +90,28 @@ fn joined_pieces_are_the_unsplit_file() {
     }
 }
 
+/// A join that is killed leaves what was there under the name, and never a part of the whole.
+#[test]
+fn a_killed_join_leaves_no_short_file() {
+    let desk = Desk::new();
+    let deck = DECK.replace("PLOT TIME, 2.E-6", "PLOT TIME, 1.E-9");
+    desk.put("two.i", &deck);
+    desk.put_mesh("two.g", &two_blocks());
+    split(&desk, 3, "split");
+    let begun = std::time::Instant::now();
+    desk.urto(&["join", "split.e", "-o", "all.e"]).with(0);
+    let (whole, expected) = (begun.elapsed().as_micros() as u64, fs::read(desk.path("all.e")).expect("the whole"));
+    for kill in 1..20 {
+        let _ = fs::remove_file(desk.path("split.e"));
+        let mut child = desk.start(&["join", "split.e"]);
+        std::thread::sleep(std::time::Duration::from_micros(whole * kill / 20));
+        child.kill().and_then(|()| child.wait()).expect("it ends");
+        if let Ok(there) = fs::read(desk.path("split.e")) {
+            assert!(there == expected, "kill {kill}: {} of {} bytes", there.len(), expected.len());
+        }
+    }
+}
+
 /// In two dimensions, with two coordinates, sides that are edges, and a triangle.
 #[test]
 fn joined_pieces_of_the_plane_are_the_unsplit_file() {
