@@ -10,6 +10,7 @@ mod restart_files;
 mod restart_of_eroded;
 mod restart_of_others;
 mod rigid_blocks;
+mod vanished;
 
 #[path = "../program/mod.rs"]
 mod program;
