@@ -301,6 +301,38 @@ fn a_variable_of_a_later_part_begins_there() {
     desk.urto(&["plot", "none.h", "-v", "VELX_1"]).with(2);
 }
 
+/// Material points are numbered by each start of the program: what lies in another element is a curve of its own.
+#[test]
+fn a_point_that_has_moved_is_not_drawn_on() {
+    let desk = Desk::new();
+    let file = |name: &str, element: i64, times: &[f64]| {
+        let at = format!(
+            "MATERIAL POINT 1 AT 0.123456789012345 0.123456789012345 0.123456789012345: ELEMENT {element} OF BLOCK 7"
+        );
+        let header = ResultsHeader {
+            mesh: &Mesh { title: "parts".to_owned(), ..Mesh::default() },
+            title: "parts".to_owned(),
+            global: ["EQPS_1", "VELX_BLOCK1"].map(str::to_owned).to_vec(),
+            nodal: Vec::new(),
+            element: Vec::new(),
+            qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+            info: vec![at, "MATERIAL POINT 2 AT 0 0 0: ELEMENT 1 OF BLOCK 1".to_owned()],
+        };
+        let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
+        times.iter().for_each(|t| writer.write_state(*t, &[*t, -t], &[], &[]).expect("a state"));
+    };
+    file("run.h", 1204, &[0.0, 1.0]);
+    file("run.h-s0002", 87, &[2.0, 3.0]);
+    let text = csv_text(&desk, &["run.h", "-v", "EQPS_1,VELX_BLOCK1"]);
+    let heads = "time,EQPS_1 in element 1204 of block 7,EQPS_1 in element 87 of block 7,VELX_BLOCK1\n";
+    assert_eq!(text, format!("{heads}0,0,,-0\n1,1,,-1\n2,,2,-2\n3,,3,-3\n"));
+    let told = desk.urto(&["plot", "run.h", "-v", "EQPS_1", "-o", "curve.png"]).with(0);
+    told.says(&["warning: run.h: EQPS_1 is of another element since a run went on: a curve for each element"]);
+    // The same element as before is one curve.
+    file("run.h-s0002", 1204, &[2.0, 3.0]);
+    assert_eq!(csv_text(&desk, &["run.h", "-v", "EQPS_1"]), "time,EQPS_1\n0,0\n1,1\n2,2\n3,3\n");
+}
+
 /// A state that only the end of a run was a reason for lies inside an interval over which the run that goes on has means.
 #[test]
 fn a_state_inside_an_interval_is_none_of_its_ends() {

@@ -43,8 +43,8 @@ pub struct Drawn {
 pub fn curves(options: &PlotOptions) -> Result<Drawn, PlotError> {
     options.check()?;
     let runs = options.files.iter().map(|path| Run::open(path)).collect::<Result<Vec<_>, _>>()?;
-    let mut curves = pick::curves(&runs, options)?;
-    let warnings = work::on(&mut curves, &runs, options)?;
+    let (mut curves, mut warnings) = pick::curves(&runs, options)?;
+    warnings.extend(work::on(&mut curves, &runs, options)?);
     for path in &options.references {
         curves.extend(reference::read(path)?);
     }
