@@ -333,6 +333,36 @@ fn a_point_that_has_moved_is_not_drawn_on() {
     assert_eq!(csv_text(&desk, &["run.h", "-v", "EQPS_1"]), "time,EQPS_1\n0,0\n1,1\n2,2\n3,3\n");
 }
 
+/// A picture, a table or a page that a full disk has no room for leaves what was there.
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_written_whole_leaves_what_was_there() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 1.0, 2.0]);
+    let many: Vec<f64> = (0..4000).map(f64::from).collect();
+    results(&desk, "long.e", &many);
+    for (verb, name, more) in
+        [("plot", "out.png", ""), ("plot", "out.csv", "--csv"), ("view", "view.png", ""), ("report", "out.html", "")]
+    {
+        let ask = |results: &'static str| {
+            let mut arguments = vec![verb, results, "-o", name];
+            arguments.extend((!more.is_empty()).then_some(more));
+            if verb == "plot" {
+                arguments.extend(["-v", "KE,ONE"]);
+            }
+            arguments
+        };
+        desk.urto(&ask("run.e")).with(0);
+        let before = std::fs::read(desk.path(name)).expect("a file");
+        let limited = format!("trap '' XFSZ; ulimit -f 1; exec '{}' {}", crate::program::URTO, ask("long.e").join(" "));
+        let mut shell = std::process::Command::new("sh");
+        let output = shell.args(["-c", &limited]).current_dir(desk.path(".")).output().expect("a shell");
+        crate::program::Left::of(output).with(1).says(&["cannot write", name]);
+        assert!(std::fs::read(desk.path(name)).expect("still there") == before, "{verb} {name}");
+        assert!(!desk.has(&format!("{name}.part")), "{name}");
+    }
+}
+
 /// A state that only the end of a run was a reason for lies inside an interval over which the run that goes on has means.
 #[test]
 fn a_state_inside_an_interval_is_none_of_its_ends() {

@@ -3,8 +3,9 @@
 use crate::cli::input::Given;
 use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
-use crate::cli::terminal::{complain, say};
+use crate::cli::terminal::say;
 use crate::cli::{DONE, FAILED, Failure, options, stopped_by};
+use crate::common::files;
 use crate::output::print::scientific;
 use crate::postprocess::plot::Class;
 use crate::run::Files;
@@ -247,7 +248,7 @@ impl<'a> Study<'a> {
         let table = sweep::text(rows);
         for (name, text) in [("table.txt", &table), ("table.csv", &sweep::csv(rows))] {
             let path = self.folder.join(name);
-            std::fs::write(&path, text).map_err(|e| cannot(&path, e))?;
+            files::replace(&path, text.as_bytes()).map_err(|e| cannot(&path, e))?;
         }
         say(format_args!("\n{}", table.trim_end()));
         let made = sweep::pictures(&self.folder, &self.title, &self.axes, rows);

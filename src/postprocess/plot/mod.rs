@@ -16,6 +16,7 @@ mod signal;
 mod table;
 mod work;
 
+use crate::common::files;
 use std::path::Path;
 
 pub use curve::{Curve, Extremes};
@@ -123,5 +124,5 @@ pub fn contents(files: &[std::path::PathBuf]) -> Result<String, PlotError> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), PlotError> {
-    std::fs::write(path, bytes).map_err(|error| PlotError::Write { path: path.to_owned(), reason: error.to_string() })
+    files::replace(path, bytes).map_err(|error| PlotError::Write { path: path.to_owned(), reason: error.to_string() })
 }
