@@ -3,9 +3,10 @@
 use crate::cli::input::Given;
 use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
-use crate::cli::terminal::say;
+use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, options, stopped_by};
 use crate::common::files;
+use crate::exodus::Results;
 use crate::output::print::scientific;
 use crate::postprocess::plot::Class;
 use crate::run::Files;
@@ -54,6 +55,7 @@ pub fn sweep(options: &options::Sweep) -> Result<u8, Failure> {
     wishes.obeyed();
     let rows = study.rows();
     study.write(&rows)?;
+    study.tell_unreadable(&rows);
     let failed = rows.iter().filter(|row| !row.record.as_ref().is_some_and(Record::is_complete)).count();
     let unread = rows.iter().filter(|row| row.found.is_err()).count();
     Ok(match stopped {
@@ -239,6 +241,24 @@ impl<'a> Study<'a> {
             Row { member: self.members[member].clone(), record, found }
         };
         (0..self.members.len()).map(row).collect()
+    }
+
+    /// Says what is to be done where a run has come to its end and its results cannot be read: its summary keeps it from being
+    /// run again.
+    fn tell_unreadable(&self, rows: &[Row]) {
+        for (member, row) in rows.iter().enumerate().filter(|(_, row)| row.found.is_err()) {
+            let files = self.files_of(member);
+            let is_bad = |path: &PathBuf| Results::open(path).is_err();
+            // A history is not there in every study.
+            if is_bad(&files.plot) || (files.history.exists() && is_bad(&files.history)) {
+                complain(format_args!(
+                    "warning: {} has ended well before, and its results are cut or gone\n\
+                     help: delete the folder {} and run the study again, and only this is run anew",
+                    row.member.words(),
+                    self.folder_of(member).display()
+                ));
+            }
+        }
     }
 
     /// Table and pictures.
