@@ -58,6 +58,7 @@ struct Cone<'a> {
 
 impl Kernel for Cone<'_> {
     const STATE: &'static [&'static str] = &["EQPS"];
+    const HYPOELASTIC: bool = true;
 
     #[inline(always)]
     fn update<V: Lanes>(&self, step: &Step<V>, stress: &mut Sym3<V>, state: &mut [V::Row], part: usize) -> Response<V> {

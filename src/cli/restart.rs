@@ -2,14 +2,15 @@
 
 use super::input::Given;
 use super::{Failure, options};
-use crate::exodus::{Restart, read_restart, restart_number};
+use crate::exodus::{Restart, Results, read_restart, restart_number};
 use crate::output::print::scientific;
+use crate::postprocess::means::Means;
 use crate::restart::{INTERVAL, Snapshot, TIME};
-use crate::run::{differences, other_form, states_beside, told};
+use crate::run::{Files, differences, other_form, states_beside, told, without_effect};
 use crate::solver::Body;
 use std::path::{Path, PathBuf};
 
-/// The state to go on from and its file; `None` for a run from the beginning. `base` is the base name of the results.
+/// The state to go on from, its file, and what of the deck has no effect on it; `None` for a run from the beginning. `base` is the base name of the results.
 ///
 /// # Errors
 /// When there is none, it cannot be read, or it is the state of another problem.
@@ -18,7 +19,7 @@ pub fn find(
     given: &Given,
     body: &Body,
     base: &Path,
-) -> Result<Option<(PathBuf, Snapshot)>, Failure> {
+) -> Result<Option<(PathBuf, Snapshot, Vec<String>)>, Failure> {
     let model = &given.problem.model;
     let read = model.restarts.read;
     if options.restart.is_none() && read.is_none() {
@@ -50,7 +51,9 @@ pub fn find(
         )));
     }
     something_left(&path, &restart, model.termination_time)?;
-    Ok(Some((path, restart.snapshot)))
+    same_run(&path, &restart, base)?;
+    let idle = without_effect(&restart, &given.mesh, model);
+    Ok(Some((path, restart.snapshot, idle)))
 }
 
 /// `x.rsin`, or else `x.rsout`, beside the results or else beside the deck.
@@ -111,6 +114,28 @@ fn something_left(path: &Path, restart: &Restart, termination: f64) -> Result<()
         scientific(time, 6),
         scientific(termination, 6)
     )))
+}
+
+/// The state must be of the run whose results the new ones stand behind, as they are read as one run: the same start of the
+/// program wrote both, or another that went on from this very state.
+fn same_run(path: &Path, restart: &Restart, base: &Path) -> Result<(), Failure> {
+    let there = Files::of(base).results_there();
+    let opened: Vec<(&PathBuf, Results)> =
+        there.iter().filter_map(|path| Some((path, Results::open(path).ok()?))).collect();
+    let writer = restart.mesh.qa.last().cloned();
+    let belongs = |(_, results): &(&PathBuf, Results)| {
+        let since = Means::read(&results.info()).since;
+        results.qa().pop() == writer || since == Some(restart.snapshot.time())
+    };
+    match opened.first() {
+        Some((first, _)) if !opened.iter().any(belongs) => Err(Failure::input(format_args!(
+            "error: {} is no state of the run that wrote {}: what goes on from it would be read as one run with that\n\
+             help: name another base with -o, or move the results of the other run away",
+            path.display(),
+            first.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// A file that cannot be read, and what else there is.

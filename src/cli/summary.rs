@@ -2,6 +2,7 @@
 
 use super::verbs::run::Prepared;
 use super::{Failure, options};
+use crate::common::files;
 use crate::postprocess::plot::{self, Curve};
 use crate::run::{Ended, Files, RunError};
 use crate::solver::Finding;
@@ -121,7 +122,7 @@ pub fn write(
         .map_err(|error| cannot(error.to_string()))?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     folder.map_or(Ok(()), std::fs::create_dir_all).map_err(|error| cannot(error.to_string()))?;
-    std::fs::write(path, text + "\n").map_err(|error| cannot(error.to_string()))
+    files::replace(path, (text + "\n").as_bytes()).map_err(|error| cannot(error.to_string()))
 }
 
 fn summary(options: &options::Run, prepared: &Prepared, outcome: Result<&Ended, &RunError>, exit_code: u8) -> Summary {

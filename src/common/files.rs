@@ -1,8 +1,8 @@
-//! What a path leads to: whether it is a file at all, and whether two paths lead to one file.
+//! What a path leads to: whether it is a file at all, and whether two paths lead to one file; files that are replaced whole.
 
 use std::fs::File;
-use std::io;
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 /// Refuses what is no file with an end, before it is opened: a pipe that nobody writes into keeps its reader waiting, and
 /// some devices hand out bytes for ever.
@@ -30,6 +30,39 @@ pub fn replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
+/// Writes a file beside its place and puts it there when all of it is on the disk: a full disk leaves what was there before.
+/// A link stays one; into what is no file, such as a pipe, it writes at once.
+///
+/// # Errors
+/// When it cannot be written; nothing is left of it then.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if replaceable(path).is_err() {
+        return std::fs::write(path, bytes);
+    }
+    // Of a link what it leads to; where nothing is there yet, the name itself.
+    let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let mut unfinished = place.clone().into_os_string();
+    unfinished.push(".part");
+    let unfinished = PathBuf::from(unfinished);
+    let written = write_onto_disk(&unfinished, bytes).and_then(|()| {
+        // Who may read the old file may read the new one.
+        let kept = std::fs::metadata(&place).map(|old| std::fs::set_permissions(&unfinished, old.permissions()));
+        kept.unwrap_or(Ok(()))?;
+        std::fs::rename(&unfinished, &place)
+    });
+    if written.is_err() {
+        let _ = std::fs::remove_file(&unfinished); // It may not even exist; the first error is the one to tell.
+    }
+    written
+}
+
+/// Some systems find only then that a disk is full.
+fn write_onto_disk(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
 /// What two paths have in common that lead to one file, through symbolic and hard links and whatever their names: the
 /// device and the number of the file on it.
 #[cfg(unix)]
@@ -53,6 +86,20 @@ pub fn identity_of_open(file: &File) -> Option<Identity> {
     return file.metadata().ok().map(numbers);
     #[cfg(not(unix))]
     None
+}
+
+/// Refuses where a path does not lead to an open file any more.
+///
+/// # Errors
+/// With what has become of it.
+pub fn in_place(file: &File, path: &Path) -> io::Result<()> {
+    let Some(own) = identity_of_open(file) else { return Ok(()) };
+    let what = match identity(path) {
+        Some(there) if there == own => return Ok(()),
+        Some(_) => "another file has taken its name while it was written; what was written is lost",
+        None => "it was removed or moved away while it was written",
+    };
+    Err(io::Error::new(io::ErrorKind::NotFound, what))
 }
 
 #[cfg(unix)]

@@ -34,6 +34,16 @@ impl Definitions {
             if !begins || name.contains(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_') {
                 return Err(format!("-D {text}: {name:?} is no name; names have letters, digits and underscores"));
             }
+            if value.is_empty() {
+                return Err(format!("-D {text}: the value is missing; leave -D out for the value that the deck gives"));
+            }
+            // A deck takes it for the end of a field: what follows would be the value of the next one.
+            if value.contains(',') {
+                return Err(format!(
+                    "-D {text}: a comma would make two fields of the value\n\
+                     help: decimals follow a point, as in 1.5; two fields of a deck need two names, as in {{a}}, {{b}}"
+                ));
+            }
             let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
             let given = number.map_or_else(|| Given::Text(value.to_owned()), Given::Number);
             if values.insert(name.to_owned(), given).is_some() {
@@ -83,7 +93,7 @@ mod tests {
         assert_eq!(given.take("angle"), Some(&Given::Number(15.0)));
         assert_eq!(given.take("kind"), Some(&Given::Text("soft".into())));
         assert_eq!((given.take("m"), given.unused()), (None, vec!["n".to_string()]));
-        for wrong in ["n", "4=n", "a b=1", "=1"] {
+        for wrong in ["n", "4=n", "a b=1", "=1", "n=", "n= ", "n=1,5"] {
             assert!(Definitions::parse(&texts(&[wrong])).is_err(), "{wrong}");
         }
         assert!(Definitions::parse(&texts(&["n=1", "n=2"])).is_err());

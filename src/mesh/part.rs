@@ -47,6 +47,11 @@ impl Mesh {
         for set in &self.node_sets {
             let (places, here) = entries(set.nodes.iter().map(|&n| (node_here[n as usize], ())));
             let nodes = here.into_iter().map(|(node, ())| node).collect();
+            if let Some(factors) = self.node_factors.get(&set.id) {
+                // Of a set without nodes here, too: it shows that the whole set has factors.
+                let here = places.iter().filter_map(|&place| factors.get(place as usize).copied());
+                part.mesh.node_factors.insert(set.id, here.collect());
+            }
             part.mesh.node_sets.push(NodeSet { id: set.id, name: set.name.clone(), nodes });
             part.places.node_sets.push(places);
         }
@@ -107,6 +112,7 @@ mod tests {
                 Block::hexahedra_of(2, [hex(2)]),
             ],
             node_sets: vec![NodeSet { id: 5, nodes: vec![15, 4, 0, 8], ..NodeSet::default() }],
+            node_factors: [(5, vec![0.5, 1.0, 1.5, 2.0])].into(),
             side_sets: vec![SideSet { id: 6, sides: vec![(2, 1), (0, 4), (1, 3)], ..SideSet::default() }],
             ..Mesh::default()
         }
@@ -120,6 +126,7 @@ mod tests {
         assert!(part.mesh.blocks[1].is_empty());
         assert_eq!((part.mesh.node_ids[0], part.mesh.element_ids[0]), (105, 10));
         assert_eq!((&part.mesh.node_sets[0].nodes[..], &part.places.node_sets[0][..]), (&[0, 4][..], &[1, 3][..]));
+        assert_eq!(part.mesh.node_factors[&5], [1.0, 2.0]);
         assert_eq!((&part.mesh.side_sets[0].sides[..], &part.places.side_sets[0][..]), (&[(0, 3)][..], &[2][..]));
     }
 

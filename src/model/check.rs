@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
-    Analysis, Contact, Direction, Model, Precision, Problem, RigidSurface, Spin, StepEstimate,
+    Analysis, Contact, Direction, Problem, RigidSurface,
     conditions::{boundary::direction, doubts},
     interactions::{contact, rigid, tied},
     materials::explosive,
     problem::those_there_are,
+    without_effect,
 };
 use crate::{
     deck::{Card, Diagnostic, Diagnostics, Item, Kind, language},
@@ -57,7 +58,7 @@ pub fn check(problem: &Problem, mesh: &Mesh) -> Diagnostics {
     for card in problem.deck.cards_of("HISTORY CONTACT").filter(|card| card.complete) {
         contact_there(card, problem, mesh, &mut found);
     }
-    choices_without_effect(problem, mesh, &mut found);
+    without_effect::check(problem, mesh, &mut found);
     elements_twice(mesh, &mut found);
     doubts::check(problem, mesh, &mut found);
     contact::check(problem, mesh, &mut found);
@@ -74,25 +75,6 @@ fn elements_of_others(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
         let [_, elements] = block.shape.names();
         let message = format!("{}: block {} is of {elements}, so that nothing follows from this", card.name, block.id);
         found.push(Diagnostic::warning(message).at(card.record, format!("this is for {called}")));
-    }
-}
-
-/// Warns of choices for hexahedra where the mesh has none.
-fn choices_without_effect(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
-    if mesh.blocks.iter().any(|block| block.shape == Shape::Hexahedron) {
-        return;
-    }
-    let Model { precision, step_estimate, spin, .. } = &problem.model;
-    let choices = [
-        ("PRECISION", *precision == Precision::Single),
-        ("TIME STEP ESTIMATE", *step_estimate == StepEstimate::Global),
-        ("SPIN", *spin == Spin::SecondOrder),
-    ];
-    for (name, _) in choices.iter().filter(|(_, is_made)| *is_made) {
-        for card in problem.deck.cards_of(name) {
-            let message = format!("{name}: the mesh has no hexahedra, so that nothing follows from this");
-            found.push(Diagnostic::warning(message).at(card.record, "this is for hexahedra"));
-        }
     }
 }
 
@@ -217,7 +199,7 @@ fn contact_there(card: &Card, problem: &Problem, mesh: &Mesh, found: &mut Diagno
 }
 
 /// Whether faces or nodes of a block may touch something.
-fn takes_part(contact: &Contact, id: i64, block: usize, mesh: &Mesh) -> bool {
+pub(super) fn takes_part(contact: &Contact, id: i64, block: usize, mesh: &Mesh) -> bool {
     let named = contact.names(id);
     let blocks: Vec<usize> = mesh.elements().map(|(block, _)| block).collect();
     let of_block = |&(element, _): &(u32, u8)| blocks.get(element as usize) == Some(&block);

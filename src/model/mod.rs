@@ -9,6 +9,7 @@ mod control;
 mod interactions;
 mod materials;
 mod problem;
+mod without_effect;
 
 pub use check::check;
 pub use conditions::{

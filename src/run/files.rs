@@ -55,7 +55,8 @@ impl Files {
     }
 
     /// Results of earlier runs of this name that a run which begins anew on so many ranks would leave beside its own, where they would
-    /// be taken for its: what runs that went on have written, and the whole beside pieces or pieces beside the whole.
+    /// be taken for its: what runs that went on have written, the whole beside pieces or pieces beside the whole, and histories,
+    /// which a run may not have. States to go on from are set aside instead.
     pub fn stale(&self, pieces: usize) -> Vec<PathBuf> {
         let parts = [&self.plot, &self.history].into_iter().flat_map(|first| {
             let later = (2..=9999).map(move |number| part_of(first, number));
@@ -64,7 +65,8 @@ impl Files {
         let own: Vec<PathBuf> = (0..pieces).map(|rank| piece_path(&self.plot, pieces, rank)).collect();
         let other_pieces = all_pieces_of(&self.plot).into_iter().filter(|path| !own.contains(path));
         let whole = (pieces > 0 && self.plot.is_file()).then(|| self.plot.clone());
-        parts.chain(other_pieces).chain(whole).collect()
+        let history = self.history.is_file().then(|| self.history.clone());
+        parts.chain(other_pieces).chain(whole).chain(history).collect()
     }
 
     /// The same of restart states: the newest, the one that is being written, and older ones.
@@ -77,6 +79,13 @@ impl Files {
     pub fn has_histories(&self) -> bool {
         let there_is = |number: &u32| *number == 1 || part_of(&self.plot, *number).exists();
         (1..=9999).take_while(there_is).any(|number| part_of(&self.history, number).exists())
+    }
+
+    /// Plot files and histories that are there under these names, of all parts; of pieces the first.
+    pub fn results_there(&self) -> Vec<PathBuf> {
+        let of = |number: u32| [part_of(&self.plot, number), part_of(&self.history, number)];
+        let there = (1..=9999).map(|number| of(number).into_iter().filter_map(first_file).collect::<Vec<_>>());
+        there.take_while(|files| !files.is_empty()).flatten().collect()
     }
 
     /// All files of a run that is continued. Plot states and histories that are there already, whole or in pieces, are left
@@ -113,6 +122,11 @@ pub fn first_part_of(named: &Path) -> PathBuf {
 pub fn last_part_of(first: &Path) -> PathBuf {
     let parts = (2..=9999).map(|number| part_of(first, number)).take_while(|path| path.is_file());
     parts.last().unwrap_or_else(|| first.to_owned())
+}
+
+/// A file, or else the first of its pieces that is there.
+fn first_file(path: PathBuf) -> Option<PathBuf> {
+    if path.is_file() { Some(path) } else { all_pieces_of(&path).into_iter().next() }
 }
 
 /// A file and its pieces, those that are there.

@@ -1,32 +1,47 @@
 //! What a restart is a state of, and whether a deck and a mesh are still the same problem.
 //!
 //! A continued run may change its times, outputs, loads, constraints and the numbers of its laws. What gives the stored
-//! state its meaning must stay: the mesh, laws, densities and added masses of the blocks, hourglass control, and what is in contact.
+//! state its meaning must stay: the mesh, laws with their equations of state, densities and added masses of the blocks, layers
+//! of shells and sections of beams, hourglass control, and what is in contact. What only the start of a run asks for may
+//! change, and has no effect.
 
 use crate::exodus::Restart;
-use crate::mesh::{Block, Mesh};
+use crate::material::{EquationOfState, Law};
+use crate::mesh::{Block, Mesh, Shape};
 use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, Precision, Spin, StepEstimate};
+use crate::solver::elements::{beam, shell};
 use crate::solver::{Body, state_names};
 
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
 /// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated;
-/// since 4 for how many steps contact has not settled.
-const FORMAT: &str = "5";
+/// since 4 for how many steps contact has not settled; since 6 its identity tells of equations of state, layers, sections
+/// and exclusions.
+const FORMAT: &str = "6";
+
+/// How names of lines begin that tell what only a start asks for.
+const START: &str = "START ";
 
 /// Differences told one by one.
 const TOLD: usize = 5;
 
-/// What must stay the same: names and values, a line each.
-pub fn identity(model: &Model) -> String {
+/// A name and a value.
+type Line = (String, String);
+
+/// What must stay the same, and what only a start asks for: names and values, a line each.
+pub fn identity(model: &Model, mesh: &Mesh) -> String {
     let mut lines = vec![("format".to_string(), FORMAT.to_string())];
+    lines.extend(of_analysis(model));
+    lines.extend(of_blocks(model, mesh));
+    lines.extend(of_contact(model));
+    lines.extend(of_start(model, mesh));
+    lines.into_iter().map(|(name, value)| format!("{name}: {value}\n")).collect()
+}
+
+/// How the whole is computed.
+fn of_analysis(model: &Model) -> Vec<Line> {
+    let mut lines = Vec::new();
     if model.analysis != Analysis::Solid {
         lines.push(("ANALYSIS".to_string(), model.analysis.name().to_string()));
-    }
-    for material in &model.materials {
-        let states = state_names(&material.law);
-        let stored = if states.is_empty() { String::new() } else { format!(" with {}", states.join(" ")) };
-        let law = format!("{} of density {}{stored}", material.law.entry().name, material.density);
-        lines.push((format!("MATERIAL {}", material.block), law));
     }
     let hourglass = match model.hourglass {
         Hourglass::FlanaganBelytschko { .. } => "FLANAGAN BELYTSCHKO",
@@ -41,6 +56,31 @@ pub fn identity(model: &Model) -> String {
     }
     if model.step_estimate == StepEstimate::Global {
         lines.push(("TIME STEP ESTIMATE".into(), "GLOBAL".into()));
+    }
+    lines
+}
+
+/// What the blocks are made of and how they hang together.
+fn of_blocks(model: &Model, mesh: &Mesh) -> Vec<Line> {
+    let mut lines = Vec::new();
+    for material in &model.materials {
+        let states = state_names(&material.law);
+        let stored = if states.is_empty() { String::new() } else { format!(" with {}", states.join(" ")) };
+        let law = format!("{} of density {}{stored}", material.law.entry().name, material.density);
+        lines.push((format!("MATERIAL {}", material.block), law));
+        // The state holds what has been added to this energy.
+        lines.extend(material.law.equation_of_state().map(|equation| {
+            let energy = equation.initial_energy();
+            let value = format!("{} with INITIAL ENERGY {energy}", equation.entry().name);
+            (format!("EQUATION OF STATE {}", material.block), value)
+        }));
+    }
+    for block in mesh.blocks.iter().filter(|block| !model.is_rigid(block.id)) {
+        if matches!(block.shape, Shape::Quadrilateral | Shape::Triangle) {
+            let (points, rule) = shell::points_of(block.id, model);
+            lines.push((format!("INTEGRATION POINTS {}", block.id), format!("{points} by {rule}")));
+        }
+        lines.extend(beam::in_words(block, model).map(|[section, _]| (format!("BEAM SECTION {}", block.id), section)));
     }
     for section in model.sections.iter().filter(|section| section.command == "ELEMENT") {
         let formulation = section.word("formulation").unwrap_or_default();
@@ -59,17 +99,76 @@ pub fn identity(model: &Model) -> String {
         let of = block.map_or("ALL".to_string(), |block| block.to_string());
         lines.push((format!("MASS SCALING {of}"), format!("{scale:?}")));
     }
+    lines
+}
+
+/// What touches.
+fn of_contact(model: &Model) -> Vec<Line> {
+    let mut lines = Vec::new();
     let materials = match &model.contact.materials {
         None => "none".to_string(),
         Some(ContactMaterials::All) => "all blocks".to_string(),
-        Some(ContactMaterials::Blocks(blocks)) => blocks.iter().map(i64::to_string).collect::<Vec<_>>().join(" "),
+        Some(ContactMaterials::Blocks(blocks)) => {
+            let mut blocks = blocks.clone();
+            blocks.sort_unstable();
+            blocks.dedup();
+            blocks.iter().map(i64::to_string).collect::<Vec<_>>().join(" ")
+        }
     };
     lines.push(("CONTACT MATERIAL".into(), materials));
     let pairs = model.contact.surfaces.iter().map(|pair| format!("{} on {}", pair.side_sets[0], pair.side_sets[1]));
     lines.push(("CONTACT SURFACE".into(), some(pairs.collect())));
+    lines.push(("CONTACT EXCLUSION".into(), some(exclusions(&model.contact.exclusions))));
+    let balls = model.contact.node_sets.iter().map(|(set, radius)| format!("{set} of radius {radius}"));
+    lines.push(("CONTACT NODE SET".into(), some(balls.collect())));
     let planes = model.rigid_surfaces.iter().map(|p| format!("{} at {:?} along {:?}", p.side_set, p.point, p.normal));
     lines.push(("RIGID SURFACE".into(), some(planes.collect())));
-    lines.into_iter().map(|(name, value)| format!("{name}: {value}\n")).collect()
+    lines
+}
+
+/// Pairs of blocks that do not touch, in one order however the deck names them.
+fn exclusions(pairs: &[[Option<i64>; 2]]) -> Vec<String> {
+    let mut pairs: Vec<[Option<i64>; 2]> = pairs.to_vec();
+    // Without a second block it is the first that does not touch itself; two are a pair in either order.
+    pairs.iter_mut().filter(|pair| pair[1].is_some()).for_each(|pair| pair.sort_unstable());
+    pairs.sort_unstable();
+    pairs.dedup();
+    let name = |block: Option<i64>, missing: &str| block.map_or(missing.to_string(), |block| block.to_string());
+    pairs.iter().map(|&[first, second]| format!("{} from {}", name(first, "all"), name(second, "itself"))).collect()
+}
+
+/// What only a start asks for: all of it is in the state since.
+fn of_start(model: &Model, mesh: &Mesh) -> Vec<Line> {
+    let mut lines = Vec::new();
+    if !model.initial_velocities.is_empty() {
+        lines.push((format!("{START}INITIAL VELOCITY"), format!("{:?}", model.initial_velocities)));
+    }
+    for material in &model.materials {
+        // When each element begins to burn, and how fast, is in its state.
+        if let (Law::Hydrodynamic(law), Some(EquationOfState::Jwl(jwl))) =
+            (&material.law, material.law.equation_of_state())
+        {
+            let (block, burn) = (material.block, [jwl.velocity, jwl.width]);
+            lines.push((format!("{START}DETONATION POINT"), format!("{:?}", law.points)));
+            lines.push((format!("{START}DETONATION VELOCITY and BURN WIDTH of block {block}"), format!("{burn:?}")));
+        }
+    }
+    for block in &mesh.blocks {
+        let name = || format!("{START}the vector of BEAM SECTION {}", block.id);
+        lines.extend(beam::in_words(block, model).map(|[_, vector]| (name(), vector)));
+    }
+    lines
+}
+
+/// What a deck asks otherwise than the one before did and only a start heeds, a sentence each; what it does not ask for any
+/// more is not missed.
+pub fn without_effect(restart: &Restart, mesh: &Mesh, model: &Model) -> Vec<String> {
+    let (then, now) = (lines(&restart.identity), lines(&identity(model, mesh)));
+    let of_start = now.iter().filter_map(|(name, asked)| Some((name, name.strip_prefix(START)?, asked)));
+    let changed = of_start.filter(|(name, _, asked)| value(&then, name) != **asked);
+    let mut told: Vec<String> = changed.map(|(_, what, _)| format!("{what} has no effect after a restart")).collect();
+    told.dedup();
+    told
 }
 
 fn some(list: Vec<String>) -> String {
@@ -89,7 +188,7 @@ pub fn other_form(restart: &Restart) -> Option<String> {
 
 /// Why a state cannot be gone on from with this deck and mesh, a sentence each; none when it can.
 pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
-    let now = identity(model);
+    let now = identity(model, mesh);
     let mut found = meshes(&restart.mesh, mesh);
     found.extend(texts(&restart.identity, &now));
     let dead = restart.snapshot.lists.iter().find(|list| list.name == "DEAD").map_or(0, |list| list.values.len());
@@ -103,12 +202,12 @@ pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -
 }
 
 /// Names and values of an identity.
-fn lines(text: &str) -> Vec<(String, String)> {
+fn lines(text: &str) -> Vec<Line> {
     text.lines().filter_map(|line| line.split_once(": ")).map(|(a, b)| (a.to_string(), b.to_string())).collect()
 }
 
 /// A value by its name.
-fn value(list: &[(String, String)], name: &str) -> String {
+fn value(list: &[Line], name: &str) -> String {
     list.iter().find(|(known, _)| known == name).map_or("none".to_string(), |(_, value)| value.clone())
 }
 
@@ -118,7 +217,8 @@ fn texts(then: &str, now: &str) -> Vec<String> {
     let mut names: Vec<&String> = then.iter().chain(&now).map(|(name, _)| name).collect();
     names.sort();
     names.dedup();
-    let differ = names.into_iter().filter(|name| value(&then, name) != value(&now, name));
+    let may_differ = |name: &&String| name.starts_with(START);
+    let differ = names.into_iter().filter(|name| !may_differ(name) && value(&then, name) != value(&now, name));
     differ.map(|name| format!("{name}: it was {}, it is {}", value(&then, name), value(&now, name))).collect()
 }
 

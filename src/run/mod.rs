@@ -14,12 +14,12 @@ mod writer;
 
 pub use endless::Endless;
 pub use files::{Files, first_part_of, keep_old_print_files, last_part_of, part_of};
-pub use identity::{differences, other_form, told};
+pub use identity::{differences, other_form, told, without_effect};
 pub use lock::Lock;
 pub use memory::processor;
 pub use parts::Parts;
 pub use report::{Display, Quiet};
-pub use restart::{Continuation, states_beside};
+pub use restart::{Continuation, aside, set_aside, states_beside};
 
 use crate::comm::{Communicator, Counted};
 use crate::exodus::ResultsError;

@@ -58,6 +58,14 @@ impl Plots {
         self.file.as_ref().map_or(0, ResultsWriter::states)
     }
 
+    /// Makes sure that the file of this rank is still there.
+    ///
+    /// # Errors
+    /// When it is not.
+    pub fn in_place(&self) -> Result<(), RunError> {
+        self.file.as_ref().map_or(Ok(()), |file| Ok(file.in_place()?))
+    }
+
     /// Appends a state. All ranks call it.
     ///
     /// # Errors

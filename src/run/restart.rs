@@ -72,6 +72,8 @@ pub(super) struct RestartFiles<'a> {
     header: RestartHeader<'a>,
     /// Whether states on the disk may be those of another run.
     strange: bool,
+    /// Whether this run has written any.
+    written: bool,
 }
 
 impl<'a> RestartFiles<'a> {
@@ -92,9 +94,10 @@ impl<'a> RestartFiles<'a> {
                 title: &job.model.title,
                 qa: job.qa.clone(),
                 info: job.deck.lines().map(String::from).collect(),
-                identity: identity(job.model),
+                identity: identity(job.model, job.mesh),
             },
             strange: job.continuation.is_none(),
+            written: false,
         })
     }
 
@@ -102,6 +105,16 @@ impl<'a> RestartFiles<'a> {
     /// one before.
     pub fn due(&mut self, solver: &Solver) -> bool {
         self.schedule.due(solver.time, solver.time_step)
+    }
+
+    /// Makes sure that the last state that was written is still there.
+    ///
+    /// # Errors
+    /// When it is not.
+    pub fn in_place(&self) -> Result<(), ResultsError> {
+        let is_there = !self.written || self.path.is_file();
+        let gone = || io::Error::new(io::ErrorKind::NotFound, "it was removed or moved away after it was written");
+        if is_there { Ok(()) } else { Err(ResultsError::io("keep", &self.path)(gone())) }
     }
 
     /// Writes a state beside the last one and puts it into its place.
@@ -119,7 +132,7 @@ impl<'a> RestartFiles<'a> {
             }
             std::fs::rename(&unfinished, &self.path)
         })?;
-        self.strange = false;
+        (self.strange, self.written) = (false, true);
         Ok(())
     }
 }
@@ -132,6 +145,29 @@ fn older(path: &Path, age: u32) -> PathBuf {
 /// All states that a restart file has with it, itself included: the newest first.
 pub fn states_beside(path: &Path) -> Vec<PathBuf> {
     (0..).map(|age| older(path, age)).take_while(|path| path.is_file()).collect()
+}
+
+/// Where states of an earlier run of the same name are kept: no run reads them there unless it is told to.
+pub fn aside(path: &Path) -> PathBuf {
+    with_suffix(path, ".old")
+}
+
+/// Moves states that are there out of the way of a run that begins anew: it may never write one, and they would be gone on
+/// from as if they were its own. What was set aside before goes. Tells whether there were any.
+///
+/// # Errors
+/// When a file cannot be renamed or removed.
+pub fn set_aside(path: &Path) -> io::Result<bool> {
+    // The older ones count without the newest, too: they would stand beside the newest of the new run.
+    let newest = path.is_file().then_some(0);
+    let ages: Vec<u32> = newest.into_iter().chain((1..).take_while(|&age| older(path, age).is_file())).collect();
+    if ages.is_empty() {
+        return Ok(false);
+    }
+    let old = aside(path);
+    states_beside(&old).iter().rev().try_for_each(std::fs::remove_file)?;
+    ages.iter().try_for_each(|&age| std::fs::rename(older(path, age), older(&old, age)))?;
+    Ok(true)
 }
 
 /// Removes older states: those of a run that began anew would be taken for its own.
@@ -161,6 +197,24 @@ mod tests {
 
     fn texts(path: &Path) -> Vec<String> {
         states_beside(path).iter().map(|path| std::fs::read_to_string(path).unwrap()).collect()
+    }
+
+    #[test]
+    fn states_of_an_earlier_run_are_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.rsout");
+        assert!(!set_aside(&path).unwrap());
+        for (age, text) in ["newest", "older", "oldest"].iter().enumerate() {
+            std::fs::write(older(&path, age as u32), text).unwrap();
+        }
+        assert!(set_aside(&path).unwrap());
+        assert_eq!(
+            (texts(&path), texts(&aside(&path))),
+            (vec![], ["newest", "older", "oldest"].map(String::from).to_vec())
+        );
+        std::fs::write(&path, "another").unwrap();
+        assert!(set_aside(&path).unwrap());
+        assert_eq!((texts(&path), texts(&aside(&path))), (vec![], vec!["another".to_string()]));
     }
 
     #[test]

@@ -328,6 +328,15 @@ impl<'a> Writer<'a> {
         self.restart(solver, comm)
     }
 
+    /// Makes sure that the files of this rank are still there.
+    fn in_place(&self) -> Result<(), RunError> {
+        self.plots.in_place()?;
+        self.histories.as_ref().map_or(Ok(()), ResultsWriter::in_place)?;
+        self.restarts.as_ref().map_or(Ok(()), RestartFiles::in_place)?;
+        let log = self.log.as_ref().map_or(Ok(()), |log| log.in_place(&self.files.print));
+        log.map_err(|error| self.print_error(error))
+    }
+
     /// Closes the log and says how the run ended.
     pub(super) fn finish(
         mut self,
@@ -351,6 +360,8 @@ impl<'a> Writer<'a> {
         let complete = matches!(outcome, Ok(Request::Continue));
         let advice = if complete { advice::of_scene(&scene, comm) } else { Vec::new() };
         let outcome = outcome.and_then(|by| self.last_restart(solver, comm).map(|()| by));
+        // What nobody finds is no result of a run that is done.
+        let outcome = outcome.and_then(|by| together(self.in_place(), comm).map(|()| by));
         let wall = begun.elapsed().as_secs_f64();
         let table = table::time_table(solver, comm, wall, [step - self.first_step, self.elements as u64]);
         let states = self.plots.states();

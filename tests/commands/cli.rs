@@ -583,6 +583,8 @@ fn values_from_the_command_line_stand_for_those_of_deck_and_recipe() {
     desk.urto(&["mesh", "box.mesh", "-D", "n=5"]).with(0).says(&["5 elements"]);
     desk.urto(&["mesh", "box.mesh", "-D", "m=5"]).with(2).says(&["-D gives a value to m", "no expression"]);
     desk.urto(&["mesh", "box.mesh", "-D", "n"]).with(2).says(&["NAME=VALUE"]);
+    desk.urto(&["mesh", "box.mesh", "-D", "n="]).with(2).says(&["-D n=: the value is missing"]);
+    desk.urto(&["mesh", "box.mesh", "-D", "n=1,5"]).with(2).says(&["two fields", "decimals follow a point, as in 1.5"]);
     desk.put(
         "box.i",
         "TITLE\n box\n$ {speed = 10.}\nTERMINATION TIME, 1.E-5\nMATERIAL, 1, ELASTIC, 7800.\nYOUNGS MODULUS = 2.E11\n\

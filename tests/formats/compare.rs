@@ -132,6 +132,37 @@ fn moved_nodes_are_a_difference_and_other_meshes_cannot_be_compared() {
     assert!(error.to_string().contains("none.g: cannot be read: No such file"), "{error}");
 }
 
+#[test]
+fn attributes_and_distribution_factors_are_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, mesh: &Mesh| {
+        let path = folder.path().join(name);
+        write_mesh(&path, mesh).unwrap();
+        path
+    };
+    let mut mesh = two_block_mesh();
+    let set = mesh.node_sets[0].clone();
+    mesh.blocks[0].attributes = vec![0.1; mesh.blocks[0].len()];
+    mesh.node_factors.insert(set.id, (0..set.nodes.len()).map(|n| 0.5 + n as f64).collect());
+    let a = write("a.g", &mesh);
+    assert!(compare(&a, &a, &Tolerance::EXACT).unwrap().is_same());
+    mesh.blocks[0].attributes[0] = 0.5;
+    mesh.node_factors.get_mut(&set.id).unwrap()[1] = 7.0;
+    let b = write("b.g", &mesh);
+    let comparison = compare(&a, &b, &Tolerance::EXACT).unwrap();
+    let told: Vec<String> = comparison.differences.iter().map(|difference| difference.to_string()).collect();
+    let block = mesh.blocks[0].id;
+    assert!(told[0].starts_with(&format!("attribute 1 of block {block}: 1 of ")), "{told:#?}");
+    assert!(told[1].starts_with(&format!("distribution factors of node set {}: 1 of ", set.id)), "{told:#?}");
+    assert!(told[1].contains(": 1.5e0 and 7e0") && told.len() == 2, "{told:#?}");
+    mesh.blocks[0].attributes.clear();
+    mesh.node_factors.clear();
+    let c = write("c.g", &mesh);
+    let expected = [format!("attribute 1 of block {block}"), format!("distribution factors of node set {}", set.id)];
+    assert_eq!(compare(&a, &c, &Tolerance::EXACT).unwrap().missing, [expected.to_vec(), Vec::new()]);
+    assert_eq!(compare(&c, &a, &Tolerance::EXACT).unwrap().missing, [Vec::new(), expected.to_vec()]);
+}
+
 /// Histories of blocks have variables of the whole body and no mesh.
 #[test]
 fn histories_without_a_mesh_are_compared() {

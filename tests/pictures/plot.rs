@@ -301,6 +301,68 @@ fn a_variable_of_a_later_part_begins_there() {
     desk.urto(&["plot", "none.h", "-v", "VELX_1"]).with(2);
 }
 
+/// Material points are numbered by each start of the program: what lies in another element is a curve of its own.
+#[test]
+fn a_point_that_has_moved_is_not_drawn_on() {
+    let desk = Desk::new();
+    let file = |name: &str, element: i64, times: &[f64]| {
+        let at = format!(
+            "MATERIAL POINT 1 AT 0.123456789012345 0.123456789012345 0.123456789012345: ELEMENT {element} OF BLOCK 7"
+        );
+        let header = ResultsHeader {
+            mesh: &Mesh { title: "parts".to_owned(), ..Mesh::default() },
+            title: "parts".to_owned(),
+            global: ["EQPS_1", "VELX_BLOCK1"].map(str::to_owned).to_vec(),
+            nodal: Vec::new(),
+            element: Vec::new(),
+            qa: ["urto", "0", "01/01/26", "00:00:00"].map(str::to_owned),
+            info: vec![at, "MATERIAL POINT 2 AT 0 0 0: ELEMENT 1 OF BLOCK 1".to_owned()],
+        };
+        let mut writer = ResultsWriter::create(&desk.path(name), &header).expect("a file");
+        times.iter().for_each(|t| writer.write_state(*t, &[*t, -t], &[], &[]).expect("a state"));
+    };
+    file("run.h", 1204, &[0.0, 1.0]);
+    file("run.h-s0002", 87, &[2.0, 3.0]);
+    let text = csv_text(&desk, &["run.h", "-v", "EQPS_1,VELX_BLOCK1"]);
+    let heads = "time,EQPS_1 in element 1204 of block 7,EQPS_1 in element 87 of block 7,VELX_BLOCK1\n";
+    assert_eq!(text, format!("{heads}0,0,,-0\n1,1,,-1\n2,,2,-2\n3,,3,-3\n"));
+    let told = desk.urto(&["plot", "run.h", "-v", "EQPS_1", "-o", "curve.png"]).with(0);
+    told.says(&["warning: run.h: EQPS_1 is of another element since a run went on: a curve for each element"]);
+    // The same element as before is one curve.
+    file("run.h-s0002", 1204, &[2.0, 3.0]);
+    assert_eq!(csv_text(&desk, &["run.h", "-v", "EQPS_1"]), "time,EQPS_1\n0,0\n1,1\n2,2\n3,3\n");
+}
+
+/// A picture, a table or a page that a full disk has no room for leaves what was there.
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_written_whole_leaves_what_was_there() {
+    let desk = Desk::new();
+    results(&desk, "run.e", &[0.0, 1.0, 2.0]);
+    let many: Vec<f64> = (0..4000).map(f64::from).collect();
+    results(&desk, "long.e", &many);
+    for (verb, name, more) in
+        [("plot", "out.png", ""), ("plot", "out.csv", "--csv"), ("view", "view.png", ""), ("report", "out.html", "")]
+    {
+        let ask = |results: &'static str| {
+            let mut arguments = vec![verb, results, "-o", name];
+            arguments.extend((!more.is_empty()).then_some(more));
+            if verb == "plot" {
+                arguments.extend(["-v", "KE,ONE"]);
+            }
+            arguments
+        };
+        desk.urto(&ask("run.e")).with(0);
+        let before = std::fs::read(desk.path(name)).expect("a file");
+        let limited = format!("trap '' XFSZ; ulimit -f 1; exec '{}' {}", crate::program::URTO, ask("long.e").join(" "));
+        let mut shell = std::process::Command::new("sh");
+        let output = shell.args(["-c", &limited]).current_dir(desk.path(".")).output().expect("a shell");
+        crate::program::Left::of(output).with(1).says(&["cannot write", name]);
+        assert!(std::fs::read(desk.path(name)).expect("still there") == before, "{verb} {name}");
+        assert!(!desk.has(&format!("{name}.part")), "{name}");
+    }
+}
+
 /// A state that only the end of a run was a reason for lies inside an interval over which the run that goes on has means.
 #[test]
 fn a_state_inside_an_interval_is_none_of_its_ends() {

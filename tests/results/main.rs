@@ -1,5 +1,6 @@
 //! Files that a run leaves: in pieces, for other programs, when it is killed, and to go on from.
 
+mod earlier_runs;
 mod ends;
 mod kill;
 mod other_programs;
@@ -7,7 +8,9 @@ mod pieces;
 mod restart;
 mod restart_files;
 mod restart_of_eroded;
+mod restart_of_others;
 mod rigid_blocks;
+mod vanished;
 
 #[path = "../program/mod.rs"]
 mod program;

@@ -90,6 +90,52 @@ fn joined_pieces_are_the_unsplit_file() {
     }
 }
 
+/// Distribution factors of node sets, of which a piece may have but zeros or ones.
+#[test]
+fn joined_pieces_have_the_factors_of_node_sets() {
+    let mut mesh = two_blocks();
+    let factor = |set: usize, n: usize| if set == 0 { [0.0, 1.0, 0.25][n * 3 / 30 % 3] } else { 1.0 + n as f64 };
+    for (set, nodes) in mesh.node_sets.iter().enumerate().take(2) {
+        mesh.node_factors.insert(nodes.id, (0..nodes.nodes.len()).map(|n| factor(set, n)).collect());
+    }
+    let desk = desk(&mesh);
+    assert_eq!(desk.results("whole.e").mesh().expect("a mesh").node_factors, mesh.node_factors);
+    for ranks in [1, 3, 8] {
+        let base = format!("split{ranks}");
+        split(&desk, ranks, &base);
+        let first = netcdf::open(desk.path(&format!("{base}.e.{ranks}.0"))).expect("a piece");
+        let counts: Vec<i64> = mesh
+            .node_sets
+            .iter()
+            .map(|set| if mesh.node_factors.contains_key(&set.id) { set.nodes.len() as i64 } else { 0 })
+            .collect();
+        assert_eq!(list(&first, "ns_df_cnt_global"), counts);
+        assert_joined(&desk, &base);
+    }
+}
+
+/// A join that is killed leaves what was there under the name, and never a part of the whole.
+#[test]
+fn a_killed_join_leaves_no_short_file() {
+    let desk = Desk::new();
+    let deck = DECK.replace("PLOT TIME, 2.E-6", "PLOT TIME, 1.E-9");
+    desk.put("two.i", &deck);
+    desk.put_mesh("two.g", &two_blocks());
+    split(&desk, 3, "split");
+    let begun = std::time::Instant::now();
+    desk.urto(&["join", "split.e", "-o", "all.e"]).with(0);
+    let (whole, expected) = (begun.elapsed().as_micros() as u64, fs::read(desk.path("all.e")).expect("the whole"));
+    for kill in 1..20 {
+        let _ = fs::remove_file(desk.path("split.e"));
+        let mut child = desk.start(&["join", "split.e"]);
+        std::thread::sleep(std::time::Duration::from_micros(whole * kill / 20));
+        child.kill().and_then(|()| child.wait()).expect("it ends");
+        if let Ok(there) = fs::read(desk.path("split.e")) {
+            assert!(there == expected, "kill {kill}: {} of {} bytes", there.len(), expected.len());
+        }
+    }
+}
+
 /// In two dimensions, with two coordinates, sides that are edges, and a triangle.
 #[test]
 fn joined_pieces_of_the_plane_are_the_unsplit_file() {

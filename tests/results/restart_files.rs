@@ -243,7 +243,7 @@ fn only_as_many_states_as_asked_are_kept() {
         let mut left: Vec<String> = std::fs::read_dir(desk.path("."))
             .expect("the folder")
             .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-            .filter(|name| name.contains("rsout"))
+            .filter(|name| name.contains("rsout") && !name.contains("rsout.old"))
             .collect();
         left.sort();
         assert_eq!(left, names);

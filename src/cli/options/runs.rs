@@ -9,8 +9,8 @@ use std::path::PathBuf;
 /// Writes the print log x.o and the plot states x.e in the present folder; an old print log is kept as x.o.1, x.o.2 and so on.
 /// A second run with the same output is refused while one is writing. Results are the same to the bit on any number of ranks.
 /// To stop a run in good order, create a file x.shutdown beside the log or send SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 or
-/// SIGXCPU: it writes a last state and leaves. With WRITE RESTART in the deck it also leaves x.rsout, from which --restart or
-/// READ RESTART goes on. The run looks at itself: what it has to warn of, such as contact that makes energy or corners that
+/// SIGXCPU: it writes a last state and leaves. With WRITE RESTART in the deck it also leaves x.rsout, the state one step later, from which
+/// --restart or READ RESTART goes on; a run that comes to its end leaves the one before its last twenty steps. The run looks at itself: what it has to warn of, such as contact that makes energy or corners that
 /// turn inside out, stands on the terminal, in the log and in the last line.
 #[derive(Debug, Args)]
 pub struct Run {

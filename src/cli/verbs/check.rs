@@ -11,12 +11,21 @@ use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
 use crate::solver::elements::Element;
-use crate::solver::{BlockTrial, Body, Request, Solver, state_names, studs};
+use crate::solver::{BlockTrial, Body, Request, Solver, Stop, state_names, studs};
 use crate::studies::advice;
 use std::time::Instant;
 
-/// Steps that are timed to estimate the cost of a run.
-const TRIAL_STEPS: u32 = 5;
+/// Passes over the elements of each block that are timed to tell which of them makes a run long.
+const PASSES: u32 = 5;
+
+/// Steps that are not timed before those that are: the first ones touch memory anew, and contact searches, which lasts for many more.
+const UNTIMED_STEPS: usize = 2;
+
+/// Steps that are timed at least, and at most.
+const TIMED_STEPS: [usize; 2] = [3, 200];
+
+/// Seconds after which no more steps are timed than must be.
+const TRIAL_SECONDS: f64 = 0.1;
 
 /// Beams that turn with more than this times the inertia about their line are told.
 const TOLD_INERTIA: f64 = 1.01;
@@ -210,12 +219,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     }
     let foretold: String =
         advice::foretold(mesh, model, &solver).iter().map(|line| format!("foretold: {line}\n")).collect();
-    let begun = Instant::now();
-    for _ in 0..TRIAL_STEPS {
-        solver.advance();
-        solver.prepare(Request::Continue, comm).map_err(stopped)?;
-    }
-    let per_step = begun.elapsed().as_secs_f64() / f64::from(TRIAL_STEPS);
+    let per_step = seconds_per_step(&mut solver, model.termination_time, comm).map_err(stopped)?;
     let by_block = by_block(given, &mut solver);
     let steps = (model.termination_time / first).ceil();
     let [x, y, z] = place.centre.map(|coordinate| scientific(coordinate, 3));
@@ -243,13 +247,37 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     ))
 }
 
+/// Seconds of a step, the median of some: neither what other programs take of the processor meanwhile nor what comes once in many steps
+/// is in it, so that a run takes this at least.
+fn seconds_per_step(solver: &mut Solver, end: f64, comm: &mut Serial) -> Result<f64, Stop> {
+    let [fewest, most] = TIMED_STEPS;
+    let (begun, mut seconds) = (Instant::now(), Vec::new());
+    for step in 0..UNTIMED_STEPS + most {
+        let is_needed = seconds.len() < fewest;
+        if !is_needed && (begun.elapsed().as_secs_f64() > TRIAL_SECONDS || solver.time >= end) {
+            break;
+        }
+        let begun = Instant::now();
+        solver.advance();
+        match solver.prepare(Request::Continue, comm) {
+            Err(stop) if is_needed => return Err(stop),
+            // What stops the run later is the run's to tell.
+            Err(_) => break,
+            Ok(_) if step >= UNTIMED_STEPS => seconds.push(begun.elapsed().as_secs_f64()),
+            Ok(_) => (),
+        }
+    }
+    seconds.sort_by(f64::total_cmp);
+    Ok(seconds.get(seconds.len() / 2).copied().unwrap_or(0.0))
+}
+
 /// Step and cost of each block, where there are several: which of them makes a run long.
 fn by_block(given: &Given, solver: &mut Solver) -> String {
     let (mesh, scale) = (&given.mesh, given.problem.model.time_step.scale);
     if mesh.blocks.len() < 2 {
         return String::new();
     }
-    let trials = solver.try_blocks(TRIAL_STEPS);
+    let trials = solver.try_blocks(PASSES);
     let all: f64 = trials.iter().map(|trial| trial.seconds).sum();
     let line = |trial: &BlockTrial| {
         let block = &mesh.blocks[trial.index];

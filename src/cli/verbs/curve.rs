@@ -4,6 +4,7 @@ use crate::cli::input::deck_alone;
 use crate::cli::outputs::{ANOTHER_NAME, Inputs};
 use crate::cli::terminal::say;
 use crate::cli::{DONE, Failure, options};
+use crate::common::files;
 use crate::material::response::{Motion, curve as response};
 use crate::output::print::scientific;
 use crate::postprocess::plot::{self, Curve, PlotOptions, Texts};
@@ -46,7 +47,7 @@ pub fn curve(options: &options::Explain, deck: &str, block: &str) -> Result<u8, 
         right: String::new(),
     };
     let bytes = plot::picture(&output, &curves, &texts, &PlotOptions::default()).map_err(Failure::input_error)?;
-    std::fs::write(&output, bytes)
+    files::replace(&output, &bytes)
         .map_err(|e| Failure::run(format_args!("error: cannot write {}: {e}", output.display())))?;
     say(format_args!("{}: block {id}, {}", output.display(), material.law.entry().name));
     for curve in &curves {

@@ -6,6 +6,7 @@ use crate::cli::signals::Wishes;
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, date, display, options, restart, stopped_by, summary};
 use crate::comm::{self, RankFailure, launched_by_mpi};
+use crate::deck::Diagnostic;
 use crate::output::print::{scientific, sentence, with_warnings};
 use crate::run::{self, Continuation, Display, Ended, Files, Job, Lock, Parts, Quiet, RunError};
 use crate::solver::{Body, Request};
@@ -33,8 +34,9 @@ pub(in crate::cli) struct Prepared {
     pub(in crate::cli) given: Given,
     pub(in crate::cli) ranks: usize,
     pub(in crate::cli) files: Files,
-    /// Old results that go.
+    /// Old results that go, and what is said of them.
     stale: Vec<PathBuf>,
+    said: Vec<String>,
     split: bool,
     continuation: Option<Continuation>,
     banner: Vec<String>,
@@ -50,18 +52,23 @@ impl Prepared {
         read: impl FnOnce(&options::Input) -> Result<Given, Failure>,
     ) -> Result<(Prepared, Body), Failure> {
         let begun = Instant::now();
-        let given = read(&options.input)?;
+        let mut given = read(&options.input)?;
         let clock = [begun, Instant::now()];
         let body = given.body()?;
         let base = base(options.output.as_deref(), &given.deck);
         let found = restart::find(options, &given, &body, &base)?;
-        let continuation = found.map(|(path, snapshot)| Continuation::new(path, snapshot));
+        let continuation = found.map(|(path, snapshot, idle)| {
+            idle.into_iter().for_each(|message| given.problem.diagnostics.push(Diagnostic::warning(message)));
+            Continuation::new(path, snapshot)
+        });
         let files = if continuation.is_some() { Files::continuing(&base) } else { Files::of(&base) };
         let pieces = if options.split { ranks } else { 0 };
         let stale = if continuation.is_none() { files.stale(pieces) } else { Vec::new() };
         let written = files.written(pieces);
         let restart = continuation.iter().map(|continuation| &continuation.path);
-        given.inputs().spare(written.iter().chain(&files.restarts_written()).chain(&stale), ANOTHER_BASE)?;
+        let aside = run::aside(&files.restart);
+        let outputs = written.iter().chain(&stale).chain([&aside]);
+        given.inputs().spare(outputs.chain(&files.restarts_written()), ANOTHER_BASE)?;
         given.inputs().spare(&options.summary, "name another file with --summary")?;
         if let Some(summary) = options.summary.as_ref().filter(|summary| written.contains(summary)) {
             return Err(Failure::input(format_args!(
@@ -89,12 +96,13 @@ impl Prepared {
         ];
         let qa = ["URTO".to_string(), env!("CARGO_PKG_VERSION").to_string(), date, time];
         let split = options.split;
-        Ok((Prepared { given, ranks, files, stale, split, continuation, banner, qa, clock }, body))
+        let said = Vec::new();
+        Ok((Prepared { given, ranks, files, stale, said, split, continuation, banner, qa, clock }, body))
     }
 
     /// Makes room for the results: their folder, the old print log out of the way, and old results that the new ones do not replace.
     /// Nobody else may write them as long as the lock is kept.
-    fn make_room(&self) -> Result<Lock, Failure> {
+    fn make_room(&mut self) -> Result<Lock, Failure> {
         let folder = self.files.print.parent().unwrap_or(Path::new(""));
         if !folder.as_os_str().is_empty() {
             std::fs::create_dir_all(folder)
@@ -109,7 +117,32 @@ impl Prepared {
         }
         run::keep_old_print_files(&self.files.print)
             .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", self.files.print.display())))?;
+        let old_states = self.set_states_aside()?;
+        self.said = self.removed().into_iter().chain(old_states).collect();
         Ok(lock)
+    }
+
+    /// What is said of old results that this run does not write again.
+    fn removed(&self) -> Option<String> {
+        let model = &self.given.problem.model;
+        let has_histories = !model.histories.is_empty() || !model.material_points.is_empty();
+        let gone = self.stale.iter().filter(|path| !has_histories || **path != self.files.history);
+        let gone: Vec<String> = gone.map(|path| path.display().to_string()).collect();
+        let more = if gone.len() > 3 { format!(" and {} more", gone.len() - 3) } else { String::new() };
+        let first = gone[..gone.len().min(3)].join(", ");
+        (!gone.is_empty()).then(|| format!("results of an earlier run of this name are removed: {first}{more}"))
+    }
+
+    /// Sets states of an earlier run aside, where none is gone on from.
+    fn set_states_aside(&self) -> Result<Option<String>, Failure> {
+        let path = &self.files.restart;
+        if self.continuation.is_some() {
+            return Ok(None);
+        }
+        let moved = run::set_aside(path)
+            .map_err(|e| Failure::run(format_args!("error: cannot rename {}: {e}", path.display())))?;
+        let (path, old) = (path.display(), run::aside(path));
+        Ok(moved.then(|| format!("{path} of an earlier run of this name is kept as {}", old.display())))
     }
 
     /// Two runs that write the same files would destroy the results of both.
@@ -136,6 +169,7 @@ impl Prepared {
             self.given.problem.model.title.trim(),
             ranks_in_words(self.ranks)
         ));
+        self.said.iter().for_each(say);
         if let Some(continuation) = &self.continuation {
             say(continuation.in_words());
         }
@@ -205,7 +239,7 @@ fn screen(prepared: &Prepared, quiet: bool) -> Box<dyn Display + Send> {
 fn on_threads(options: &options::Run) -> Result<u8, Failure> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let ranks = options.ranks.map_or(cores, |n| n as usize);
-    let (prepared, body) = Prepared::new(options, ranks, "threads", Given::read)?;
+    let (mut prepared, body) = Prepared::new(options, ranks, "threads", Given::read)?;
     let _lock = prepared.make_room()?;
     prepared.announce(options.quiet);
     let wishes = listen(&prepared)?;
@@ -267,7 +301,7 @@ fn under_mpi(options: &options::Run, _: usize) -> Result<u8, Failure> {
         );
     }
     let read = |input: &options::Input| Given::read_together(input, &mut Processes(&mut world));
-    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|(prepared, body)| {
+    let prepared = Prepared::new(options, ranks, "MPI processes", read).and_then(|(mut prepared, body)| {
         let mut lock = None;
         if rank == 0 {
             lock = Some(prepared.make_room()?);

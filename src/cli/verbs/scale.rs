@@ -5,6 +5,7 @@ use crate::cli::options::{DecompositionName, MachineName};
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, Failure, options};
 use crate::comm::RankFailure;
+use crate::common::files;
 use crate::model::ContactDecomposition;
 use crate::solver::Body;
 use crate::studies::scale::{self, Case, Machine};
@@ -21,7 +22,7 @@ pub fn scale(options: &options::Scale) -> Result<u8, Failure> {
     say(format_args!("the first {} steps, counted", options.steps));
     say(scale::text(&rows, &machine).trim_end());
     if let Some(path) = &options.csv {
-        std::fs::write(path, scale::csv(&rows))
+        files::replace(path, scale::csv(&rows).as_bytes())
             .map_err(|e| Failure::run(format_args!("error: cannot write {}: {e}", path.display())))?;
     }
     Ok(DONE)

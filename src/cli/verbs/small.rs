@@ -19,31 +19,32 @@ pub fn explain(options: &options::Explain) -> Result<u8, Failure> {
     if let [deck, block] = &options.curve[..] {
         return super::curve::curve(options, deck, block);
     }
-    let words = options.words.join(" ");
+    print(&explained(&options.words.join(" "))?);
+    Ok(DONE)
+}
+
+/// The page or the list that these words ask for.
+fn explained(words: &str) -> Result<String, Failure> {
     if words.trim().is_empty() {
-        print(&overview());
-        return Ok(DONE);
+        return Ok(overview());
     }
     let global = GLOBAL_VARIABLES.iter().find(|(name, _)| name.eq_ignore_ascii_case(words.trim()));
     if let Some((name, meaning)) = global {
-        print(&format!("{name}\n   Global variable of the plot file, always written: {meaning}.\n"));
-        return Ok(DONE);
+        return Ok(format!("{name}\n   Global variable of the plot file, always written: {meaning}.\n"));
     }
-    if let Some(text) = deck::explain_word(&words) {
-        print(&text);
-        return Ok(DONE);
+    if let Some(text) = deck::explain_word(words, mesher::language(), &material::models()) {
+        return Ok(text);
     }
     // A name that both languages have is most likely the deck's.
-    let text = deck::explain(&words, &material::models()).or_else(|unknown| {
-        let recipe = deck::explain_in(mesher::language(), &words);
+    let text = deck::explain(words, &material::models()).or_else(|unknown| {
+        let recipe = deck::explain_in(mesher::language(), words);
         recipe.map_err(|other| if unknown.near.is_some() { unknown } else { other })
     });
-    let found = |unknown: deck::UnknownTopic| match deck::search(&words, mesher::language(), &material::models()) {
+    let found = |unknown: deck::UnknownTopic| match deck::search(words, mesher::language(), &material::models()) {
         Some(pages) => Ok(format!("{words} stands in\n{pages}")),
         None => Err(Failure::input(format_args!("error: {unknown}"))),
     };
-    print(&text.or_else(found)?);
-    Ok(DONE)
+    text.or_else(found)
 }
 
 /// All commands of decks, then those of recipes.
@@ -174,4 +175,44 @@ pub fn generate(options: &options::Generate) -> Result<u8, Failure> {
     }
     print(&String::from_utf8_lossy(&out));
     Ok(DONE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deck::{Status, language};
+
+    /// A text in one line, as pages are broken into lines.
+    fn flat(text: &str) -> String {
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    fn page(name: &str) -> String {
+        explained(name).map(|text| flat(&text)).unwrap_or_default()
+    }
+
+    /// No word of the glossary, variable or other language hides the page of a command or of a model.
+    #[test]
+    fn every_name_shows_its_page() {
+        let (deck, recipe) = (language(), mesher::language());
+        let of_deck = |name: &str| deck.entries.iter().any(|entry| entry.spellings().any(|known| known == name));
+        let of_recipes = recipe.entries.iter().filter(|entry| !of_deck(&entry.name));
+        for entry in deck.entries.iter().chain(of_recipes) {
+            for name in entry.spellings() {
+                let page = page(name);
+                assert!(page.contains(&flat(&entry.does)), "{name}: {page}");
+                assert!(entry.status != Status::Built || page.contains(&flat(&entry.syntax())), "{name}: {page}");
+            }
+        }
+        for model in material::models().iter().flat_map(|kind| &kind.models) {
+            assert!(page(model.name).contains(&flat(model.summary)), "{}", model.name);
+        }
+    }
+
+    #[test]
+    fn words_come_before_the_commands_that_they_name() {
+        let page = page("RIGID BODY");
+        assert!(page.contains("one rigid body, with the mass and inertia of its elements"), "{page}");
+        assert!(page.contains("Form RIGID BODY, block, ..."), "{page}");
+    }
 }

@@ -5,6 +5,8 @@ use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
 use crate::cli::terminal::{complain, say};
 use crate::cli::{DONE, FAILED, Failure, options, stopped_by};
+use crate::common::files;
+use crate::exodus::Results;
 use crate::output::print::scientific;
 use crate::postprocess::plot::Class;
 use crate::run::Files;
@@ -53,6 +55,7 @@ pub fn sweep(options: &options::Sweep) -> Result<u8, Failure> {
     wishes.obeyed();
     let rows = study.rows();
     study.write(&rows)?;
+    study.tell_unreadable(&rows);
     let failed = rows.iter().filter(|row| !row.record.as_ref().is_some_and(Record::is_complete)).count();
     let unread = rows.iter().filter(|row| row.found.is_err()).count();
     Ok(match stopped {
@@ -240,6 +243,24 @@ impl<'a> Study<'a> {
         (0..self.members.len()).map(row).collect()
     }
 
+    /// Says what is to be done where a run has come to its end and its results cannot be read: its summary keeps it from being
+    /// run again.
+    fn tell_unreadable(&self, rows: &[Row]) {
+        for (member, row) in rows.iter().enumerate().filter(|(_, row)| row.found.is_err()) {
+            let files = self.files_of(member);
+            let is_bad = |path: &PathBuf| Results::open(path).is_err();
+            // A history is not there in every study.
+            if is_bad(&files.plot) || (files.history.exists() && is_bad(&files.history)) {
+                complain(format_args!(
+                    "warning: {} has ended well before, and its results are cut or gone\n\
+                     help: delete the folder {} and run the study again, and only this is run anew",
+                    row.member.words(),
+                    self.folder_of(member).display()
+                ));
+            }
+        }
+    }
+
     /// Table and pictures.
     fn write(&self, rows: &[Row]) -> Result<(), Failure> {
         let cannot =
@@ -247,7 +268,7 @@ impl<'a> Study<'a> {
         let table = sweep::text(rows);
         for (name, text) in [("table.txt", &table), ("table.csv", &sweep::csv(rows))] {
             let path = self.folder.join(name);
-            std::fs::write(&path, text).map_err(|e| cannot(&path, e))?;
+            files::replace(&path, text.as_bytes()).map_err(|e| cannot(&path, e))?;
         }
         say(format_args!("\n{}", table.trim_end()));
         let made = sweep::pictures(&self.folder, &self.title, &self.axes, rows);

@@ -6,6 +6,7 @@ use crate::cli::outputs::{Inputs, writable};
 use crate::cli::signals::Wishes;
 use crate::cli::terminal::say;
 use crate::cli::{DONE, Failure, options, stopped_by};
+use crate::common::files;
 use crate::exodus;
 use crate::mesh::refine::refined;
 use crate::run::Files;
@@ -303,7 +304,7 @@ impl<'a> Trial<'a> {
         };
         let variant = &rows[row].variant;
         let text = variant.deck(&self.given.problem.deck, &(Vec::new(), Vec::new()));
-        std::fs::write(path, text)
+        files::replace(path, text.as_bytes())
             .map_err(|e| Failure::run(format_args!("error: cannot write {}: {e}", path.display())))?;
         let mesh = self.folder.join(format!("mesh_{}.g", variant.refine));
         say(format_args!("{} is {}; its mesh is {}", path.display(), variant.name, mesh.display()));

@@ -68,11 +68,21 @@ fn elsewhere(fields: &[Field], named: Topic, models: &[Models]) -> String {
     if pages.is_empty() { String::new() } else { format!("\n It also stands on the page of {}.\n", pages.join(", ")) }
 }
 
-/// What the glossaries say of a word or a variable, and the commands that begin with it.
-pub fn explain_word(words: &str) -> Option<String> {
+/// What the glossaries say of a word or a variable, the page of what has this very name, and the other commands that begin with it.
+pub fn explain_word(words: &str, other: &'static Grammar, models: &[Models]) -> Option<String> {
     let term = glossary::find(glossary::words(), words).or_else(|| glossary::find(glossary::variables(), words))?;
-    let commands = several(language(), asked(words).text()).map(|list| format!("\n Commands\n{list}"));
-    Some(text(&page::of_term(term)) + &commands.unwrap_or_default())
+    let named = asked(words);
+    let named = named.text();
+    let of_recipes = || other.entries.iter().find(|entry| entry.spellings().any(|name| name == named));
+    let page = topics(models)
+        .find_map(|(name, topic)| (name == named).then(|| page_of(topic, models)))
+        .or_else(|| of_recipes().map(|entry| page::of_entry(entry, &[])));
+    let more = language().entries.iter().filter(|entry| entry.name.starts_with(named));
+    let more: String =
+        more.filter(|entry| page.as_ref().is_none_or(|page| page.title != entry.name)).map(line).collect();
+    let page = page.map_or(String::new(), |page| format!("\n{}", text(&page)));
+    let more = if more.is_empty() { more } else { format!("\n Commands\n{more}") };
+    Some(text(&page::of_term(term)) + &page + &more)
 }
 
 /// The pages whose text has all of these words, a line each; `None` where there is none. Searched are the glossaries,

@@ -16,7 +16,8 @@ const RULES: &str = r#".TH URTO-DECK 5 "" "urto" "File formats"
 urto-deck \- the command language of urto
 .SH DESCRIPTION
 A deck is a text file that describes a problem in commands, one on each line, in the manner of PRONTO.
-The order of commands does not matter, but the lines of a group stand between its first line and END.
+The order of commands does not matter, but the lines of a group stand between its first line and END, and of several
+INITIAL VELOCITY commands for a node the later one holds, or adds to those before it if it is ANGULAR.
 .SS Lines
 A line that ends in
 .B *

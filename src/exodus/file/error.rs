@@ -133,7 +133,7 @@ impl ResultsError {
         }
     }
 
-    pub(in crate::exodus) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| ResultsError::Io { action, path: path.to_owned(), source }
     }
 

@@ -69,6 +69,11 @@ impl Gathering {
                 whole.nodes[place as usize] = part.places.nodes[node as usize];
             }
         }
+        for ((set, places), &size) in mesh.node_sets.iter().zip(&places.node_sets).zip(&self.sizes.node_sets) {
+            let Some(factors) = mesh.node_factors.get(&set.id) else { continue };
+            let whole = self.mesh.node_factors.entry(set.id).or_insert_with(|| vec![1.0; size]);
+            factors.iter().zip(places).for_each(|(&factor, &place)| whole[place as usize] = factor);
+        }
         for ((whole, set), places) in self.mesh.side_sets.iter_mut().zip(&mesh.side_sets).zip(&places.side_sets) {
             for (&(element, side), &place) in set.sides.iter().zip(places) {
                 whole.sides[place as usize] = (part.places.elements[element as usize], side);

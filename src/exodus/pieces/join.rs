@@ -6,6 +6,7 @@ use super::{Sizes, parts_of_name, piece_path};
 use crate::common::files;
 use crate::exodus::file::error::ResultsError;
 use crate::exodus::file::names;
+use crate::exodus::mesh::write::names_in_writing;
 use crate::exodus::results::Results;
 use crate::exodus::results::writer::{ResultsHeader, ResultsWriter};
 use crate::mesh::{Mesh, Places};
@@ -206,7 +207,7 @@ impl Common {
 /// States that not all pieces have are left out.
 ///
 /// # Errors
-/// When a piece cannot be read or does not fit the others, or the whole cannot be written; then there is no file.
+/// When a piece cannot be read or does not fit the others, or the whole cannot be written; then a file of that name is as it was.
 pub fn join(pieces: &[PathBuf], output: &Path) -> Result<Joined, JoinError> {
     files::replaceable(output).map_err(ResultsError::io("write", output))?; // What is no file must not be removed, either.
     let mut opened = Opened::default();
@@ -219,9 +220,13 @@ pub fn join(pieces: &[PathBuf], output: &Path) -> Result<Joined, JoinError> {
     let whole = gathering.finish().map_err(|what| JoinError::Damaged { path: pieces[0].clone(), what })?;
     let (nodes, elements) = (first.whole.nodes, first.whole.elements());
     let mut joining = Joining { sources, common: first.common, nodes, elements };
-    if let Err(error) = joining.write(output, whole, &first.times[..least]) {
-        // Half of a whole would pass for one. It may not even exist; the first error is the one to tell.
-        let _ = std::fs::remove_file(output);
+    // Half of a whole would pass for one, so it has its name only when all states are in it.
+    let [_, unfinished] = names_in_writing(output);
+    let written = joining.write(&unfinished, whole, &first.times[..least]);
+    let written =
+        written.and_then(|()| std::fs::rename(&unfinished, output).map_err(ResultsError::io("write", output)));
+    if let Err(error) = written {
+        let _ = std::fs::remove_file(&unfinished); // It may not even exist; the first error is the one to tell.
         return Err(error.into());
     }
     Ok(Joined { pieces: pieces.len(), states: least, most })

@@ -6,7 +6,8 @@ use crate::exodus::file::error::ResultsError;
 use crate::exodus::file::names::{self, WholeFamily};
 use crate::exodus::mesh::read;
 use crate::exodus::results::Results;
-use crate::mesh::{Part, Places};
+use crate::mesh::{Mesh, Part, Places};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A piece as it was read.
@@ -29,8 +30,9 @@ pub fn told(results: &Results) -> Result<Told, ResultsError> {
     let Some(ranks) = arrays.dimension(names::NUM_PROCESSORS) else {
         return Err(unusable(path, "this is no piece of split results, but a file of its own"));
     };
-    let mesh = read::assemble_part(path, arrays)?;
+    let mut mesh = read::assemble_part(path, arrays)?;
     let reader = Reader { path, arrays };
+    mesh.node_factors = reader.node_factors(&mesh)?;
     let whole = Sizes {
         nodes: arrays.dimension(names::NUM_NODES_GLOBAL).unwrap_or(0),
         blocks: reader.sizes(&names::WHOLE_BLOCKS)?,
@@ -62,6 +64,22 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn integers(&self, name: &str) -> Result<Option<Vec<i64>>, ResultsError> {
         self.arrays.integers(name).map_err(|what| unusable(self.path, what))
+    }
+
+    /// Distribution factors of node sets as they are, also where those of this piece alone would say nothing.
+    fn node_factors(&self, mesh: &Mesh) -> Result<BTreeMap<i64, Vec<f64>>, ResultsError> {
+        let mut all = BTreeMap::new();
+        for (n, set) in mesh.node_sets.iter().enumerate().filter(|(_, set)| !set.nodes.is_empty()) {
+            let name = names::node_set_factors(n);
+            let given = self.arrays.reals(&name).map_err(|what| unusable(self.path, what))?;
+            let Some(factors) = given else { continue };
+            if factors.len() != set.nodes.len() {
+                let what = format!("{name} does not fit the rest of the file; the piece is damaged");
+                return Err(unusable(self.path, what));
+            }
+            all.insert(set.id, factors);
+        }
+        Ok(all)
     }
 
     /// Sizes of all members of a family in the whole.

@@ -58,7 +58,7 @@ impl Writer<'_> {
             if !ids.is_empty() {
                 self.values(family.sizes, &sizes)?;
                 if let Some(factors) = family.factors {
-                    self.values(factors, &vec![0i32; ids.len()])?;
+                    self.values(factors, &factor_counts(piece, &family, &sizes))?;
                 }
             }
         }
@@ -73,6 +73,16 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// How many distribution factors each set of the whole has: as many as nodes, or none. Those of side sets are not kept.
+fn factor_counts(piece: &Piece, family: &WholeFamily, sizes: &[i32]) -> Vec<i32> {
+    let mesh = &piece.part.mesh;
+    let has = |n: usize| {
+        let is_of_nodes = family.ids == names::WHOLE_NODE_SETS.ids;
+        is_of_nodes && mesh.node_sets.get(n).is_some_and(|set| mesh.node_factors.contains_key(&set.id))
+    };
+    sizes.iter().enumerate().map(|(n, &size)| if has(n) { size } else { 0 }).collect()
 }
 
 /// The families of the whole, with numbers and sizes.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::exodus::file::error::ResultsError;
 use crate::exodus::results::Results;
-use crate::mesh::Mesh;
+use crate::mesh::{Block, Mesh};
 
 /// How far two values may lie apart and still count as equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,7 +110,7 @@ impl Comparison {
     }
 }
 
-/// Compares coordinates, times and all variables of two files; works for meshes and histories as well.
+/// Compares coordinates, attributes, distribution factors, times and all variables of two files; works for meshes and histories as well.
 ///
 /// Variables are matched by name without case, states, nodes and elements by their place in the file.
 ///
@@ -125,8 +125,11 @@ pub fn compare(a: &Path, b: &Path, tolerance: &Tolerance) -> Result<Comparison, 
     }
     let mut comparer = Comparer { files: &files, mesh: &meshes[0], tolerance, differences: Vec::new() };
     comparer.coordinates(&meshes);
-    comparer.times();
     let mut missing = [Vec::new(), Vec::new()];
+    comparer.attributes(&meshes, &mut missing);
+    comparer.node_factors(&meshes, &mut missing);
+    comparer.side_factors(&mut missing)?;
+    comparer.times();
     comparer.globals(&mut missing)?;
     comparer.nodal(&mut missing)?;
     comparer.element(&mut missing)?;
@@ -221,6 +224,73 @@ impl Comparer<'_> {
             tally.add(0, &values[0], &values[1], self.tolerance);
             let mesh = self.mesh;
             self.note(format!("coordinate {name}"), tally, false, |node| format!("node {}", mesh.node_ids[node]));
+        }
+    }
+
+    /// Attributes of elements, one of a block after the other.
+    fn attributes(&mut self, meshes: &[Mesh; 2], missing: &mut [Vec<String>; 2]) {
+        let mut first = 0;
+        for (a, b) in meshes[0].blocks.iter().zip(&meshes[1].blocks) {
+            let counts = [a, b].map(|block| block.attributes_of(0).len());
+            for attribute in 0..counts[0].max(counts[1]) {
+                let variable = format!("attribute {} of block {}", attribute + 1, a.id);
+                if let Some(file) = counts.iter().position(|&count| attribute >= count) {
+                    missing[1 - file].push(variable);
+                    continue;
+                }
+                let of = |block: &Block| -> Vec<f64> {
+                    (0..block.len()).map(|element| block.attributes_of(element)[attribute]).collect()
+                };
+                let mut tally = Tally::default();
+                tally.add(0, &of(a), &of(b), self.tolerance);
+                let mesh = self.mesh;
+                self.note(variable, tally, false, |n| format!("element {}", mesh.element_ids[first + n]));
+            }
+            first += a.len();
+        }
+    }
+
+    /// Distribution factors of node sets.
+    fn node_factors(&mut self, meshes: &[Mesh; 2], missing: &mut [Vec<String>; 2]) {
+        for set in &self.mesh.node_sets {
+            let factors = meshes.each_ref().map(|mesh| mesh.node_factors.get(&set.id));
+            let mesh = self.mesh;
+            let place =
+                |n: usize| set.nodes.get(n).map_or(String::new(), |&n| format!("node {}", mesh.node_ids[n as usize]));
+            self.factors(format!("distribution factors of node set {}", set.id), factors, missing, place);
+        }
+    }
+
+    /// Distribution factors of side sets, which meshes do not hold: side by side, a factor for each node of it.
+    fn side_factors(&mut self, missing: &mut [Vec<String>; 2]) -> Result<(), ResultsError> {
+        for (n, set) in self.mesh.side_sets.iter().enumerate().filter(|(_, set)| !set.sides.is_empty()) {
+            let [a, b] = [self.files[0].side_factors(n)?, self.files[1].side_factors(n)?];
+            let variable = format!("distribution factors of side set {}", set.id);
+            self.factors(variable, [a.as_ref(), b.as_ref()], missing, |n| format!("factor {}", n + 1));
+        }
+        Ok(())
+    }
+
+    /// The factors of a set in both files.
+    fn factors(
+        &mut self,
+        variable: String,
+        factors: [Option<&Vec<f64>>; 2],
+        missing: &mut [Vec<String>; 2],
+        place: impl Fn(usize) -> String,
+    ) {
+        match factors {
+            [Some(a), Some(b)] if a.len() == b.len() => {
+                let mut tally = Tally::default();
+                tally.add(0, a, b, self.tolerance);
+                self.note(variable, tally, false, place);
+            }
+            [Some(a), Some(b)] => {
+                let counts = [a, b].map(Vec::len);
+                (0..2).for_each(|file| missing[file].push(format!("{} {variable}", counts[file])));
+            }
+            [None, None] => (),
+            [a, _] => missing[usize::from(a.is_none())].push(variable),
         }
     }
 

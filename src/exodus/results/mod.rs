@@ -160,6 +160,12 @@ impl Results {
         Ok(values)
     }
 
+    /// Distribution factors of the side set at a place among all; `None` where the file has none.
+    pub(in crate::exodus) fn side_factors(&self, set: usize) -> Result<Option<Vec<f64>>, ResultsError> {
+        let unusable = |what| ResultsError::Unusable { path: self.path.clone(), what };
+        self.arrays.reals(&names::side_set_factors(set)).map_err(unusable)
+    }
+
     /// A global variable in all states. Names compare without case.
     ///
     /// # Errors

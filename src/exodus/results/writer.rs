@@ -9,6 +9,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use crate::common::files;
 use crate::exodus::file::container::{Container, Layout, inspect};
 use crate::exodus::file::error::ResultsError;
 use crate::exodus::mesh::write::{Contents, LINE_WIDTH, cut, write_file};
@@ -108,6 +109,15 @@ impl ResultsWriter {
     /// Number of states written so far.
     pub fn states(&self) -> usize {
         self.states.get() as usize
+    }
+
+    /// Makes sure that the file still has its name: a file that was removed, or moved away with its folder, can be written all
+    /// the same, and nobody would find it.
+    ///
+    /// # Errors
+    /// When there is none of this name any more, or another one.
+    pub fn in_place(&self) -> Result<(), ResultsError> {
+        files::in_place(&self.file, &self.path).map_err(ResultsError::io("keep", &self.path))
     }
 
     /// Waits until all that was written is on the disk, where it outlives a power failure.

@@ -16,6 +16,7 @@ const SQUARE: f64 = 0.99;
 /// Warns of all of them.
 pub fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     given_twice(problem, found);
+    radial_gravity(problem, found);
     undone_rotations(problem, mesh, found);
     thick_shells(problem, mesh, found);
     let held = [Direction::X, Direction::Y, Direction::Z].map(|axis| held_nodes(problem, mesh, axis));
@@ -34,9 +35,9 @@ pub fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     }
 }
 
-/// Loads that are given a second time in the same words: they act twice.
+/// Loads and rotations that are given a second time in the same words: they act twice.
 fn given_twice(problem: &Problem, found: &mut Diagnostics) {
-    for name in ["PRESSURE", "GRAVITY"] {
+    for name in ["PRESSURE", "GRAVITY", "INITIAL VELOCITY ANGULAR"] {
         let cards: Vec<&Card> = problem.deck.cards_of(name).filter(|card| card.complete).collect();
         for (place, card) in cards.iter().enumerate() {
             let Some(first) = cards[..place].iter().find(|first| first.says_the_same(card)) else { continue };
@@ -47,6 +48,22 @@ fn given_twice(problem: &Problem, found: &mut Diagnostics) {
                     .help("take one of the two out, or write the sum once"),
             );
         }
+    }
+}
+
+/// Gravity along the radius of bodies of revolution: it pushes every point of a ring away from the axis, as no gravity does.
+fn radial_gravity(problem: &Problem, found: &mut Diagnostics) {
+    if !problem.model.analysis.about_axis() {
+        return;
+    }
+    for card in problem.deck.cards_of("GRAVITY").filter(|card| card.complete && card.number("gx") != 0.0) {
+        found.push(
+            Diagnostic::warning(
+                "GRAVITY: x is the radius in AXISYMMETRIC, so that gx pushes away from the axis all around",
+            )
+            .at(card.place("gx"), "a radial field, and no gravity of a body")
+            .help("gravity along the axis is gy; across it a body of revolution does not stay one"),
+        );
     }
 }
 
@@ -281,6 +298,9 @@ mod tests {
     fn loads_that_are_given_twice_are_told() {
         says("PRESSURE, 1, 1, 2.\nPRESSURE, 1, 1, 2.\n", "PRESSURE: the same line stands in the deck twice");
         says("GRAVITY, 0., 0., -9.81\nGRAVITY, 0., 0., -9.81\n", "GRAVITY: the same line stands in the deck twice");
+        let angular = "INITIAL VELOCITY ANGULAR, 1, 5.\n";
+        let twice = format!("{angular}{angular}PRESSURE, 1, 1, 2.\n");
+        says(&twice, "INITIAL VELOCITY ANGULAR: the same line stands in the deck twice, and acts twice");
         is_silent("PRESSURE, 1, 1, 2.\nPRESSURE, 1, 1, 3.\nGRAVITY, 0., 0., -9.81, 1\n");
     }
 
@@ -298,6 +318,24 @@ mod tests {
         let silent = "PRESSURE, 1, 1, 1.\nSILENT BC, 1\nNO DISPLACEMENT";
         says(&format!("{silent}, X, 1\n"), "SILENT BC: 4 of the 4 faces of side set 1 are held along their normal");
         is_silent(&format!("{silent}, Y, 1\n"));
+    }
+
+    #[test]
+    fn gravity_along_a_radius_is_told() {
+        let mesh = make("RECTANGLE, 1, 0., 0., 1., 1., 1, 1", "recipe", 1)
+            .unwrap_or_else(|found| panic!("{}", found.render(false)));
+        let told = |lines: &str| {
+            let law = "MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n";
+            let deck = format!("TERMINATION TIME, 1.\n{law}{lines}\nEXIT\n");
+            match examine(Source::new("t.i", &deck), Some(&mesh)) {
+                Ok(problem) => problem.diagnostics.render(false),
+                Err(found) => panic!("{}", found.render(false)),
+            }
+        };
+        assert!(told("AXISYMMETRIC\nGRAVITY, 1., 0.").contains("GRAVITY: x is the radius"));
+        for lines in ["AXISYMMETRIC\nGRAVITY, 0., 1.", "PLANE STRAIN\nGRAVITY, 1., 0."] {
+            assert!(!told(lines).contains("GRAVITY"), "{}", told(lines));
+        }
     }
 
     #[test]

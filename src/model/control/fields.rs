@@ -52,7 +52,7 @@ fields! {
         /// p
         Pressure = "PRESSURE", ["PRESSURE"], "minus the mean stress, positive in compression; of beams that of the normal force over the area";
         /// von Mises
-        VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress; of shells that of the mean stress, of beams the largest normal stress of a fibre, without torsion and shear";
+        VonMises = "VONMISES", ["VONMISES"], "von Mises equivalent stress; of shells that of the mean stress, of beams the largest normal stress of a fibre, which is below that of the surface, without torsion and shear";
         /// energy per volume
         Energy = "ENERGY", ["ENERGY"], "work of the stress since the start per unit initial volume: internal energy without the heat of viscosities";
         /// energy per mass

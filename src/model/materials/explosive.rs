@@ -52,6 +52,10 @@ pub(in crate::model) fn report_unlit(draft: &mut Draft) {
 /// Warns of explosives that no front reaches before the run ends.
 pub(in crate::model) fn report_lit_too_late(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     let end = problem.model.termination_time;
+    // What goes on from a state has been lit before, or will be as its first run asked for.
+    if problem.model.restarts.read.is_some() {
+        return;
+    }
     for material in &problem.model.materials {
         let Some(jwl) = jwl(&material.law) else { continue };
         let Some(block) = mesh.blocks.iter().find(|block| block.id == material.block) else { continue };

@@ -18,6 +18,7 @@ pub use steps::{StepLine, step_header, step_line};
 pub use summary::{Balance, Ending, TimeTable, closing};
 pub use warnings::{labels, warning, warning_on_terminal, with_warnings};
 
+use crate::common::files;
 use crate::common::numbers::number;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -37,6 +38,14 @@ impl PrintLog {
     /// When it cannot be created.
     pub fn create(path: &Path) -> io::Result<PrintLog> {
         Ok(PrintLog { out: BufWriter::new(File::create(path)?) })
+    }
+
+    /// Makes sure that the file still has its name.
+    ///
+    /// # Errors
+    /// When it has been removed or replaced.
+    pub fn in_place(&self, path: &Path) -> io::Result<()> {
+        files::in_place(self.out.get_ref(), path)
     }
 
     /// Appends text.

@@ -5,6 +5,7 @@ use crate::mesh::check::counted;
 use crate::mesh::hexahedron::{Form, form};
 use crate::mesh::{Block, Mesh};
 use crate::model::{Hourglass, Model, MotionKind, Precision, PrescribedMotion, Spin, StepEstimate, Unknown};
+use crate::solver::elements::Element;
 
 /// A part of the code that has work to do.
 pub struct Feature {
@@ -90,19 +91,42 @@ fn solids(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         let what = format!("{}, {}", elements(block), material.law.entry().name.to_lowercase());
         Some(Feature { what, asked_by: format!("MATERIAL {}", block.id) })
     });
+    let eight_points = |block: &&Block| block.shape == Shape::Hexahedron && model.has_eight_points(block.id);
+    let eight_points = mesh.blocks.iter().filter(eight_points).map(|block| Feature {
+        what: format!("eight points of integration in block {}", block.id),
+        asked_by: "ELEMENT".into(),
+    });
+    laws.chain(eight_points).chain(choices(model, mesh)).collect()
+}
+
+/// What is chosen for elements of a kind, where there are any.
+fn choices(model: &Model, mesh: &Mesh) -> Vec<Feature> {
+    let some = |is_such: &dyn Fn(&Block) -> bool| mesh.blocks.iter().any(is_such);
     let hourglass = match model.hourglass {
         Hourglass::FlanaganBelytschko { .. } => "Flanagan-Belytschko hourglass control",
         Hourglass::AssumedStrain { .. } => "assumed strain hourglass control",
     };
-    let estimate = (model.step_estimate == StepEstimate::Global)
-        .then(|| Feature { what: "time steps of the mesh as a whole".into(), asked_by: "TIME STEP ESTIMATE".into() });
-    let single = (model.precision == Precision::Single)
-        .then(|| Feature { what: "hexahedra with one point in single precision".into(), asked_by: "PRECISION".into() });
-    let spin = (model.spin == Spin::SecondOrder)
-        .then(|| Feature { what: "second-order spin of one-point hexahedra".into(), asked_by: "SPIN".into() });
+    let has_modes = some(&|block| model.has_hourglass_modes(block));
+    let one_point_hexahedra = some(&|block| block.shape == Shape::Hexahedron && model.has_hourglass_modes(block));
+    let vibrates = |block: &Block| {
+        let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law);
+        law.zip(Element::of_block(block, model).ok()).is_some_and(|(law, element)| element.vibrates(law))
+    };
     let viscosity = model.bulk_viscosity;
-    let viscous = (viscosity.linear != 0.0 || viscosity.quadratic != 0.0)
-        .then(|| Feature { what: "bulk viscosity".into(), asked_by: "BULK VISCOSITY, or its default".into() });
-    let control = Feature { what: hourglass.into(), asked_by: "HOURGLASS CONTROL, or its default".into() };
-    laws.chain([control]).chain(viscous).chain(estimate).chain(single).chain(spin).collect()
+    let is_global = model.step_estimate == StepEstimate::Global;
+    [
+        (has_modes, hourglass, "HOURGLASS CONTROL, or its default"),
+        (viscosity.linear != 0.0 || viscosity.quadratic != 0.0, "bulk viscosity", "BULK VISCOSITY, or its default"),
+        (is_global && some(&vibrates), "time steps of the mesh as a whole", "TIME STEP ESTIMATE"),
+        (
+            model.precision == Precision::Single && one_point_hexahedra,
+            "hexahedra with one point in single precision",
+            "PRECISION",
+        ),
+        (model.spin == Spin::SecondOrder && one_point_hexahedra, "second-order spin of one-point hexahedra", "SPIN"),
+    ]
+    .into_iter()
+    .filter(|(is_so, ..)| *is_so)
+    .map(|(_, what, asked_by)| Feature { what: what.into(), asked_by: asked_by.into() })
+    .collect()
 }

@@ -20,6 +20,8 @@ pub struct Curve {
     pub reference: bool,
     /// Which of the runs it comes from.
     pub run: usize,
+    /// Which of the variables asked for it is; those that are taken apart have several curves.
+    pub variable: usize,
     /// Where its variable is.
     pub site: Site,
     /// Each value is the mean from the value before it to its own place.
@@ -52,7 +54,19 @@ impl Curve {
         let label = label.into();
         let site = Site::Global;
         let before = Before::default();
-        Curve { label, x, y, right: false, points: false, reference: false, run: 0, site, means: false, before }
+        Curve {
+            label,
+            x,
+            y,
+            right: false,
+            points: false,
+            reference: false,
+            run: 0,
+            variable: 0,
+            site,
+            means: false,
+            before,
+        }
     }
 
     /// The extremes among finite values; `None` where there are none.

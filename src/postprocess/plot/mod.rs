@@ -16,6 +16,7 @@ mod signal;
 mod table;
 mod work;
 
+use crate::common::files;
 use std::path::Path;
 
 pub use curve::{Curve, Extremes};
@@ -43,8 +44,8 @@ pub struct Drawn {
 pub fn curves(options: &PlotOptions) -> Result<Drawn, PlotError> {
     options.check()?;
     let runs = options.files.iter().map(|path| Run::open(path)).collect::<Result<Vec<_>, _>>()?;
-    let mut curves = pick::curves(&runs, options)?;
-    let warnings = work::on(&mut curves, &runs, options)?;
+    let (mut curves, mut warnings) = pick::curves(&runs, options)?;
+    warnings.extend(work::on(&mut curves, &runs, options)?);
     for path in &options.references {
         curves.extend(reference::read(path)?);
     }
@@ -123,5 +124,5 @@ pub fn contents(files: &[std::path::PathBuf]) -> Result<String, PlotError> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), PlotError> {
-    std::fs::write(path, bytes).map_err(|error| PlotError::Write { path: path.to_owned(), reason: error.to_string() })
+    files::replace(path, bytes).map_err(|error| PlotError::Write { path: path.to_owned(), reason: error.to_string() })
 }

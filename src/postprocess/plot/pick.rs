@@ -23,8 +23,8 @@ struct Chosen {
 ///
 /// # Errors
 /// When a run lacks a variable, a node or an element; where none is asked for, when no run has energies.
-pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotError> {
-    let mut curves = Vec::new();
+pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<(Vec<Curve>, Vec<String>), PlotError> {
+    let (mut curves, mut notes) = (Vec::new(), Vec::new());
     let (mut without, asks) = (None, !options.variables.is_empty() || !options.right.is_empty());
     for (number, run) in runs.iter().enumerate() {
         let mut wanted: Vec<(Chosen, bool)> = Vec::new();
@@ -41,12 +41,23 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
                 wanted.extend(choose(run, name, options)?.into_iter().map(|chosen| (chosen, right)));
             }
         }
-        for (chosen, right) in wanted {
+        for (variable, (chosen, right)) in wanted.into_iter().enumerate() {
             let y = values(run, &chosen)?;
             let (site, means) = (chosen.site, is_mean(run, &chosen));
             let before = before(run, &chosen, means);
-            let curve = Curve::of(chosen.label, run.times().to_vec(), y);
-            curves.push(Curve { right, run: number, site, means, before, ..curve });
+            let of_elements = by_elements(run, &chosen, &y);
+            if !of_elements.is_empty() {
+                notes.push(format!(
+                    "{}: {} is of another element since a run went on: a curve for each element",
+                    run.path().display(),
+                    chosen.label
+                ));
+            }
+            let all = if of_elements.is_empty() { vec![(chosen.label, y)] } else { of_elements };
+            curves.extend(all.into_iter().map(|(label, y)| {
+                let curve = Curve::of(label, run.times().to_vec(), y);
+                Curve { right, run: number, variable, site, means, before, ..curve }
+            }));
         }
     }
     if let Some(run) = without.filter(|_| curves.is_empty()) {
@@ -54,7 +65,25 @@ pub fn curves(runs: &[Run], options: &PlotOptions) -> Result<Vec<Curve>, PlotErr
         return Err(PlotError::Unsaid { path: run.path().to_owned(), known });
     }
     name_runs(&mut curves, runs);
-    Ok(curves)
+    Ok((curves, notes))
+}
+
+/// A variable of a MATERIAL POINT that lies in another element since a run went on: names and values for each of the elements,
+/// NaN in the states of the others. Empty where there is nothing to take apart.
+fn by_elements(run: &Run, chosen: &Chosen, y: &[f64]) -> Vec<(String, Vec<f64>)> {
+    let name = chosen.names.first().filter(|_| chosen.site == Site::Global);
+    let Some(owners) = name.and_then(|name| run.elements_of(name)) else { return Vec::new() };
+    let mut elements: Vec<&str> = Vec::new();
+    for &owner in owners.iter().filter(|owner| !owner.is_empty()) {
+        if !elements.contains(&owner) {
+            elements.push(owner);
+        }
+    }
+    let of = |element: &&str| -> Vec<f64> {
+        let own = y.iter().zip(&owners);
+        own.map(|(&value, owner)| if owner == element { value } else { f64::NAN }).collect()
+    };
+    elements.iter().map(|element| (format!("{} in element {element}", chosen.label), of(element))).collect()
 }
 
 /// The values of the variable with this name, and whether they are means over intervals; of several places at which it is there, those

@@ -1,5 +1,6 @@
 //! The files of a run read as one: what restarts wrote one after the other, and the pieces of each.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::PlotError;
@@ -24,6 +25,8 @@ struct Part {
     states: usize,
     /// Which variables are means over intervals.
     means: Means,
+    /// In which element each MATERIAL POINT lies, by its number in the deck.
+    points: BTreeMap<usize, String>,
 }
 
 /// Where a variable's values are.
@@ -146,6 +149,20 @@ impl Run {
         if is_there { Ok(all) } else { Err(PlotError::NoPlace { path: self.path.clone(), kind, id }) }
     }
 
+    /// Which element's a variable of a MATERIAL POINT is in each state, where that changes from part to part: what goes on may
+    /// watch other points, which are numbered from one again. Nothing for other variables, and where all states are of one element.
+    pub fn elements_of(&self, name: &str) -> Option<Vec<&str>> {
+        let number: usize = name.rsplit_once('_').filter(|(stem, _)| !stem.contains('_'))?.1.parse().ok()?;
+        let mut owners = Vec::with_capacity(self.times.len());
+        for part in self.parts.iter().filter(|part| part.states > 0) {
+            let owner = part.points.get(&number).map_or("", String::as_str);
+            owners.resize(owners.len() + part.states, owner);
+        }
+        let mut known = owners.iter().filter(|owner| !owner.is_empty());
+        let first = known.next()?;
+        known.any(|other| other != first).then_some(owners)
+    }
+
     /// What there is to plot, in lines of text.
     pub fn contents(&self) -> String {
         let files = if self.files() == 1 { String::new() } else { format!(", {} files read as one", self.files()) };
@@ -175,6 +192,25 @@ impl Run {
     }
 }
 
+/// The elements of material points by the records of a history: `MATERIAL POINT 1 AT 0 0 1: ELEMENT 7 OF BLOCK 2`.
+fn points_of(info: &[String]) -> BTreeMap<usize, String> {
+    let mut found = BTreeMap::new();
+    for (line, next) in info.iter().zip(info.iter().skip(1).map(String::as_str).chain([""])) {
+        let Some((number, rest)) = line.strip_prefix("MATERIAL POINT ").and_then(|rest| rest.split_once(" AT ")) else {
+            continue;
+        };
+        // A long record goes on in the next line.
+        let wrapped = if line.len() >= 80 { next } else { "" };
+        let whole = format!("{rest}{wrapped}");
+        let element =
+            whole.split_once(": ELEMENT ").map(|(_, element)| element.trim().replace(" OF BLOCK ", " of block "));
+        if let (Ok(number), Some(element)) = (number.parse(), element) {
+            found.insert(number, element);
+        }
+    }
+    found
+}
+
 /// Names of variables at a site in the parts whose states count, in the order in which they come up.
 fn names_of_all(parts: &[Part], site: Site) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
@@ -196,8 +232,8 @@ impl Part {
         let files = if whole { vec![path.to_owned()] } else { pieces_of(path)?.1 };
         let pieces = files.iter().map(|file| Results::open(file)).collect::<Result<Vec<_>, _>>()?;
         let states = pieces.iter().map(|piece| piece.times().len()).min().unwrap_or(0);
-        let means = Means::read(&pieces.first().map(Results::info).unwrap_or_default());
-        Ok(Part { pieces, states, means })
+        let info = pieces.first().map(Results::info).unwrap_or_default();
+        Ok(Part { pieces, states, means: Means::read(&info), points: points_of(&info) })
     }
 
     /// When the program was started that wrote it, as year, month, day and time; `None` where its records do not tell.

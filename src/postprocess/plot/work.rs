@@ -99,11 +99,12 @@ fn subtract(curves: &mut [Curve], runs: &[Run], options: &PlotOptions) -> Result
         return Ok(());
     }
     let other = [Run::open(path)?];
-    let theirs = pick::curves(&other, options)?;
-    let mut places = vec![0; runs.len()];
+    let theirs = pick::curves(&other, options)?.0;
     for curve in curves.iter_mut() {
-        let place = places.get_mut(curve.run).map_or(0, |next| std::mem::replace(next, *next + 1));
-        let Some(their) = theirs.get(place) else { continue };
+        // Of those that are taken apart by elements, that of the same element.
+        let same = |their: &&Curve| their.variable == curve.variable;
+        let alike = theirs.iter().filter(same).find(|their| their.label == curve.label);
+        let Some(their) = alike.or_else(|| theirs.iter().find(same)) else { continue };
         // Means over other intervals are others.
         curve.means &= their.means && their.x == curve.x;
         if their.before == Before::Unknown {

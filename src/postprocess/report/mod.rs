@@ -14,6 +14,7 @@ mod pictures;
 
 pub use error::ReportError;
 
+use crate::common::files;
 use crate::exodus::Results;
 use crate::postprocess::depiction::Depiction;
 use crate::postprocess::means::Means;
@@ -96,7 +97,7 @@ pub fn report(files: &Files, output: &Path, options: &ReportOptions) -> Result<R
     };
     let plots = material.curves.iter().map(|group| group.plots.len()).sum();
     let text = page::compose(&material);
-    std::fs::write(output, text)
+    files::replace(output, text.as_bytes())
         .map_err(|source| ReportError::Write { path: PathBuf::from(output), reason: source.to_string() })?;
     Ok(Reported { pictures: material.pictures.len(), plots, missing: material.missing })
 }

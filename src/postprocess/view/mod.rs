@@ -11,6 +11,7 @@ mod options;
 mod paint;
 mod sheet;
 
+use crate::common::files;
 use std::path::{Path, PathBuf};
 
 pub use error::ViewError;
@@ -361,7 +362,7 @@ fn png(picture: &Pixmap, path: &Path) -> Result<Vec<u8>, ViewError> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), ViewError> {
-    std::fs::write(path, bytes).map_err(|error| ViewError::Write { path: path.to_owned(), reason: error.to_string() })
+    files::replace(path, bytes).map_err(|error| ViewError::Write { path: path.to_owned(), reason: error.to_string() })
 }
 
 #[cfg(test)]

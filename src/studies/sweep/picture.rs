@@ -2,6 +2,7 @@
 
 use super::table::labels;
 use super::{Axis, Row};
+use crate::common::files;
 use crate::postprocess::plot::{self, Curve, PlotError, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +32,7 @@ pub fn pictures(folder: &Path, title: &str, axes: &[Axis], rows: &[Row]) -> Resu
             right: String::new(),
         };
         let bytes = plot::picture(&path, &curves, &texts, &PlotOptions::default())?;
-        std::fs::write(&path, bytes)
+        files::replace(&path, &bytes)
             .map_err(|error| PlotError::Write { path: path.clone(), reason: error.to_string() })?;
         made.push(path);
     }

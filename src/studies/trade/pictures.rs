@@ -2,6 +2,7 @@
 
 use super::knobs::Knob;
 use super::{Judgement, Row};
+use crate::common::files;
 use crate::postprocess::plot::{self, Curve, Log, PlotError, PlotOptions, Texts};
 use std::path::{Path, PathBuf};
 
@@ -41,7 +42,8 @@ fn texts(title: &str, below: &str, left: &str) -> Texts {
 fn draw(path: PathBuf, curves: &[Curve], texts: &Texts, log: Log) -> Result<PathBuf, PlotError> {
     let options = PlotOptions { log, ..PlotOptions::default() };
     let bytes = plot::picture(&path, curves, texts, &options)?;
-    std::fs::write(&path, bytes).map_err(|error| PlotError::Write { path: path.clone(), reason: error.to_string() })?;
+    files::replace(&path, &bytes)
+        .map_err(|error| PlotError::Write { path: path.clone(), reason: error.to_string() })?;
     Ok(path)
 }
 

@@ -110,7 +110,7 @@ pub struct EightPoints {
 
 /// Whether a deck asks for eight points in a block.
 pub fn asked_for(block: i64, model: &Model) -> bool {
-    model.section("ELEMENT", block).is_some_and(|section| section.word("formulation") == Some("EIGHT POINTS"))
+    model.has_eight_points(block)
 }
 
 /// Whether a law looks at the volume of its element: a point has none of its own.

@@ -138,6 +138,16 @@ fn given_by(command: &model::Section, block: &Block) -> Result<([f64; 4], [f64; 
     Ok((dimensions, if given { vector } else { of_mesh.unwrap_or(vector) }))
 }
 
+/// The section of a block's beams and the vector of their y axis in words; `None` for what are no beams.
+pub fn in_words(block: &Block, model: &Model) -> Option<[String; 2]> {
+    let command = model.section("BEAM SECTION", block.id)?;
+    let form = command.word("form").unwrap_or_default();
+    let (numbers, vector) = given_by(command, block).ok()?;
+    let joined = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    let vector = if vector.iter().all(|component| component.is_nan()) { "none".into() } else { joined(&vector) };
+    Some([format!("{form} of {}", joined(&numbers[..dimensions(form)])), vector])
+}
+
 /// Why a block of beams cannot be computed of which some lie along the vector that is to be in the plane of their y axis.
 pub fn unfit_direction(mesh: &Mesh, block: &Block, numbers: &[i64], model: &Model) -> Option<Unfit> {
     let Ok(Element::Beam(beam)) = Element::of_block(block, model) else { return None };
