@@ -6,6 +6,7 @@ mod input;
 mod scale;
 mod sweep;
 mod trade;
+mod warning_scenes;
 mod warnings;
 
 #[path = "../program/mod.rs"]

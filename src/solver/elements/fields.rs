@@ -48,7 +48,7 @@ pub fn field_values(
 
 /// Internal energy per mass: the initial one of the equation of state, and what stress and viscosities have done since. Hourglass
 /// resistance counts where the law's pressure knows of it.
-fn specific_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
+pub fn specific_energy(block: &ElementBlock, group: &Group, i: usize) -> f64 {
     let Energies { internal, hourglass, viscous } = block.element.entry().energies;
     let heats = hourglass.filter(|_| block.law.is_fluid());
     let done: f64 = [Some(internal), viscous, heats].into_iter().flatten().map(|row| group.value(i, row)).sum();

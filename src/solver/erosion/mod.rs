@@ -20,10 +20,10 @@ use delete::Deletions;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Edge of the cube that stands in for what is gone, in units of the body's size; in single precision products of its mass and
-/// volume must stay in range.
+/// Edge of the cube that stands in for what is gone, in units of how far the body reaches from the origin.
 const STAND_IN: f64 = 1e3;
-/// See [`STAND_IN`].
+/// The same in single precision, in units of the largest element: products of its mass and volume must stay in range, however large the
+/// body, and wherever it is.
 const SINGLE_STAND_IN: f64 = 30.0;
 
 /// What is watched, what has gone, and its energy.
@@ -54,6 +54,17 @@ pub struct Erosion {
     pub taken: Vec<(i64, u64)>,
 }
 
+/// Longest side of the box around any element.
+fn largest_element(body: &Body) -> f64 {
+    let side = |nodes: &[u32], axis: usize| {
+        let along = nodes.iter().map(|&node| body.positions[node as usize][axis]);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        high - low
+    };
+    let sides = body.element_nodes.iter().flat_map(|nodes| (0..3).map(move |axis| (nodes, axis)));
+    sides.fold(0.0, |most, (nodes, axis)| side(nodes, axis).max(most))
+}
+
 impl Erosion {
     /// Whether elements may go: by DEATH or DELETE MATERIAL.
     pub fn is_asked_for(model: &Model) -> bool {
@@ -69,8 +80,10 @@ impl Erosion {
         for &node in body.element_unknowns.nodes().iter().filter(|&&node| local[node as usize] != ABSENT) {
             left[local[node as usize] as usize] += 1;
         }
-        let extent = body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-        let factor = if model.precision == Precision::Single { SINGLE_STAND_IN } else { STAND_IN };
+        let (factor, extent) = match model.precision {
+            Precision::Single => (SINGLE_STAND_IN, largest_element(body)),
+            Precision::Double => (STAND_IN, body.positions.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()))),
+        };
         let edge = factor * if extent > 0.0 { extent } else { 1.0 };
         let stand_in = nodes.len() as u32;
         for corner in UNIT_CUBE {

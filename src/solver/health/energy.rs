@@ -69,8 +69,10 @@ pub fn check(totals: &Totals, initial: f64, supplied: f64, floor: f64) -> Result
     if kinetic.abs().max(internal.abs()) > FACTOR * (supplied + totals.contact_gain) + floor {
         return Err(Stop::Energy { kinetic, internal, supplied });
     }
-    let error = totals.relative_gap(initial);
-    if totals.scale(initial) > floor && error.abs() > GROSS_IMBALANCE {
+    // What hourglass resistance and viscosity make stands in an account and closes the balance; it is an error all the same.
+    let [hourglass, viscosity, _] = totals.given_back();
+    let error = totals.relative_gap(initial).abs() + (hourglass + viscosity) / totals.scale(initial);
+    if totals.scale(initial) > floor && error > GROSS_IMBALANCE {
         return Err(Stop::Balance { error });
     }
     Ok(())

@@ -113,6 +113,16 @@ fn resistances_that_give_back_more_than_they_took_are_errors() {
 }
 
 #[test]
+fn energy_that_hourglass_stiffness_makes_ends_the_run() {
+    with_cube("", |solver| {
+        let stop = look_at(solver, Totals { kinetic: 4.5, hourglass: -2.5, ..SOUND }).expect_err("more than was there");
+        assert!(matches!(stop.event(), Stop::Balance { .. }), "{stop}");
+        let words = stop.to_string();
+        assert!(words.starts_with("hourglass stiffness has given back 2.5000e0 more than it took"), "{words}");
+    });
+}
+
+#[test]
 fn what_came_first_is_named_first() {
     with_cube("", |solver| {
         look_at(solver, Totals { kinetic: 2.03, contact: 0.03, contact_gain: 0.03, ..SOUND }).expect("a warning");

@@ -1,5 +1,6 @@
 //! What a run may suffer from, one file each: a measure, a threshold, words and advice.
 
+mod below_rest;
 mod beyond_hugoniot;
 mod brief;
 pub mod contact;
@@ -43,7 +44,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 19] = [
+pub static SYMPTOMS: [Symptom; 20] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -63,6 +64,7 @@ pub static SYMPTOMS: [Symptom; 19] = [
     jump::SYMPTOM,
     beyond_hugoniot::SYMPTOM,
     damped_flow::SYMPTOM,
+    below_rest::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.
