@@ -34,6 +34,16 @@ struct Part {
     faces: Vec<(Face, Sides)>,
 }
 
+/// What MERGE has joined.
+pub struct Joined {
+    /// How many nodes became others.
+    pub nodes: usize,
+    /// How many of those that they became have no edge of an element in common with another part.
+    pub single: usize,
+    /// Place of the first of these.
+    pub first: Option<[f64; 3]>,
+}
+
 /// A mesh without sets, with the named faces of the shapes it was made of.
 #[derive(Debug, Clone)]
 pub struct Assembled {
@@ -88,14 +98,33 @@ impl Assembly {
         (super::distance(diagonal, [0.0; 3]), shortest)
     }
 
-    /// Joins coincident nodes of the parts made as these blocks, of all parts if there are none. Returns how many
-    /// nodes became others.
-    pub fn merge(&mut self, blocks: &[i64], tolerance: f64) -> usize {
+    /// Joins coincident nodes of the parts made as these blocks, of all parts if there are none.
+    pub fn merge(&mut self, blocks: &[i64], tolerance: f64) -> Joined {
         let chosen = self.parts.iter().filter(|part| blocks.is_empty() || blocks.contains(&part.block));
         let ranges: Vec<_> = chosen.map(|part| part.nodes.clone()).collect();
         let becomes = merge::representatives(&self.coordinates, &ranges, tolerance);
+        let of_parts: Vec<_> = self.parts.iter().map(|part| part.nodes.clone()).collect();
+        let mut single = merge::single(&becomes, self.edges(), &of_parts);
+        // A bar hangs on its ends.
+        self.bars.iter().flat_map(|(bar, _)| bar).for_each(|&node| {
+            single.remove(&becomes[node as usize]);
+        });
         self.nodes_mut().for_each(|node| *node = becomes[*node as usize]);
-        becomes.iter().zip(0..).filter(|&(&becomes, node)| becomes != node).count()
+        // In the plane nodes have others above them.
+        let layers = if self.flat { 2 } else { 1 };
+        Joined {
+            nodes: becomes.iter().zip(0..).filter(|&(&becomes, node)| becomes != node).count() / layers,
+            single: single.len() / layers,
+            first: single.first().map(|&node| self.coordinates[node as usize]),
+        }
+    }
+
+    /// Edges of all solids and surfaces; of elements in the plane not those across it.
+    fn edges(&self) -> impl Iterator<Item = [u32; 2]> {
+        let of_hex = Shape::Hexahedron.edges().iter().filter(|[a, b]| !self.flat || (*a < 4) == (*b < 4));
+        let hexes = self.hexes.iter().flat_map(move |hex| of_hex.clone().map(move |edge| edge.map(|i| hex[i])));
+        let quads = self.quads.iter().flat_map(|(quad, _)| (0..4).map(move |i| [quad[i], quad[(i + 1) % 4]]));
+        hexes.chain(quads)
     }
 
     /// Puts the elements of a block whose centre lies in a box into another block. Returns how many these are.

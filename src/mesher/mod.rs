@@ -18,7 +18,7 @@ mod turn;
 pub use changes::sweep::{Sweep, Swept, sweep};
 pub use recipe::{CARDS, language, manual};
 
-use assembly::{Assembled, Assembly};
+use assembly::{Assembled, Assembly, Joined};
 use recipe::Recipe;
 
 use crate::{
@@ -149,11 +149,23 @@ fn tolerance(recipe: &Recipe, assembly: &Assembly, diagnostics: &mut Diagnostics
 
 fn merge(recipe: &Recipe, assembly: &mut Assembly, tolerance: f64, diagnostics: &mut Diagnostics) {
     for merge in &recipe.merges {
-        if assembly.merge(&merge.blocks, tolerance) == 0 {
+        let joined = assembly.merge(&merge.blocks, tolerance);
+        if joined.nodes == 0 {
             diagnostics.push(
                 Diagnostic::warning("MERGE: no nodes of different shapes coincide")
                     .at(merge.place.span, "nothing is joined")
                     .help(format!("nodes are joined when they are less than {tolerance:.3e} apart")),
+            );
+        }
+        if let Some([x, y, z]) = joined.first {
+            let Joined { nodes, single, .. } = joined;
+            let message = format!(
+                "MERGE: of {nodes} joined nodes {single} have no edge of an element in common, the first at ({x}, {y}, {z})"
+            );
+            diagnostics.push(
+                Diagnostic::warning(message)
+                    .at(merge.place.span, "meshes that do not match hang together by single nodes")
+                    .help("give both shapes as many elements along what they share, or leave MERGE out and join them with TIED CONTACT"),
             );
         }
     }

@@ -1,6 +1,7 @@
 //! MERGE: nodes of different parts that coincide become one.
 
 use crate::common::disjoint_sets::DisjointSets;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// For every node the node it becomes, which is itself or one with a smaller index at the same place.
@@ -30,6 +31,27 @@ pub fn representatives(coordinates: &[[f64; 3]], parts: &[Range<usize>], toleran
     joined.into_least()
 }
 
+/// Of the nodes that were joined, as they are now, those at which no edge of an element is common to two parts: there meshes do not match, and
+/// hang together by single nodes. `edges` are those of the elements of solids and surfaces, of nodes as they were; `nodes` those of the parts.
+pub fn single(becomes: &[u32], edges: impl Iterator<Item = [u32; 2]>, nodes: &[Range<usize>]) -> BTreeSet<u32> {
+    let mut is_joined = vec![false; becomes.len()];
+    let moved = becomes.iter().zip(0u32..).filter(|&(&becomes, node)| becomes != node);
+    moved.for_each(|(&becomes, _)| is_joined[becomes as usize] = true);
+    let part = |node: u32| nodes.partition_point(|range| range.end <= node as usize);
+    let mut known: Vec<([u32; 2], usize)> = edges
+        .filter_map(|edge| {
+            let [a, b] = edge.map(|node| becomes[node as usize]);
+            (is_joined[a as usize] && is_joined[b as usize]).then(|| ([a.min(b), a.max(b)], part(edge[0])))
+        })
+        .collect();
+    known.sort_unstable();
+    known.dedup();
+    for same in known.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        same[0].0.iter().for_each(|&node| is_joined[node as usize] = false);
+    }
+    is_joined.into_iter().zip(0..).filter_map(|(single, node)| single.then_some(node)).collect()
+}
+
 /// Space cut into cubes, a few tolerances wide so that most nodes are far from their borders.
 struct Grid {
     width: f64,
@@ -52,6 +74,14 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two parts with an edge in common, and beside it a node that is joined alone.
+    #[test]
+    fn nodes_without_a_common_edge_are_single() {
+        let becomes = [0, 1, 2, 0, 1, 2];
+        let edges = [[0, 1], [1, 2], [3, 4]];
+        assert_eq!(single(&becomes, edges.into_iter(), &[0..3, 3..6]).into_iter().collect::<Vec<_>>(), [2]);
+    }
 
     #[test]
     fn only_nodes_of_different_parts_become_one() {
