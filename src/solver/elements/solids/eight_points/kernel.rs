@@ -144,22 +144,22 @@ fn stiffness_measure<V: Lanes>(operator: &Gradient<V>) -> V {
     operator.square4608() * V::splat(192.0 / 4608.0) / operator.volume192
 }
 
-/// A point counts as one that flows where this part of its strain increment or more is plastic, and by as much less where less is: what
-/// creeps, or hardens nearly as stiffly as it is elastic, is elastic.
-const FLOWS: f64 = 0.1;
+/// A point flows where this part of its strain increment or more is plastic: what creeps, or hardens nearly as stiffly as it is elastic, is
+/// elastic.
+const FLOWS: f64 = 0.01;
 
 impl<K: Kernel> EightPointStep<K> {
-    /// How much a point flows, 0 to 1, whose deviator of this `stress` is the `returned` part of the elastic trial: the plastic part of its strain
-    /// increment is |s*| (1 − r)/2μ of |Δe|.
+    /// 1 where a point flows whose deviator of this `stress` is the `returned` part r of the elastic trial s*, else 0: the plastic part of its strain
+    /// increment Δe is |s*| (1 − r)/2μ. Ones and zeros have the same sum in any order, so that what is symmetrical stays so.
     #[inline(always)]
-    fn flow<V: Lanes>(&self, stress: &Sym3<V>, strain: &Sym3<V>, returned: V) -> V {
-        let (zero, one, tiny) = (V::splat(0.0), V::splat(1.0), V::splat(V::TINY));
+    fn flows<V: Lanes>(&self, stress: &Sym3<V>, strain: &Sym3<V>, returned: V) -> V {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let (s, e) = (stress.deviator(), strain.deviator());
         let plastic = s.contract(s).sqrt() * (one - returned);
-        let all = e.contract(e).sqrt() * returned * V::splat(2.0 * self.settings.mu * FLOWS);
-        // Of a deviator that is returned to nothing there is no quotient.
-        let part = V::select_less(returned, V::splat(0.5), one, (plastic / all.max(tiny)).min(one));
-        V::select_less(returned, one, part, zero)
+        let least = e.contract(e).sqrt() * returned * V::splat(2.0 * self.settings.mu * FLOWS);
+        // Of a deviator that is returned to nothing both are nothing.
+        let flows = V::select_less(returned, V::splat(0.5), one, V::select_less(plastic, least, zero, one));
+        V::select_less(returned, one, flows, zero)
     }
 
     /// Advances all points and books their energy.
@@ -207,7 +207,7 @@ impl<K: Kernel> EightPointStep<K> {
             store(stress.to_array(), point_own, point_rows::STRESS, part);
             work = work + (old.contract(strain_before) + stress.contract(strain));
             if V::any_less(response.returned, one) {
-                flowing = flowing + self.flow(&stress, &strain, response.returned);
+                flowing = flowing + self.flows(&stress, &strain, response.returned);
             }
             answer.old = answer.old.zip(old, |sum, stress| sum + V::splat(0.125) * stress);
             answer.moments.add(signs, &stress);
