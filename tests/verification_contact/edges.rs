@@ -262,5 +262,9 @@ fn knives_that_cross_near_nodes_hold_each_other() {
         // Equal bodies that meet centrally exchange their momentum, less what goes on as vibration; what went through kept half of it.
         let falls = mean_velocity(run.end(), &nodes_of(&mesh, 2))[2];
         between(&case, "velocity after, of -3", falls, -0.3, 0.0);
+        for ranks in [2, 3] {
+            let other = run_on(ranks, &deck, &mesh);
+            assert!(bits(&other, &mesh) == bits(&run, &mesh), "{case} are others on {ranks} ranks");
+        }
     }
 }

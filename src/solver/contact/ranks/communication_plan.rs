@@ -174,7 +174,10 @@ pub fn numbering(
     let met = plan.faces.list();
     let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
     let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
-    for face in around.chain(of_elements).chain(beside) {
+    // Where an edge ends, and what is beyond its ends, the faces there say.
+    let at_ends = edges.iter().flat_map(|&edge| layout.edges[edge as usize].ends);
+    let beyond = at_ends.flat_map(|end| faces.around(end).iter().copied());
+    for face in around.chain(of_elements).chain(beside).chain(beyond) {
         if chosen.choose(face) {
             faces.corners[face as usize].iter().for_each(|&corner| _ = points.choose(corner));
         }
