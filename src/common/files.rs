@@ -30,6 +30,13 @@ pub fn replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
+/// The name of a file that is not complete yet: `run.e` is written as `run.e.part`.
+pub fn unfinished(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".part");
+    name.into()
+}
+
 /// Writes a file beside its place and puts it there when all of it is on the disk: a full disk leaves what was there before.
 /// A link stays one; into what is no file, such as a pipe, it writes at once.
 ///
@@ -41,9 +48,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
     // Of a link what it leads to; where nothing is there yet, the name itself.
     let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let mut unfinished = place.clone().into_os_string();
-    unfinished.push(".part");
-    let unfinished = PathBuf::from(unfinished);
+    let unfinished = unfinished(&place);
     let written = write_onto_disk(&unfinished, bytes).and_then(|()| {
         // Who may read the old file may read the new one.
         let kept = std::fs::metadata(&place).map(|old| std::fs::set_permissions(&unfinished, old.permissions()));

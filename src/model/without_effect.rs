@@ -9,10 +9,7 @@ type Wanted = (fn(&Model, &Block) -> bool, &'static str);
 
 const HEXAHEDRA: Wanted = (|_, block| block.shape == Shape::Hexahedron, "hexahedra");
 const SOLIDS: Wanted = (|_, block| is_solid(block), "solids");
-const ONE_POINT_HEXAHEDRA: Wanted = (
-    |model, block| block.shape == Shape::Hexahedron && !model.has_eight_points(block.id),
-    "hexahedra with one point of integration",
-);
+const ONE_POINT_HEXAHEDRA: Wanted = (Model::has_one_point_hexahedra, "hexahedra with one point of integration");
 const ONE_POINT: Wanted = (Model::has_hourglass_modes, "solids with one point of integration");
 
 fn is_solid(block: &Block) -> bool {
@@ -23,6 +20,11 @@ impl Model {
     /// Whether a deck asks for eight points of integration in the hexahedra of a block, by its number.
     pub fn has_eight_points(&self, block: i64) -> bool {
         self.section("ELEMENT", block).is_some_and(|section| section.word("formulation") == Some("EIGHT POINTS"))
+    }
+
+    /// Whether a block is of hexahedra with one point of integration.
+    pub fn has_one_point_hexahedra(&self, block: &Block) -> bool {
+        block.shape == Shape::Hexahedron && !self.has_eight_points(block.id)
     }
 
     /// Whether elements of a block have one point of integration, and so modes for hourglass control.

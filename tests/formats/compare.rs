@@ -107,14 +107,17 @@ fn missing_states_and_variables_are_differences() {
     assert_eq!(comparison.missing[1], ["nodal variable VELX"]);
 }
 
+/// A mesh in a file of a folder.
+fn mesh_file(folder: &Path, name: &str, mesh: &Mesh) -> PathBuf {
+    let path = folder.join(name);
+    write_mesh(&path, mesh).unwrap();
+    path
+}
+
 #[test]
 fn moved_nodes_are_a_difference_and_other_meshes_cannot_be_compared() {
     let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, mesh: &Mesh| {
-        let path = folder.path().join(name);
-        write_mesh(&path, mesh).unwrap();
-        path
-    };
+    let write = |name: &str, mesh: &Mesh| mesh_file(folder.path(), name, mesh);
     let mut mesh = two_block_mesh();
     let a = write("a.g", &mesh);
     mesh.coordinates[2][1] = 1.5;
@@ -135,11 +138,7 @@ fn moved_nodes_are_a_difference_and_other_meshes_cannot_be_compared() {
 #[test]
 fn attributes_and_distribution_factors_are_compared() {
     let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, mesh: &Mesh| {
-        let path = folder.path().join(name);
-        write_mesh(&path, mesh).unwrap();
-        path
-    };
+    let write = |name: &str, mesh: &Mesh| mesh_file(folder.path(), name, mesh);
     let mut mesh = two_block_mesh();
     let set = mesh.node_sets[0].clone();
     mesh.blocks[0].attributes = vec![0.1; mesh.blocks[0].len()];

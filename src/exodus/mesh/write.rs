@@ -47,7 +47,7 @@ pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<(), ResultsError> {
 /// Writes a complete file without states, first under another name.
 pub(in crate::exodus) fn write_file(path: &Path, mesh: &Mesh, contents: &Contents) -> Result<(), ResultsError> {
     files::replaceable(path).map_err(ResultsError::io("write", path))?;
-    let unfinished = beside(path);
+    let unfinished = files::unfinished(path);
     let written = Writer::create(&unfinished, mesh, contents).and_then(|mut writer| {
         writer.define()?;
         writer.put()?;
@@ -62,14 +62,7 @@ pub(in crate::exodus) fn write_file(path: &Path, mesh: &Mesh, contents: &Content
 
 /// The names that a file has while it is written and after: both are lost to whatever had them before.
 pub fn names_in_writing(path: &Path) -> [PathBuf; 2] {
-    [path.to_owned(), beside(path)]
-}
-
-/// The name of a file that is not complete yet: `run.e` is written as `run.e.part`.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".part");
-    name.into()
+    [path.to_owned(), files::unfinished(path)]
 }
 
 /// A file being defined and filled.

@@ -107,7 +107,7 @@ fn choices(model: &Model, mesh: &Mesh) -> Vec<Feature> {
         Hourglass::AssumedStrain { .. } => "assumed strain hourglass control",
     };
     let has_modes = some(&|block| model.has_hourglass_modes(block));
-    let one_point_hexahedra = some(&|block| block.shape == Shape::Hexahedron && model.has_hourglass_modes(block));
+    let one_point_hexahedra = some(&|block| model.has_one_point_hexahedra(block));
     let vibrates = |block: &Block| {
         let law = model.materials.iter().find(|material| material.block == block.id).map(|material| &material.law);
         law.zip(Element::of_block(block, model).ok()).is_some_and(|(law, element)| element.vibrates(law))

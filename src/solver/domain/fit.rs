@@ -26,10 +26,8 @@ fn beams_along_their_vector(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::U
 
 /// Blocks whose numbers single precision cannot hold.
 fn beyond_single(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
-    let asked = |block: &&crate::mesh::Block| {
-        let one_point = block.shape == Shape::Hexahedron && !elements::eight_points::asked_for(block.id, model);
-        one_point && model.precision == Precision::Single
-    };
+    let asked =
+        |block: &&crate::mesh::Block| model.has_one_point_hexahedra(block) && model.precision == Precision::Single;
     let unfit = |block: &crate::mesh::Block| {
         let material = model.materials.iter().find(|material| material.block == block.id)?;
         let body = (material.density, material.law.moduli());
@@ -40,7 +38,7 @@ fn beyond_single(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
 
 /// Blocks that are to have eight points and whose elements have not eight corners.
 fn without_eight_points(mesh: &Mesh, model: &Model) -> Vec<(i64, elements::Unfit)> {
-    let asked = |block: &&crate::mesh::Block| elements::eight_points::asked_for(block.id, model);
+    let asked = |block: &&crate::mesh::Block| model.has_eight_points(block.id);
     let others = mesh.blocks.iter().filter(|block| block.shape != Shape::Hexahedron).filter(asked);
     let unfit = |block: &crate::mesh::Block| {
         let [_, shapes] = block.shape.names();

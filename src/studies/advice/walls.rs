@@ -7,7 +7,6 @@ use crate::mesh::{Block, Mesh, Shape};
 use crate::model::{Model, Precision};
 use crate::output::block_energies;
 use crate::solver::Finding;
-use crate::solver::elements::eight_points;
 
 /// Hourglass energy over internal energy from which a wall bends.
 const BENDS: f64 = 0.02;
@@ -54,7 +53,7 @@ fn coarse(scene: &Scene, walls: &[usize]) -> Vec<Advice> {
 /// Indices of the blocks of hexahedra most of whose elements reach from one side of the body to the other, and are less thick
 /// than wide; without rigid bodies, which do not bend, and elements of eight points, which have stiffness in bending.
 pub fn thin_blocks(mesh: &Mesh, model: &Model) -> Vec<usize> {
-    let resists = |block: &Block| model.is_rigid(block.id) || eight_points::asked_for(block.id, model);
+    let resists = |block: &Block| model.is_rigid(block.id) || model.has_eight_points(block.id);
     // A bit for each side.
     let mut outside = vec![0u8; mesh.element_count()];
     for face in exterior(mesh.shaped(), mesh.coordinates.len(), |_| true) {

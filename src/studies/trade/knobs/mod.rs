@@ -6,9 +6,8 @@ mod of_elements;
 use super::edit::with_command;
 use crate::common::numbers::scientific;
 use crate::deck::Deck;
-use crate::mesh::{Dimension, Mesh, Shape};
+use crate::mesh::{Dimension, Mesh};
 use crate::model::{Death, Model, Precision};
-use crate::solver::elements::eight_points;
 
 /// Part by which round-off is imitated: it is far above that of a step and far below any error that is told.
 const ROUND_OFF: f64 = 1e-9;
@@ -170,9 +169,7 @@ pub fn variants(model: &Model, mesh: &Mesh, levels: &[u32]) -> Vec<Variant> {
 }
 
 fn precision(model: &Model, mesh: &Mesh) -> Option<Variant> {
-    let has = mesh.blocks.iter().any(|block| {
-        block.shape == Shape::Hexahedron && !block.is_empty() && !eight_points::asked_for(block.id, model)
-    });
+    let has = mesh.blocks.iter().any(|block| !block.is_empty() && model.has_one_point_hexahedra(block));
     let line = "PRECISION, SINGLE".to_string();
     (has && model.precision == Precision::Double)
         .then(|| Variant::of(Knob::Precision, "single", &["PRECISION"], line, 0.7))

@@ -4,7 +4,6 @@ use super::{Knob, Variant};
 use crate::mesh::{Block, Mesh, Shape};
 use crate::model::{Hourglass, Model, Section, Spin, StepEstimate};
 use crate::solver::elements::Element;
-use crate::solver::elements::eight_points::asked_for;
 use crate::solver::elements::shell::{MOST_POINTS, points_of};
 
 /// Work of hexahedra with eight points over that of the same with one.
@@ -51,7 +50,7 @@ fn formulation(model: &Model, blocks: &[&Block]) -> Vec<Variant> {
     other.sections.extend(blocks.iter().map(|block| asked(block.id)));
     let able = |block: &&&Block| block.shape == Shape::Hexahedron && Element::of_block(block, &other).is_ok();
     let able: Vec<i64> = blocks.iter().filter(able).map(|block| block.id).collect();
-    let has: Vec<i64> = blocks.iter().filter(|block| asked_for(block.id, model)).map(|block| block.id).collect();
+    let has: Vec<i64> = blocks.iter().filter(|block| model.has_eight_points(block.id)).map(|block| block.id).collect();
     let mut all = Vec::new();
     if able.iter().any(|id| !has.contains(id)) {
         let lines = able.iter().map(|id| format!("ELEMENT, {id}, EIGHT POINTS")).collect();
@@ -64,7 +63,7 @@ fn formulation(model: &Model, blocks: &[&Block]) -> Vec<Variant> {
 }
 
 fn hourglass(model: &Model, blocks: &[&Block]) -> Option<Variant> {
-    let has = |block: &&Block| matches!(block.shape, Shape::Hexahedron | Shape::Plane) && !asked_for(block.id, model);
+    let has = |block: &&Block| model.has_hourglass_modes(block);
     let (name, line) = match model.hourglass {
         Hourglass::AssumedStrain { .. } => ("flanagan-belytschko", "HOURGLASS CONTROL, FLANAGAN BELYTSCHKO"),
         Hourglass::FlanaganBelytschko { .. } => ("assumed-strain", "HOURGLASS CONTROL, ASSUMED STRAIN"),
@@ -76,7 +75,7 @@ fn hourglass(model: &Model, blocks: &[&Block]) -> Option<Variant> {
 /// The other order of the spin, where elements with one point have a stress that turns: a pressure alone does not.
 fn spin(model: &Model, blocks: &[&Block]) -> Option<Variant> {
     let is_fluid = |id: i64| model.materials.iter().any(|material| material.block == id && material.law.is_fluid());
-    let one_point = |block: &&Block| block.shape == Shape::Hexahedron && !asked_for(block.id, model);
+    let one_point = |block: &&Block| model.has_one_point_hexahedra(block);
     let has = |block: &&Block| one_point(block) && !is_fluid(block.id);
     let (name, order, work) = match model.spin {
         Spin::FirstOrder => ("second-order-spin", "SECOND ORDER", WORK_OF_SECOND_ORDER),

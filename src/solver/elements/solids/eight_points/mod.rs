@@ -108,11 +108,6 @@ pub struct EightPoints {
     least_share: f64,
 }
 
-/// Whether a deck asks for eight points in a block.
-pub fn asked_for(block: i64, model: &Model) -> bool {
-    model.has_eight_points(block)
-}
-
 /// Whether a law looks at the volume of its element: a point has none of its own.
 struct SeesVolume;
 impl KernelVisitor for SeesVolume {
@@ -124,7 +119,7 @@ impl KernelVisitor for SeesVolume {
 
 impl Formulation for EightPoints {
     fn takes(block: &Block, model: &Model) -> bool {
-        asked_for(block.id, model)
+        model.has_eight_points(block.id)
     }
 
     fn of_block(block: &Block, model: &Model) -> Result<Self, Unfit> {
