@@ -471,7 +471,9 @@ fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32
     for i in 0..locator.slave_nodes().len() {
         let point = locator.slave_nodes()[i];
         locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
-        let check = NodeFaceCheck { motion: &motion, faces: &layout.faces, rules: &strict, longest_path };
+        // Nothing comes through anything, so that edges need not be asked.
+        let (faces, edges_hold) = (&*layout.faces, false);
+        let check = NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold };
         check.point(point, &near, &NO_CONTACT, &mut contacts);
         for contact in &mut contacts {
             contact.tolerated = 0.0;

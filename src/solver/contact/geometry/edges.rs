@@ -6,6 +6,7 @@
 //! to the middle of the face, which is the mean of all four.
 
 use super::faces::Faces;
+use super::motion::NodeMotion;
 use super::projection::{area_normal, centre};
 use crate::common::vector::{dot, subtract};
 
@@ -27,6 +28,13 @@ const BULGE: f64 = 0.05;
 
 /// The part of that height down to which it keeps them.
 const FLATTENED: f64 = 0.7;
+
+/// Edges that cross at a larger sine than this, at more than 18 degrees, hold each other at nodes as well. Flatter ones lie along each other in
+/// folds, where their normal says little and nodes hold them.
+pub const CLEAR_CROSSING: f64 = 0.31;
+
+/// Least cosine between two edges of which one goes on where the other ends.
+pub const STRAIGHT: f64 = 0.8;
 
 /// How the faces at an edge lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -210,6 +218,26 @@ fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
     let [a, b, c, d] = faces.corners[face as usize];
     let has_four_sides = a != b && b != c && c != d && d != a;
     (has_four_sides && !faces.is_two_sided(face)).then(|| [[a.min(c), a.max(c)], [b.min(d), b.max(d)]])
+}
+
+/// Whether an edge, from a point to its end, goes on there at the beginning of the step: another one of the mesh leads away from the end nearly
+/// straight.
+pub fn goes_on(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2]) -> bool {
+    let at = |point: u32| motion.start(point);
+    let along = subtract(at(end), at(from));
+    let is_straight = |other: u32| {
+        let onwards = subtract(at(other), at(end));
+        let product = dot(along, onwards);
+        product > 0.0 && product * product > STRAIGHT * STRAIGHT * dot(along, along) * dot(onwards, onwards)
+    };
+    faces.around(end).iter().any(|&face| {
+        let corners = faces.corners[face as usize];
+        (0..4).any(|i| match [corners[i], corners[(i + 1) % 4]] {
+            [a, b] if a == end && b != end => is_straight(b),
+            [a, b] if b == end && a != end => is_straight(a),
+            _ => false,
+        })
+    })
 }
 
 /// A face by its corners.

@@ -348,6 +348,12 @@ impl NodeMotion {
         self.of(point, |motion| three(motion.start))
     }
 
+    /// The same as a whole vector, whose last number says nothing.
+    #[inline(always)]
+    pub fn start_four(&self, point: u32) -> Four {
+        self.of(point, |motion| motion.start)
+    }
+
     /// Position at the end of the step without contact.
     #[inline(always)]
     pub fn end(&self, point: u32) -> [f64; 3] {

@@ -61,6 +61,8 @@ pub struct LocalProblem {
     places: Vec<u32>,
     faces: Arc<Faces>,
     edges: Vec<Edge>,
+    /// Whether edges of the layout hold each other, here or on another rank.
+    edges_hold: bool,
     /// How far around itself each edge looks for others, a length.
     edge_reaches: Vec<f64>,
     /// The least of them of lines.
@@ -147,6 +149,7 @@ impl LocalProblem {
         let mut problem = LocalProblem {
             locator: Locator::new(found, depth, points, &faces, &edges),
             edges,
+            edges_hold: !layout.edges.is_empty(),
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
             blocks_around: [
                 numbering.points.iter().map(|&point| layout.blocks_around[0][point as usize]).collect(),
@@ -336,7 +339,8 @@ impl LocalProblem {
     fn check(&mut self, setting: &StepInput, drift: f64, met: &mut Meetings) {
         let StepInput { pairings, remaining, .. } = *setting;
         let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
-        let LocalProblem { constraints, near, contacts, .. } = self;
+        let LocalProblem { constraints, near, contacts, edges_hold, .. } = self;
+        let edges_hold = *edges_hold;
         let longest_path = locator.longest_path();
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
@@ -353,7 +357,7 @@ impl LocalProblem {
             }
             // The history of the many that nothing holds need not be fetched.
             let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
-            let check = NodeFaceCheck { motion, faces, rules, longest_path };
+            let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold };
             check.point(point, near, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;

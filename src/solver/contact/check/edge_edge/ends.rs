@@ -1,9 +1,9 @@
 //! Where edges of solids that cross count as crossing between their ends.
 
+use super::EdgeCheck;
 use super::lines::{Crossing, WHOLE};
-use super::{EdgeCheck, STEEP};
 use crate::common::vector::{dot, subtract};
-use crate::solver::contact::geometry::edges::Edge;
+use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Edge};
 use crate::solver::contact::geometry::projection::area_normal;
 
 /// Pairs that overlap by more than this part of an edge near an end are not held by a node there.
@@ -12,10 +12,6 @@ const CLEARLY: f64 = 1e-3;
 /// Part of an edge, from and to, in which another may cross it where it goes on at that end: exactly at a node one of the edges there must be
 /// crossed, however round-off has it.
 pub const BEYOND_END: [f64; 2] = [-1e-3, 1.0 + 1e-3];
-
-/// Edges that go on are asked where they cross at more than 18 degrees: flatter ones lie along each other in folds, where their normal says little
-/// and nodes hold them.
-const CLEAR_CROSSING: f64 = 0.31;
 
 impl EdgeCheck<'_> {
     /// Whether edges of solids cross between their ends. Nearer to an end than they are deep a node or another edge is in the way before
@@ -33,7 +29,10 @@ impl EdgeCheck<'_> {
         }
         // On a sharp edge a node slides off to the side along a face and lets the edges through: it is not in the way before them. Where it gives
         // way, the other edge crosses those on both sides beyond their ends, by a part of the depth.
-        let goes_on = |i: usize, end: usize| self.goes_on(pair[i], end);
+        let goes_on = |i: usize, end: usize| {
+            let ends = self.edges[pair[i] as usize].ends;
+            edges::goes_on(self.faces, self.motion, [ends[1 - end], ends[end]])
+        };
         let crosses = crossing.sine > CLEAR_CROSSING && crossing.within(-depth, [BEYOND_END; 2]);
         if crosses && self.all_ends_near(crossing, depth, goes_on) {
             return true;
@@ -57,26 +56,6 @@ impl EdgeCheck<'_> {
             let (place, length) = (crossing.places[i], crossing.lengths[i]);
             let is_far = [place * length > depth, (1.0 - place) * length > depth];
             [0, 1].iter().all(|&end| is_far[end] || holds(i, end))
-        })
-    }
-
-    /// Whether an edge goes on at one of its ends: another one of the surface leads away from there, nearly straight.
-    fn goes_on(&self, edge: u32, end: usize) -> bool {
-        let ends = self.edges[edge as usize].ends;
-        let (point, at) = (ends[end], |point: u32| self.motion.start(point));
-        let along = subtract(at(point), at(ends[1 - end]));
-        let is_straight = |other: u32| {
-            let onwards = subtract(at(other), at(point));
-            let product = dot(along, onwards);
-            product > 0.0 && product * product > STEEP * STEEP * dot(along, along) * dot(onwards, onwards)
-        };
-        self.faces.around(point).iter().any(|&face| {
-            let corners = self.faces.corners[face as usize];
-            (0..4).any(|i| match [corners[i], corners[(i + 1) % 4]] {
-                [a, b] if a == point && b != point => is_straight(b),
-                [a, b] if b == point && a != point => is_straight(a),
-                _ => false,
-            })
         })
     }
 }

@@ -16,7 +16,7 @@ use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::geometry::crossing;
 use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
-use crate::solver::contact::geometry::motion::NodeMotion;
+use crate::solver::contact::geometry::motion::{NodeMotion, larger, smaller, three};
 use crate::solver::contact::geometry::projection::{area_normal, centre};
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
@@ -163,10 +163,20 @@ impl EdgeCheck<'_> {
     }
 
     /// Box around the path of an edge over the step.
+    #[inline(always)]
     fn swept_box(&self, edge: u32) -> Box3 {
-        let [a, b, c, d] = self.edges[edge as usize].points(self.faces);
-        let (start, end) = (|point: u32| self.motion.start(point), |point: u32| self.motion.end(point));
-        Box3::around(&[start(a), start(b), start(c), start(d), end(a), end(b), end(c), end(d)])
+        let points = self.edges[edge as usize].points(self.faces);
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        // Loops over whole vectors: as closures they would be calls.
+        for point in if points[0] == points[2] { &points[..2] } else { &points[..] } {
+            for at in [self.motion.start_four(*point), self.motion.end_four(*point)] {
+                for i in 0..4 {
+                    low[i] = smaller(at[i], low[i]);
+                    high[i] = larger(at[i], high[i]);
+                }
+            }
+        }
+        Box3 { low: three(low), high: three(high) }
     }
 
     /// Box around the path of an edge over the step, grown by a margin, in single precision.

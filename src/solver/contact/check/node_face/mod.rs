@@ -7,6 +7,7 @@
 
 mod newcomer;
 mod persistent;
+mod ridge;
 
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
@@ -95,6 +96,8 @@ pub struct NodeFaceCheck<'a> {
     pub rules: &'a [Rule],
     /// The farthest that a point or a corner goes in this step along an axis, a length.
     pub longest_path: f64,
+    /// Whether edges that stand out hold each other.
+    pub edges_hold: bool,
 }
 
 /// Whether a face is one of those near a point.

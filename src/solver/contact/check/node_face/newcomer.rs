@@ -43,6 +43,9 @@ impl NodeFaceCheck<'_> {
                 return None;
             }
             let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
+            if strict && self.edges_hold && self.is_held_by_edges(point, face, time) {
+                return None;
+            }
             return comes().then(|| contact(time, 0.0));
         }
         if distance > 0.0 && self.begins_in_front(point, face) {
@@ -174,7 +177,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// The other outer faces of a face's element.
-    fn beside(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
+    pub(super) fn beside(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
         let element = |face: u32| self.faces.number[face as usize] / 6;
         let same = move |other: &u32| element(*other) == element(face);
         let below = (0..face).rev().take_while(same);
