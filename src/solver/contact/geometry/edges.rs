@@ -47,6 +47,17 @@ pub enum Shape {
     Hollow,
 }
 
+/// How an edge goes on at one of its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Onward {
+    /// It ends there, or bends away from what meets it.
+    Ends,
+    /// Another edge of the mesh leads on nearly straight.
+    Straight,
+    /// One leads on that bends out of the body, by less than a right angle: what lies in the valley is held by both.
+    Upwards,
+}
+
 /// A face as its edges see it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Side {
@@ -220,24 +231,32 @@ fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
     (has_four_sides && !faces.is_two_sided(face)).then(|| [[a.min(c), a.max(c)], [b.min(d), b.max(d)]])
 }
 
-/// Whether an edge, from a point to its end, goes on there at the beginning of the step: another one of the mesh leads away from the end nearly
-/// straight.
-pub fn goes_on(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2]) -> bool {
+/// How an edge, from a point to its end, goes on there at the beginning of the step. `outwards` is a vector out of its body, of any length.
+pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outwards: [f64; 3]) -> Onward {
     let at = |point: u32| motion.start(point);
     let along = subtract(at(end), at(from));
-    let is_straight = |other: u32| {
+    let (length, rise) = (dot(along, along).sqrt(), dot(along, outwards));
+    let to = |other: u32| {
         let onwards = subtract(at(other), at(end));
-        let product = dot(along, onwards);
-        product > 0.0 && product * product > STRAIGHT * STRAIGHT * dot(along, along) * dot(onwards, onwards)
+        let cosine = dot(along, onwards);
+        let (lengths, turn) = (length * dot(onwards, onwards).sqrt(), dot(onwards, outwards) * length);
+        match cosine > 0.0 {
+            true if turn * length > rise * lengths => Onward::Upwards,
+            true if cosine > STRAIGHT * lengths => Onward::Straight,
+            _ => Onward::Ends,
+        }
     };
-    faces.around(end).iter().any(|&face| {
+    let of_face = |&face: &u32| {
         let corners = faces.corners[face as usize];
-        (0..4).any(|i| match [corners[i], corners[(i + 1) % 4]] {
-            [a, b] if a == end && b != end => is_straight(b),
-            [a, b] if b == end && a != end => is_straight(a),
-            _ => false,
+        let leaving = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
+        leaving.filter_map(move |[a, b]| match end {
+            _ if a == b => None,
+            _ if a == end => Some(b),
+            _ if b == end => Some(a),
+            _ => None,
         })
-    })
+    };
+    faces.around(end).iter().flat_map(of_face).map(to).max().unwrap_or(Onward::Ends)
 }
 
 /// A face by its corners.

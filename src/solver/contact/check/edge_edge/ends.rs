@@ -3,7 +3,7 @@
 use super::EdgeCheck;
 use super::lines::{Crossing, WHOLE};
 use crate::common::vector::{dot, subtract};
-use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Edge};
+use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Edge, Onward};
 use crate::solver::contact::geometry::projection::area_normal;
 
 /// Pairs that overlap by more than this part of an edge near an end are not held by a node there.
@@ -12,6 +12,9 @@ const CLEARLY: f64 = 1e-3;
 /// Part of an edge, from and to, in which another may cross it where it goes on at that end: exactly at a node one of the edges there must be
 /// crossed, however round-off has it.
 pub const BEYOND_END: [f64; 2] = [-1e-3, 1.0 + 1e-3];
+
+/// The same of edges that come into a valley, where what goes through both parts of an edge is beyond the end of either.
+pub const IN_VALLEY: [f64; 2] = [-0.25, 1.25];
 
 impl EdgeCheck<'_> {
     /// Whether edges of solids cross between their ends. Nearer to an end than they are deep a node or another edge is in the way before
@@ -29,10 +32,7 @@ impl EdgeCheck<'_> {
         }
         // On a sharp edge a node slides off to the side along a face and lets the edges through: it is not in the way before them. Where it gives
         // way, the other edge crosses those on both sides beyond their ends, by a part of the depth.
-        let goes_on = |i: usize, end: usize| {
-            let ends = self.edges[pair[i] as usize].ends;
-            edges::goes_on(self.faces, self.motion, [ends[1 - end], ends[end]])
-        };
+        let goes_on = |i: usize, end: usize| self.onward(pair[i], end) != Onward::Ends;
         let crosses = crossing.sine > CLEAR_CROSSING && crossing.within(-depth, [BEYOND_END; 2]);
         if crosses && self.all_ends_near(crossing, depth, goes_on) {
             return true;
@@ -48,6 +48,20 @@ impl EdgeCheck<'_> {
         };
         let clearly = depth > CLEARLY * crossing.shorter();
         clearly && crossing.within(0.0, [WHOLE; 2]) && self.all_ends_near(crossing, depth, is_outside)
+    }
+
+    /// Whether two edges cross in a valley, beyond ends by no more than a depth, a length: where an edge has been bent inwards at a node, what
+    /// lies there is beyond the ends of both of its parts, seen along their normals.
+    pub(super) fn is_in_valley(&self, pair: [u32; 2], crossing: &Crossing, depth: f64) -> bool {
+        crossing.sine > CLEAR_CROSSING
+            && crossing.within(-depth, [BEYOND_END; 2])
+            && self.all_ends_near(crossing, 0.0, |i, end| self.onward(pair[i], end) == Onward::Upwards)
+    }
+
+    /// How an edge goes on at its first or second end.
+    fn onward(&self, edge: u32, end: usize) -> Onward {
+        let ends = self.edges[edge as usize].ends;
+        edges::onward(self.faces, self.motion, [ends[1 - end], ends[end]], self.outwards(edge))
     }
 
     /// Whether something holds for all ends nearer to which two edges cross than they are deep: of the first or second edge, its first or second end.

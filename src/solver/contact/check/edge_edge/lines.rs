@@ -66,6 +66,8 @@ pub struct QuickCrossing {
     pub square: f64,
     /// Vector from the first to the second, times the product.
     pub fall: f64,
+    /// Places along the edges, 0 at the first ends and the square at the second.
+    places: [f64; 2],
 }
 
 impl QuickCrossing {
@@ -75,9 +77,16 @@ impl QuickCrossing {
         let (u, v, r) = (subtract(a[1], a[0]), subtract(b[1], b[0]), subtract(b[0], a[0]));
         let product = cross(u, v);
         let square = dot(product, product);
-        let within = |place: f64, [low, high]: [f64; 2]| place >= low * square && place <= high * square;
-        let crosses = within(dot(cross(r, v), product), parts[0]) && within(dot(cross(r, u), product), parts[1]);
-        crosses.then(|| QuickCrossing { product, square, fall: dot(r, product) })
+        let places = [dot(cross(r, v), product), dot(cross(r, u), product)];
+        let crossing = QuickCrossing { product, square, fall: dot(r, product), places };
+        crossing.is_within(parts).then_some(crossing)
+    }
+
+    /// Whether they cross where each reaches from and to these parts of it.
+    #[inline(always)]
+    pub fn is_within(&self, parts: [[f64; 2]; 2]) -> bool {
+        let within = |place: f64, [low, high]: [f64; 2]| place >= low * self.square && place <= high * self.square;
+        within(self.places[0], parts[0]) && within(self.places[1], parts[1])
     }
 }
 

@@ -21,7 +21,7 @@ use crate::solver::contact::geometry::projection::{area_normal, centre};
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
-use ends::BEYOND_END;
+use ends::{BEYOND_END, IN_VALLEY};
 use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE, between};
 pub use reach::{farthest_reach, largest_reach, reach};
 
@@ -291,10 +291,18 @@ impl EdgeCheck<'_> {
         } else {
             self.is_between_ends(pair, &end, depth, |point| self.motion.end(point))
         };
-        if !between || gap > KEEP * reach || gap < -deepest {
+        let is_too_deep = gap < -deepest && !past.is_some_and(|past| self.begins_together(pair, past));
+        if !between || gap > KEEP * reach || is_too_deep {
             return None;
         }
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
+    }
+
+    /// Whether a pair that has touched begins the step no deeper in each other than they may be. It comes from there, however far it would go in the step:
+    /// what is pressed hardest would go farthest.
+    fn begins_together(&self, pair: [u32; 2], past: &EdgeContact) -> bool {
+        Crossing::of(self.starts(pair, 0))
+            .is_some_and(|start| past.sense * start.gap - past.tolerated > -KEEP * start.shorter())
     }
 
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
@@ -302,7 +310,8 @@ impl EdgeCheck<'_> {
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
         let second = &self.edges[pair[1] as usize];
         if second.stands_out() {
-            return QuickCrossing::of(self.ends(pair, 0), [BEYOND_END; 2]);
+            let end = QuickCrossing::of(self.ends(pair, 0), [IN_VALLEY; 2])?;
+            return (end.is_within([BEYOND_END; 2]) || self.comes_beyond_end(pair, &end)).then_some(end);
         }
         let of = |half: usize, parts: [f64; 2]| QuickCrossing::of(self.ends(pair, half), [WHOLE, parts]);
         let first = of(0, WHOLE);
@@ -313,8 +322,14 @@ impl EdgeCheck<'_> {
         of(1, WHOLE).or_else(|| beyond(0)).or_else(|| beyond(1))
     }
 
+    /// Whether two edges that cross beyond an end have gone through each other in the step.
+    fn comes_beyond_end(&self, pair: [u32; 2], end: &QuickCrossing) -> bool {
+        let start = QuickCrossing::of(self.starts(pair, 0), [IN_VALLEY; 2]);
+        start.is_some_and(|start| dot(start.product, end.product) > 0.0 && start.fall * end.fall <= 0.0)
+    }
+
     /// Whether the edge that crosses a line does so on the outside, or hardly inside.
-    fn is_above(&self, line: u32, &QuickCrossing { product, square, fall }: &QuickCrossing) -> bool {
+    fn is_above(&self, line: u32, &QuickCrossing { product, square, fall, .. }: &QuickCrossing) -> bool {
         let slack = SLACK * self.scale(line);
         let up = || dot(product, area_normal(&self.faces.start(self.edges[line as usize].faces[0], self.motion)));
         fall * fall <= slack * slack * square || (fall < 0.0) == (up() > 0.0)
@@ -479,7 +494,7 @@ impl EdgeCheck<'_> {
         }
         let sense = start.gap.signum();
         if outwards(sense, start.normal) && sense * end.gap < 0.0 {
-            return self.meets(pair).then_some(touch(sense, 0.0));
+            return self.meets(pair, -sense * end.gap).then_some(touch(sense, 0.0));
         }
         // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
         let depth = start.gap.abs();
@@ -490,8 +505,9 @@ impl EdgeCheck<'_> {
         .then_some(touch(sense, -depth))
     }
 
-    /// Whether the edges come into one plane within the step, and there between their ends.
-    fn meets(&self, pair: [u32; 2]) -> bool {
+    /// Whether the edges come into one plane within the step, and there between their ends, or in a valley beyond these by the depth to
+    /// which they would go, a length.
+    fn meets(&self, pair: [u32; 2], depth: f64) -> bool {
         let path = |edge: u32, end: usize| self.motion.path(self.edges[edge as usize].ends[end]);
         let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
         let volume = crossing::coplanarity(
@@ -501,8 +517,10 @@ impl EdgeCheck<'_> {
         );
         crossing::roots(&volume).any(|t| {
             let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
-            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]])
-                .is_some_and(|crossing| self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point)))
+            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]]).is_some_and(|crossing| {
+                self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point))
+                    || self.is_in_valley(pair, &crossing, depth)
+            })
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::NodeFaceCheck;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
-use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, STRAIGHT, Shape};
+use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Onward, STRAIGHT, Shape};
 use crate::solver::contact::geometry::projection;
 
 /// A node that comes through a face nearer to its border than this part of the face's size is level with the border but for round-off, and
@@ -39,11 +39,19 @@ impl NodeFaceCheck<'_> {
         };
         let has = |face: u32, point: u32| self.faces.corners[face as usize].contains(&point);
         let part = dot(subtract(at(point), at(a)), along) / dot(along, along);
-        let goes_on = |part: f64, ends: [u32; 2]| part > NEAR_END || edges::goes_on(self.faces, self.motion, ends);
-        if !(goes_on(part, [b, a]) && goes_on(1.0 - part, [a, b])) {
-            return false;
-        }
-        if a == b || !self.beside(face).any(|other| has(other, a) && has(other, b) && is_ridge(face, other)) {
+        let normal = |face: u32| projection::area_normal(&self.faces.start(face, self.motion));
+        let goes_on = |part: f64, ends: [u32; 2], outwards: [f64; 3]| {
+            part > NEAR_END || edges::onward(self.faces, self.motion, ends, outwards) != Onward::Ends
+        };
+        let is_border = |other: u32| {
+            let outwards = add(normal(face), normal(other));
+            has(other, a)
+                && has(other, b)
+                && is_ridge(face, other)
+                && goes_on(part, [b, a], outwards)
+                && goes_on(1.0 - part, [a, b], outwards)
+        };
+        if a == b || !self.beside(face).any(is_border) {
             return false;
         }
         let crosses = |onwards: [f64; 3]| {
@@ -65,9 +73,12 @@ impl NodeFaceCheck<'_> {
                 }
             }
         }
+        // As in `edges::onward`: in a valley both parts are met before the node.
+        let outwards = self.faces.point_normal(point, self.motion);
         let goes_on = |a: &[f64; 3], b: &[f64; 3]| {
-            let cosine = dot(*a, *b);
-            cosine < 0.0 && cosine * cosine > STRAIGHT * STRAIGHT * dot(*a, *a) * dot(*b, *b)
+            let (cosine, lengths) = (dot(*a, *b), [dot(*a, *a).sqrt(), dot(*b, *b).sqrt()]);
+            let is_valley = dot(*a, outwards) * lengths[1] + dot(*b, outwards) * lengths[0] > 0.0;
+            cosine < 0.0 && (is_valley || cosine < -STRAIGHT * lengths[0] * lengths[1])
         };
         let middle =
             |(i, a): (usize, &[f64; 3])| ridges[i + 1..].iter().any(|b| goes_on(a, b) && crosses(*a) && crosses(*b));
