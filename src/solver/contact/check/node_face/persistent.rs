@@ -194,8 +194,10 @@ impl NodeFaceCheck<'_> {
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
                 let behind = (-old.projection.gap).max(0.0);
                 let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
+                // What overlaps in the mesh does so behind the faces beside as well, which hardly fold where a body is pressed.
+                let tolerated = old.tolerated;
                 if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
-                    contacts.push(self.held(face, projection, 0.0));
+                    contacts.push(self.held(face, projection, tolerated));
                 }
             }
         }
