@@ -85,7 +85,12 @@ impl Projection {
     /// Whether the point, at this height above the face, is beyond the end of a surface, about in its plane: neither side
     /// is in the way.
     pub fn is_beside(&self, height: f64, borders: u8) -> bool {
-        self.outside > AROUND * height.abs() && borders >> self.triangle & 1 == 1
+        self.outside > AROUND * height.abs() && self.is_at_border(borders)
+    }
+
+    /// Whether the edge beyond which the point lies, or which is nearest to its foot, is an end of the surface.
+    pub fn is_at_border(&self, borders: u8) -> bool {
+        borders >> self.triangle & 1 == 1
     }
 }
 

@@ -10,7 +10,7 @@ mod lines;
 mod reach;
 
 use super::FLUSH;
-use crate::common::vector::{add, dot, scaled, subtract};
+use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::geometry::crossing;
@@ -28,6 +28,9 @@ pub use reach::{farthest_reach, largest_reach, reach};
 /// The same as [`CROSSING`] of edges of surfaces, which have no inside: ends that lie on both sides of an edge are apart by this part of
 /// it, and the side on which they stay must be known by then.
 const CROSSING_OF_SURFACES: f64 = 0.01;
+
+/// Edges of surfaces nearer to each other than this part of the distance at which they touch are on neither side of each other but for round-off.
+const LEVEL: f64 = 1e-3;
 
 /// Least cosine between the way from one edge of a surface to another at the beginning of a step and the normal to both at its end.
 const SAME_SIDE: f64 = 0.5;
@@ -427,6 +430,26 @@ impl EdgeCheck<'_> {
         add(a, b)
     }
 
+    /// Where the body of an edge is, seen from the edge at the beginning of the step, a vector of at most about a unit: nothing for an edge in the middle of a
+    /// flat surface, which is on both sides.
+    fn inwards(&self, edge: u32) -> [f64; 3] {
+        let Edge { ends, faces, .. } = self.edges[edge as usize];
+        let [a, b] = ends.map(|point| self.motion.start(point));
+        let middle = scaled(add(a, b), 0.5);
+        let of = |face: u32| {
+            let corners = self.faces.start(face, self.motion);
+            let inwards = if self.faces.is_two_sided(face) {
+                // Across the edge: along it the middle of the face may lie anywhere.
+                let (arm, along) = (subtract(centre(&corners), middle), subtract(b, a));
+                subtract(arm, scaled(along, dot(arm, along) / dot(along, along)))
+            } else {
+                scaled(area_normal(&corners), -1.0)
+            };
+            normalized(inwards).unwrap_or_default()
+        };
+        scaled(add(of(faces[0]), of(faces[1])), 0.5)
+    }
+
     /// Distance at which two edges touch, a length.
     fn distance(&self, pair: [u32; 2]) -> f64 {
         pair.iter().map(|&edge| self.edges[edge as usize].distance(self.faces)).sum()
@@ -448,13 +471,25 @@ impl EdgeCheck<'_> {
         let rim = distance * self.faces.least_room(pair.iter().flat_map(|&edge| self.edges[edge as usize].ends));
         let separation = between(self.starts(pair, half));
         let (length, along) = (dot(separation, separation).sqrt(), dot(separation, end.normal));
-        if along.abs() <= SAME_SIDE * length {
+        let is_level = length <= LEVEL * distance;
+        let (sense, before, away) = if is_level {
+            // Where they touch exactly, as a mesh may have it, their bodies say on which side each is.
+            let [first, second] = pair.map(|edge| self.inwards(edge));
+            let apart = subtract(first, second);
+            let (sense, square) = (dot(apart, end.normal), dot(apart, apart));
+            // In the middle of flat surfaces nothing says it but round-off.
+            if square < SAME_SIDE * SAME_SIDE || sense * sense <= SAME_SIDE * SAME_SIDE * square {
+                return None;
+            }
+            (sense.signum(), sense.signum() * along - distance, scaled(end.normal, sense.signum()))
+        } else if along.abs() <= SAME_SIDE * length {
             return None;
-        }
-        let (sense, before) = (along.signum(), length - distance);
+        } else {
+            (along.signum(), length - distance, separation)
+        };
         // Into its own body no edge of a solid is pushed.
         let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
-            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(separation, self.outwards(edge)) > 0.0
+            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(away, self.outwards(edge)) > 0.0
         });
         // Over a line in a wall that ends at a rim an edge may slide, not over the rim itself.
         let is_in_the_way = || {

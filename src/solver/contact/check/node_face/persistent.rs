@@ -83,7 +83,9 @@ impl NodeFaceCheck<'_> {
         }
         // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
         // is as well, where it is nearer than they touch.
-        let deep = behind && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
+        // What has gone around the end of a surface is on its other side, which has its turn; from this one it would be pushed through.
+        let is_past_end = self.faces.is_two_sided(old) && left.is_at_border(self.faces.borders_of(old));
+        let deep = behind && !is_past_end && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
         let flat = as_it_was.filter(|_| deep);
         let around = || self.held_around(point, old, tolerated);
         if rises { flat.or_else(around) } else { around().or(flat) }
