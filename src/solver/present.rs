@@ -3,9 +3,6 @@
 use super::{RigidBodies, Solver, Totals, nodes, totals};
 use crate::comm::Communicator;
 
-/// Accounts below this part of the largest energy supplied so far are round-off: all has come to rest.
-const AT_REST: f64 = 1e-6;
-
 impl Solver {
     /// Brings what nobody asks for in a step up to the present, prepared state: nodes inside rigid bodies. Whoever looks at nodes
     /// one by one needs it.
@@ -22,7 +19,7 @@ impl Solver {
             _ => {
                 self.refresh();
                 let mut totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
-                totals.least_scale = AT_REST * self.watch.supplied;
+                totals.know(self.watch.supplied, self.watch.energy_floor());
                 self.last_totals = Some((self.step, totals));
                 totals
             }

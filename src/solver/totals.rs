@@ -11,6 +11,16 @@ use super::elements::Energies;
 use super::loads::{self, Places};
 use crate::comm::{Communicator, ExactSum};
 
+/// Accounts below this part of the largest energy supplied so far are round-off: all has come to rest.
+const AT_REST: f64 = 1e-6;
+
+/// Accounts below this part of ½ m v² of the velocities in the middle of two steps are not what moves: nothing has been booked yet.
+const BEGINS: f64 = 1e-3;
+
+/// The same as a part of the energy below which nothing is said about balance: it is that of a uniform strain of 3e-8, and so this is one of
+/// 1e-12, which coordinates with 16 digits have beside each other some thousand elements from the origin.
+const ROUND_OFF_OF_STRAIN: f64 = 1e-9;
+
 /// Sums over the whole body at one state. The same bits on every rank and any number of ranks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Totals {
@@ -38,13 +48,13 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// Kinetic energy of what MASS SCALING has added. It is a part of `kinetic`.
     pub added_kinetic: f64,
-    /// An energy below which all accounts are round-off of what was supplied before.
+    /// An energy below which all accounts are round-off: of what was supplied before, of a motion that begins, or of coordinates.
     pub least_scale: f64,
 }
 
 impl Totals {
     /// Number of sums.
-    const COUNT: usize = 12;
+    const COUNT: usize = 13;
 
     fn from_array(s: [f64; Self::COUNT]) -> Totals {
         Totals {
@@ -60,8 +70,14 @@ impl Totals {
             momentum: [s[7], s[8], s[9]],
             eroded: s[10],
             added_kinetic: s[11],
-            least_scale: 0.0,
+            // A step after rest v⁻ is round-off, and so is ½ m v⁻·v⁺ beside ½ m of the square of their mean.
+            least_scale: BEGINS * s[12],
         }
+    }
+
+    /// Learns the largest energy supplied so far and the one below which nothing is said about balance.
+    pub(super) fn know(&mut self, supplied: f64, floor: f64) {
+        self.least_scale = self.least_scale.max(AT_REST * supplied).max(ROUND_OFF_OF_STRAIN * floor);
     }
 
     /// Energy accounted for minus energy supplied, with what was made out of nothing: the error of the balance.
@@ -87,7 +103,7 @@ impl Totals {
         [self.hourglass, self.bulk_viscosity, self.friction].map(|taken| (-taken).max(0.0))
     }
 
-    /// The largest account, or what is left of it as `least_scale` when all has come to rest.
+    /// The largest account, or `least_scale` when all has come to rest or nothing has happened yet.
     pub fn scale(&self, initial: f64) -> f64 {
         let accounts = [self.kinetic, self.internal, initial, self.external, self.contact];
         accounts.iter().fold(self.least_scale, |m, e| e.abs().max(m))
@@ -153,15 +169,17 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
             continue;
         }
         let (r, turns) = (&row.0, i >= nodes.places);
-        let mut product = 0.0;
+        let (mut product, mut mean) = (0.0, 0.0);
         for i in 0..3 {
             let (before, after) = (r[4 + i], r[4 + i] + kick * (force.0[i] * r[7]));
             product += before * after;
+            mean += 0.25 * (before + after) * (before + after);
             if !turns {
                 sums[7 + i].add(0.5 * r[3] * (before + after));
             }
         }
         sums[0].add(0.5 * r[3] * product);
+        sums[12].add(0.5 * r[3] * mean);
         // What has been dropped with the last element of a node has no mass of either kind.
         if let Some(mass) = added(i).filter(|_| r[3] > 0.0) {
             sums[11].add(0.5 * mass * product);

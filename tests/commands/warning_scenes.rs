@@ -228,7 +228,12 @@ pub fn scenes() -> [Scene; 12] {
         scene(
             sloshing(1.0),
             "hourglass damping of block 1, a fluid",
-            &["has made heat of", "of the energy supplied", "in element"],
+            &[
+                "has made heat of",
+                "its factor is 1, and with HOURGLASS CONTROL, ASSUMED STRAIN, 0.01",
+                "of the energy supplied",
+                "in element",
+            ],
         ),
     ]
 }

@@ -9,6 +9,7 @@ use crate::model::{Jump, Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
+use crate::solver::elements::quadrilateral::hourglass::of_fluids;
 use crate::solver::nodes::{dot, subtract};
 use crate::solver::{Body, Solver, Stop, Totals, totals};
 
@@ -26,6 +27,8 @@ pub struct Facts {
     pub energy_floor: f64,
     /// Internal energy that gases and explosives hold at the start.
     pub stored_energy: f64,
+    /// Part of the whole damping by which hourglass modes of fluids are resisted.
+    pub damping: f64,
     /// Time at which the run ends.
     pub termination_time: f64,
     /// Part of the largest energy supplied at which a gain of contact ends the run.
@@ -51,6 +54,8 @@ pub struct BlockFacts {
     pub mass: f64,
     /// Number of its elements at the start.
     pub elements: usize,
+    /// Square of the speed of dilatational waves in it at the start, energy/mass.
+    pub speed_squared: f64,
 }
 
 /// What a run has found out about itself.
@@ -99,13 +104,17 @@ impl Watch {
     /// What there is to know of a run before its first step.
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, initial_energy: f64) -> Watch {
         let masses = body.block_masses(mesh.blocks.len());
-        let block =
-            |(block, mass): (&crate::mesh::Block, f64)| BlockFacts { id: block.id, mass, elements: block.len() };
+        let block = |((block, mass), &material): ((&crate::mesh::Block, f64), &usize)| {
+            let material = &model.materials[material];
+            let speed_squared = material.law.moduli().dilatational() / material.density;
+            BlockFacts { id: block.id, mass, elements: block.len(), speed_squared }
+        };
         let facts = Facts {
             node_id: node_numbers(mesh, share),
-            blocks: mesh.blocks.iter().zip(masses).map(block).collect(),
+            blocks: mesh.blocks.iter().zip(masses).zip(body.block_material.iter()).map(block).collect(),
             energy_floor: energy::energy_floor(body, model),
             stored_energy: energy::stored_energy(body, model),
+            damping: of_fluids(model.hourglass),
             termination_time: model.termination_time,
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,
@@ -126,6 +135,11 @@ impl Watch {
     pub fn news(&mut self) -> Vec<Finding> {
         let from = std::mem::replace(&mut self.told, self.findings.len());
         self.findings[from..].to_vec()
+    }
+
+    /// Energy below which nothing is said about energies.
+    pub fn energy_floor(&self) -> f64 {
+        self.facts.energy_floor
     }
 
     /// Energy supplied so far, not below the one that is worth words.

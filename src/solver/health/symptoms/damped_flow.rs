@@ -18,7 +18,8 @@ pub const SYMPTOM: Symptom = Symptom {
             // the modes are the flow itself, sheared and turned.
             let share = (hourglass - viscous) / exam.supplied;
             let counts = !exam.begins && share > 0.0;
-            counts.then_some(Evidence { share, amount: hourglass, of: viscous, block: block.id, ..Evidence::default() })
+            let of = exam.facts.damping;
+            counts.then_some(Evidence { share, amount: hourglass, of, block: block.id, ..Evidence::default() })
         };
         exam.facts.blocks.iter().zip(energies_of_blocks(exam, taken, comm)).filter_map(evidence).collect()
     },
@@ -31,14 +32,20 @@ pub const SYMPTOM: Symptom = Symptom {
         let Evidence { share, amount, of, block, .. } = *evidence;
         format!(
             "hourglass damping of block {block}, a fluid, has made heat of {amount:.4e}; that is {} of the energy supplied more than \
-             bulk viscosity has, {of:.4e}; most of it in {}",
+             bulk viscosity has; its factor is {of}, and with HOURGLASS CONTROL, ASSUMED STRAIN, {} it is a hundredth; most of it in {}",
             percent(share),
+            hundredth(of),
             evidence.places()
         )
     },
-    advice: "flow that is slow against the speed of sound is stopped by it: HOURGLASS CONTROL, ASSUMED STRAIN, 0.01 damps a hundredth \
-             as much as the default, and a finer mesh less; see explain HOURGLASS CONTROL",
+    advice: "flow that is slow against the speed of sound is stopped by it: a smaller factor damps as much less, and a finer mesh less too; \
+             see explain HOURGLASS CONTROL",
 };
+
+/// A hundredth of a factor, rounded to what reads well in a deck.
+fn hundredth(factor: f64) -> f64 {
+    ((0.01 * factor * 1e6).round() / 1e6).max(1e-6)
+}
 
 /// What hourglass damping and bulk viscosity have taken in an element of a fluid; nothing in another.
 fn taken(block: &ElementBlock, group: &Group, i: usize) -> [f64; 2] {
