@@ -1,7 +1,6 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
-use super::node_face;
-use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use super::behind::{NOTHING, behind, overlaps};
 use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
@@ -15,18 +14,13 @@ use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
-use crate::solver::contact::nodes::ContactNodes;
-use crate::solver::contact::search::locate::{Candidate, Interface, Locator, Rule};
-use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
-use crate::solver::contact::surface::pairings::{Pairing, Pairings};
+use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::elements::Touch;
 use std::collections::BTreeMap;
-
-/// Overlap below this part of a face's size is round-off of the mesh's coordinates.
-const NOTHING: f64 = 1e-9;
 
 /// An overlap that is left after all rounds and is less than this part of a face's size does not matter: contact keeps it as
 /// it is.
@@ -442,52 +436,6 @@ fn of_rigid_bodies(mesh: &Mesh, body: &Body, layout: &Layout) -> Vec<bool> {
         }
     }
     is_rigid
-}
-
-/// Constraints of all points behind faces that face them.
-fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
-    let behind = behind(layout, pairings, motion).into_iter();
-    let constraint = |(point, contact, pairing): (u32, DetectedContact, Pairing)| {
-        node_face::constraint(&layout.faces, pairing, point, &contact)
-    };
-    behind.filter_map(constraint).collect()
-}
-
-/// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
-fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
-    let contact_nodes = ContactNodes::still(motion);
-    let all = neighbourhood::point_boxes(layout, &contact_nodes);
-    let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
-    let mut search = SearchKind::Grid.make();
-    let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
-    let mut motion = contact_nodes.motion;
-    locator.step(&motion, &layout.faces);
-    let longest_path = locator.longest_path();
-    let (mut contacts, mut found) = (Vec::new(), Vec::new());
-    // Whatever their interface, only points that look at a face can be behind it.
-    let strict = vec![Rule::Blocks; layout.interfaces.len()];
-    let mut near: Vec<Candidate> = Vec::new();
-    for i in 0..locator.slave_nodes().len() {
-        let point = locator.slave_nodes()[i];
-        locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
-        // Nothing comes through anything, so that edges need not be asked.
-        let (faces, edges_hold) = (&*layout.faces, false);
-        let check = NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold };
-        check.point(point, &near, &NO_CONTACT, &mut contacts);
-        for contact in &mut contacts {
-            contact.tolerated = 0.0;
-            let size = layout.faces.size[contact.face as usize];
-            let Some(near) = near.iter().find(|near| near.face == contact.face) else { continue };
-            let rule = layout.interfaces[near.interface as usize].rule;
-            let face = layout.faces.block[contact.face as usize];
-            let pairing = pairings.of(rule, layout.point_block[point as usize], face);
-            if contact.projection.gap < -NOTHING * size {
-                found.push((point, *contact, pairing));
-            }
-        }
-    }
-    found
 }
 
 fn moved(before: &[[f64; 3]], body: &Body, layout: &Layout) -> Overlap {

@@ -1,5 +1,6 @@
 //! The detailed check: which candidates touch in the coming step, and which nodes are where they should not be.
 
+mod behind;
 pub mod edge_edge;
 pub mod embedded;
 pub mod initial_overlap;
