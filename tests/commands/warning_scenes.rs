@@ -80,6 +80,23 @@ pub fn overlapping(depth: f64) -> Desk {
     desk(&deck, &format!("BOX, 1, 0., 0., 0., 1., 1., 1., 2, 2, 2\nBOX, 2, 0.3, 0.3, {upper}, 0.4, 0.4, 1., 2, 2, 2\n"))
 }
 
+/// A sheet that begins going through another, with no node of either in the other.
+pub fn crossed(commands: &str) -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 4.E-5\nCONTACT MATERIAL\n{commands}SHELL THICKNESS, 1, 0.01\nSHELL THICKNESS, 2, 0.01\n\
+         MATERIAL, 1, ELASTIC, 7800.\n{STEEL}MATERIAL, 2, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(&deck, "SHEET, 1, -1., -1., 0., 2., 2., 0., 4, 4\nSHEET, 2, -0.7, 0.13, -0.4, 1.4, 0., 1., 2, 2\n")
+}
+
+/// The same block twice at one place.
+fn twice() -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 4.E-5\nCONTACT MATERIAL\nCONTACT OVERLAP, KEEP\nMATERIAL, 1, ELASTIC, 7800.\n{STEEL}MATERIAL, 2, ELASTIC, 7800.\n{STEEL}"
+    );
+    desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 1., 2, 2, 2\nBOX, 2, 0., 0., 0., 1., 1., 1., 2, 2, 2\n")
+}
+
 /// A block that is driven into another: nothing gives way.
 fn driven() -> Desk {
     let deck = format!(
@@ -167,7 +184,7 @@ fn struck_at_the_speed_of_sound() -> Desk {
 }
 
 /// Every warning that a scene of some elements provokes.
-pub fn scenes() -> [Scene; 12] {
+pub fn scenes() -> [Scene; 14] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -194,6 +211,21 @@ pub fn scenes() -> [Scene; 12] {
             overlapping(0.75),
             "nodes begin deep inside elements",
             &["nodes of contact surfaces begin deep inside", "on element"],
+        ),
+        scene(
+            crossed(""),
+            "edges that go through faces in the mesh",
+            &[
+                "edges of contact surfaces begin going through faces",
+                "of blocks 1 and 2",
+                "the edge between nodes",
+                "at (",
+            ],
+        ),
+        scene(
+            twice(),
+            "elements inside other bodies in the mesh",
+            &["16 elements begin inside another body, of blocks 1 and 2", "the middle of element 1 at ("],
         ),
         scene(
             driven(),

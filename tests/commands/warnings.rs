@@ -3,8 +3,8 @@
 
 use crate::program::{Desk, Left};
 use crate::warning_scenes::{
-    STEEL, Scene, dented, desk, driven_and_held, driven_through_a_plane, overlapping, rigid_without_room, scenes,
-    sloshing,
+    STEEL, Scene, crossed, dented, desk, driven_and_held, driven_through_a_plane, overlapping, rigid_without_room,
+    scenes, sloshing,
 };
 use urto::exodus::{RestartHeader, read_restart, write_restart};
 
@@ -179,6 +179,24 @@ fn every_warning_stands_in_three_places_and_is_the_same_on_any_ranks() {
             assert_eq!(lines(&desk.text("more.o"), "WARNING"), lines(&log, "WARNING"), "{label} on {ranks} ranks");
         }
     }
+}
+
+/// Where no node is inside, contact sees nothing of an overlap. `urto check` says so in the words of the run; with STRESS, which is to part what
+/// overlaps, it is an error, and what is meant to be so is left alone.
+#[test]
+fn edges_through_faces_are_told_before_a_run() {
+    let desk = crossed("");
+    let told = |err: &str| lines(err, "going through faces").concat();
+    let checked = desk.urto(&["check", "case.i", "--strict"]).with(1);
+    let ran = desk.urto(&["case.i", "-q", "--strict"]).with(1);
+    let words = told(&checked.err);
+    // Three lines of the upright sheet at x = -0.7, 0 and 0.7 and those of the other at x = -0.5, 0 and 0.5.
+    assert!(words.starts_with("warning: 6 edges of contact surfaces"), "{words}");
+    assert_eq!(told(&ran.err).split_once(": ").map(|(_, text)| text), words.split_once(": ").map(|(_, text)| text));
+    let refused = crossed("CONTACT OVERLAP, STRESS\n").urto(&["case.i"]).with(2);
+    refused.says(&["error: bodies overlap in the mesh: 6 edges of contact surfaces", "help: "]);
+    let apart = crossed("CONTACT EXCLUSION, 1, 2\n").urto(&["check", "case.i"]).with(0);
+    assert_eq!(told(&apart.err), "");
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod erosion;
 mod extremes;
 mod flush;
 mod friction;
+mod overlaps;
 mod press_fit;
 mod rigid;
 mod rims;

@@ -49,6 +49,7 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
     say(model.title.trim());
     let body = given.body()?;
     warn(body.overlap.deep.warning(&given.mesh));
+    body.overlap.warnings_of_unheld(&given.mesh).into_iter().for_each(|warning| warn(Some(warning)));
     if let Some(note) = body.overlap.crowded.note(&given.mesh) {
         complain(format_args!("{note}\n"));
     }

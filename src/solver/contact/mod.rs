@@ -51,6 +51,7 @@ use surface::skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
 pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
+pub use check::unheld;
 pub use enforcement::iterations::LOOSER;
 pub use observations::report::{Report, Tally, Work};
 pub use observations::seen::{Looser, Seen};

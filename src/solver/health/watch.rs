@@ -9,6 +9,7 @@ use crate::model::{Jump, Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
+use crate::solver::contact::unheld::Told;
 use crate::solver::elements::quadrilateral::hourglass::of_fluids;
 use crate::solver::nodes::{dot, subtract};
 use crate::solver::{Body, Solver, Stop, Totals, totals};
@@ -37,6 +38,8 @@ pub struct Facts {
     pub overlap: Overlap,
     /// The node that was moved farthest out of them, and the one that is left deepest inside an element.
     pub overlap_spots: [Option<Spot>; 2],
+    /// Edges that begin going through faces, and elements that begin inside other bodies, which contact does not see.
+    pub unheld: [Option<Told>; 2],
     /// How many tied nodes are held although they follow others, and the first of them.
     pub tied_held: (usize, Option<Spot>),
     /// The shortest pulse of the functions that drive and load.
@@ -119,6 +122,7 @@ impl Watch {
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,
             overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
+            unheld: [&body.overlap.pierced, &body.overlap.engulfed].map(|unheld| Told::of(unheld, mesh)),
             tied_held: tied_held(mesh, body),
             pulse: model.shortest_pulse(),
             jump: model.largest_jump(),

@@ -1,7 +1,10 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
-use super::node_face;
-use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use super::behind::{NOTHING, behind, overlaps};
+use super::body_pairs::BodyPairs;
+use super::engulfed::engulfed;
+use super::pierced::pierced;
+use super::unheld::{ADVICE_ON_EDGES, ADVICE_ON_ELEMENTS, Told, Unheld};
 use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
@@ -15,22 +18,17 @@ use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
-use crate::solver::contact::nodes::ContactNodes;
-use crate::solver::contact::search::locate::{Candidate, Interface, Locator, Rule};
-use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
-use crate::solver::contact::surface::pairings::{Pairing, Pairings};
+use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
 use crate::solver::elements::Touch;
 use std::collections::BTreeMap;
 
-/// Overlap below this part of a face's size is round-off of the mesh's coordinates.
-const NOTHING: f64 = 1e-9;
-
 /// An overlap that is left after all rounds and is less than this part of a face's size does not matter: contact keeps it as
 /// it is.
-const STUCK: f64 = 1e-4;
+pub(super) const STUCK: f64 = 1e-4;
 
 /// A point nearer to an outer face than this part of half the element touches it, once what overlaps has been moved out.
 const CLEARLY: f64 = 0.01;
@@ -59,6 +57,10 @@ pub struct Overlap {
     pub rigid: Stuck,
     /// Where the mesh leaves less room than thicknesses.
     pub crowded: Crowded,
+    /// Edges that go through faces where no node is inside.
+    pub pierced: Unheld,
+    /// Elements inside other bodies of which no node says so.
+    pub engulfed: Unheld,
 }
 
 /// Nodes that begin nearer to faces than their thicknesses allow. Contact holds them as near as they are, and farther once they
@@ -103,6 +105,9 @@ pub struct Stuck {
 impl Overlap {
     /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
     pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
+        if let Some(refusal) = self.refusal_of_unheld(mesh).filter(|_| self.deep.nodes == 0) {
+            return Some(refusal);
+        }
         let Overlap { deep, stuck, rigid, .. } = *self;
         let ((count, deepest, node), why) = if deep.nodes > 0 {
             ((deep.nodes, deep.deepest, deep.node), "deeper than half an element")
@@ -120,6 +125,27 @@ impl Overlap {
                 mesh.node_ids[node as usize]
             )
         })
+    }
+}
+
+impl Overlap {
+    /// Why a mesh is refused whose overlaps contact does not see: always where elements are inside others, else where they must go.
+    fn refusal_of_unheld(&self, mesh: &Mesh) -> Option<String> {
+        let elements = Told::of(&self.engulfed, mesh).map(|told| (told.elements_in_words(), ADVICE_ON_ELEMENTS));
+        let edges = || {
+            let must_go = Some(&self.pierced).filter(|pierced| pierced.must_go)?;
+            Some((Told::of(must_go, mesh)?.edges_in_words(), ADVICE_ON_EDGES))
+        };
+        let (words, advice) = elements.or_else(edges)?;
+        Some(format!("error: bodies overlap in the mesh: {words}\nhelp: {advice}"))
+    }
+
+    /// Warnings of the overlaps that contact does not see.
+    pub fn warnings_of_unheld(&self, mesh: &Mesh) -> Vec<String> {
+        let edges = Told::of(&self.pierced, mesh).map(|told| (told.edges_in_words(), ADVICE_ON_EDGES));
+        let elements = Told::of(&self.engulfed, mesh).map(|told| (told.elements_in_words(), ADVICE_ON_ELEMENTS));
+        let in_words = |(words, advice)| format!("warning: {words}\nhelp: {advice}");
+        edges.into_iter().chain(elements).map(in_words).collect()
     }
 }
 
@@ -169,7 +195,7 @@ pub fn remove(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
 }
 
 /// Lets all points be where they are in the body, and stay there.
-fn stand_still(motion: &mut NodeMotion, body: &Body, layout: &Layout) {
+pub(super) fn stand_still(motion: &mut NodeMotion, body: &Body, layout: &Layout) {
     motion.begin([0.0; 2]);
     for (point, &node) in (0..).zip(&layout.nodes) {
         let [x, y, z] = body.positions[node as usize];
@@ -215,17 +241,30 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
 fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
-    let left = || Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() };
+    let overlap = remove_known(mesh, model, body, &layout);
+    let Some(automatic) = layout.automatic() else { return overlap };
+    let Some(pairs) = BodyPairs::of(body, &layout, automatic) else { return overlap };
+    let must_go = matches!(model.contact.control.overlap, ContactOverlap::Stress(_));
+    let (given, surface) = ((mesh, model), (&*body, &layout, automatic));
+    let pierced = Unheld { must_go, ..pierced(given, surface, &pairs) };
+    // What is told by its nodes is told.
+    let engulfed = if overlap.deep.nodes > 0 { Unheld::default() } else { engulfed(given, surface, &pairs) };
+    Overlap { pierced, engulfed, ..overlap }
+}
+
+/// Moves nodes out of the faces behind which contact knows them to be.
+fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) -> Overlap {
+    let left = || Overlap { deep: deep_overlap(body, layout, KNOWN), ..Default::default() };
     match model.contact.control.overlap {
         ContactOverlap::Keep => return left(),
         ContactOverlap::Stress(_) => {
-            return Overlap { rigid: between_rigid_bodies(mesh, model, body, &layout), ..left() };
+            return Overlap { rigid: between_rigid_bodies(mesh, model, body, layout), ..left() };
         }
         ContactOverlap::Refuse | ContactOverlap::Remove => (),
     }
     let pairings = Pairings::new(mesh, model, body);
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
-    weigh(mesh, model, body, &layout, &mut motion);
+    weigh(mesh, model, body, layout, &mut motion);
     let still = StepTimes { time: 0.0, kick: 1.0, drift: 1.0 };
     let mut enforcer = Enforcer::new(motion.len());
     // Joints have moved what follows already.
@@ -234,9 +273,9 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     let mut farthest = vec![0.0; motion.len()];
     let mut stuck = Stuck::default();
     for round in 0..=ROUNDS {
-        stand_still(&mut motion, body, &layout);
-        let mut constraints = overlaps(&layout, &pairings, &motion);
-        stuck = Stuck::of(&constraints, &layout);
+        stand_still(&mut motion, body, layout);
+        let mut constraints = overlaps(layout, &pairings, &motion);
+        stuck = Stuck::of(&constraints, layout);
         if constraints.is_empty() || round == ROUNDS {
             break;
         }
@@ -253,7 +292,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             positions[node] = within(there, before[node], farthest[point]);
         }
     }
-    Overlap { deep: deep_overlap(body, &layout, CLEARLY), stuck, ..moved(&before, body, &layout) }
+    Overlap { deep: deep_overlap(body, layout, CLEARLY), stuck, ..moved(&before, body, layout) }
 }
 
 /// Overlaps of rigid bodies with each other.
@@ -340,7 +379,7 @@ fn deep_overlap(body: &Body, layout: &Layout, part: f64) -> DeepOverlap {
 
 /// Solid elements of the blocks with faces of an interface, each by its canonical number and its nodes as [`plane::eight`] has
 /// them. Surfaces have no inside.
-fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
+pub(super) fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
     let of_solids = interface.faces.iter().filter(|&&face| !layout.faces.is_two_sided(face));
     let mut blocks: Vec<u32> = of_solids.map(|&face| layout.faces.block[face as usize]).collect();
     blocks.sort_unstable();
@@ -365,7 +404,7 @@ fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
 }
 
 /// For each node one of its body's: elements that share nodes are one body.
-fn bodies_of(body: &Body) -> Vec<u32> {
+pub(super) fn bodies_of(body: &Body) -> Vec<u32> {
     let mut joined = DisjointSets::new(body.positions.len());
     for nodes in body.element_nodes.iter() {
         nodes[1..].iter().for_each(|&node| joined.join(nodes[0], node));
@@ -374,7 +413,7 @@ fn bodies_of(body: &Body) -> Vec<u32> {
 }
 
 /// Distance of a point to the nearest of some faces behind which it is.
-fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
+pub(super) fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u32>, point: [f64; 3]) -> f64 {
     let behind = |face: u32| {
         let projection = projection::project(&corners_of(body, layout, face), point)?;
         (projection.gap < 0.0 && projection.outside <= -projection.gap)
@@ -442,52 +481,6 @@ fn of_rigid_bodies(mesh: &Mesh, body: &Body, layout: &Layout) -> Vec<bool> {
         }
     }
     is_rigid
-}
-
-/// Constraints of all points behind faces that face them.
-fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
-    let behind = behind(layout, pairings, motion).into_iter();
-    let constraint = |(point, contact, pairing): (u32, DetectedContact, Pairing)| {
-        node_face::constraint(&layout.faces, pairing, point, &contact)
-    };
-    behind.filter_map(constraint).collect()
-}
-
-/// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
-fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
-    let contact_nodes = ContactNodes::still(motion);
-    let all = neighbourhood::point_boxes(layout, &contact_nodes);
-    let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
-    let mut search = SearchKind::Grid.make();
-    let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
-    let mut motion = contact_nodes.motion;
-    locator.step(&motion, &layout.faces);
-    let longest_path = locator.longest_path();
-    let (mut contacts, mut found) = (Vec::new(), Vec::new());
-    // Whatever their interface, only points that look at a face can be behind it.
-    let strict = vec![Rule::Blocks; layout.interfaces.len()];
-    let mut near: Vec<Candidate> = Vec::new();
-    for i in 0..locator.slave_nodes().len() {
-        let point = locator.slave_nodes()[i];
-        locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
-        // Nothing comes through anything, so that edges need not be asked.
-        let (faces, edges_hold) = (&*layout.faces, false);
-        let check = NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold };
-        check.point(point, &near, &NO_CONTACT, &mut contacts);
-        for contact in &mut contacts {
-            contact.tolerated = 0.0;
-            let size = layout.faces.size[contact.face as usize];
-            let Some(near) = near.iter().find(|near| near.face == contact.face) else { continue };
-            let rule = layout.interfaces[near.interface as usize].rule;
-            let face = layout.faces.block[contact.face as usize];
-            let pairing = pairings.of(rule, layout.point_block[point as usize], face);
-            if contact.projection.gap < -NOTHING * size {
-                found.push((point, *contact, pairing));
-            }
-        }
-    }
-    found
 }
 
 fn moved(before: &[[f64; 3]], body: &Body, layout: &Layout) -> Overlap {

@@ -52,6 +52,11 @@ impl Exclusions {
         around.iter().all(|&own| self.pair(faces.block[own as usize], of))
     }
 
+    /// Whether two blocks are kept from touching each other.
+    pub fn keep_blocks_apart(&self, a: u32, b: u32) -> bool {
+        !self.is_empty() && self.pair(a, b)
+    }
+
     /// The same of two edges by the faces on their sides.
     pub fn keep_edges_apart(&self, first: [u32; 2], second: [u32; 2], faces: &Faces) -> bool {
         let block = |face: u32| faces.block[face as usize];

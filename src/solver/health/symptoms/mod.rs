@@ -15,7 +15,7 @@ mod jump;
 mod runaway;
 mod short_pulse;
 
-use contact::{gain, held, overlap_deep, overlap_moved, passes, sunk, tied_held};
+use contact::{body_inside, edges_through, gain, held, overlap_deep, overlap_moved, passes, sunk, tied_held};
 
 use super::finding::Evidence;
 use super::watch::Exam;
@@ -44,7 +44,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 20] = [
+pub static SYMPTOMS: [Symptom; 22] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -65,6 +65,8 @@ pub static SYMPTOMS: [Symptom; 20] = [
     beyond_hugoniot::SYMPTOM,
     damped_flow::SYMPTOM,
     below_rest::SYMPTOM,
+    edges_through::SYMPTOM,
+    body_inside::SYMPTOM,
 ];
 
 /// When a symptom is looked at, from seldom to often.

@@ -6,7 +6,7 @@
 
 mod constraint;
 mod ends;
-mod lines;
+pub(super) mod lines;
 mod reach;
 
 use super::FLUSH;
@@ -36,7 +36,7 @@ const LEVEL: f64 = 1e-3;
 const SAME_SIDE: f64 = 0.5;
 
 /// A pair that has parted by less than this part of an edge is still watched.
-const KEEP: f64 = 0.01;
+pub(super) const KEEP: f64 = 0.01;
 
 /// Pairs that are nearer than this part of an edge touch.
 const TOUCHING: f64 = 1e-9;
@@ -49,7 +49,7 @@ const DEEP: f64 = 0.25;
 const SLACK: f64 = 0.005;
 
 /// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
-const SUNK: f64 = 0.05;
+pub(super) const SUNK: f64 = 0.05;
 
 /// So many times longer than a face an edge has its nodes too far apart to be held by them on the face.
 const LONG: f64 = 2.0;

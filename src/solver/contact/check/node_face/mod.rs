@@ -8,6 +8,7 @@
 mod newcomer;
 mod persistent;
 mod ridge;
+mod way_out;
 
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;

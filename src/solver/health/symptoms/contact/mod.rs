@@ -1,5 +1,7 @@
 //! What contact and tied surfaces may suffer from, one file each.
 
+pub mod body_inside;
+pub mod edges_through;
 pub mod gain;
 pub mod held;
 pub mod overlap_deep;
@@ -7,3 +9,4 @@ pub mod overlap_moved;
 pub mod passes;
 pub mod sunk;
 pub mod tied_held;
+mod unheld;

@@ -1,0 +1,75 @@
+//! Points of a body at rest that are behind faces, each behind that through which the way out is shortest.
+
+use super::node_face;
+use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use crate::solver::contact::enforcement::constraint::Constraint;
+use crate::solver::contact::geometry::motion::NodeMotion;
+use crate::solver::contact::nodes::ContactNodes;
+use crate::solver::contact::search::SearchKind;
+use crate::solver::contact::search::locate::{Candidate, Locator, Rule};
+use crate::solver::contact::search::neighbourhood::{self, Boxes};
+use crate::solver::contact::surface::layout::Layout;
+use crate::solver::contact::surface::pairings::{Pairing, Pairings};
+
+/// Overlap below this part of a face's size is round-off of the mesh's coordinates.
+pub const NOTHING: f64 = 1e-9;
+
+/// So is what is below this part of the coordinates themselves: that of faces which are small where they are. Positions come out of
+/// several roundings.
+const OF_COORDINATES: f64 = 16.0 * f64::EPSILON;
+
+/// Constraints of all points behind faces that face them.
+pub fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
+    let behind = behind(layout, pairings, motion).into_iter();
+    let constraint = |(point, contact, pairing): (u32, DetectedContact, Pairing)| {
+        node_face::constraint(&layout.faces, pairing, point, &contact)
+    };
+    behind.filter_map(constraint).collect()
+}
+
+/// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
+pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
+    let contact_nodes = ContactNodes::still(motion);
+    let all = neighbourhood::point_boxes(layout, &contact_nodes);
+    let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
+    let mut search = SearchKind::Grid.make();
+    let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
+    let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
+    let mut motion = contact_nodes.motion;
+    locator.step(&motion, &layout.faces);
+    let longest_path = locator.longest_path();
+    let (mut contacts, mut found) = (Vec::new(), Vec::new());
+    // Whatever their interface, only points that look at a face can be behind it.
+    let strict = vec![Rule::Blocks; layout.interfaces.len()];
+    let mut near: Vec<Candidate> = Vec::new();
+    for i in 0..locator.slave_nodes().len() {
+        let point = locator.slave_nodes()[i];
+        locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
+        // Nothing comes through anything, so that edges need not be asked.
+        let (faces, edges_hold) = (&*layout.faces, false);
+        let check = NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold };
+        check.point(point, &near, &NO_CONTACT, &mut contacts);
+        if !contacts.is_empty() && check.leave_nearest_ways_out(point, &mut near, |face| nothing(layout, &motion, face))
+        {
+            check.point(point, &near, &NO_CONTACT, &mut contacts);
+        }
+        for contact in &mut contacts {
+            contact.tolerated = 0.0;
+            let Some(near) = near.iter().find(|near| near.face == contact.face) else { continue };
+            let rule = layout.interfaces[near.interface as usize].rule;
+            let face = layout.faces.block[contact.face as usize];
+            let pairing = pairings.of(rule, layout.point_block[point as usize], face);
+            if contact.projection.gap < -nothing(layout, &motion, contact.face) {
+                found.push((point, *contact, pairing));
+            }
+        }
+    }
+    found
+}
+
+/// Overlap with a face that is no more than round-off, a length.
+fn nothing(layout: &Layout, motion: &NodeMotion, face: u32) -> f64 {
+    let corners = layout.faces.corners[face as usize].map(|corner| motion.start(corner));
+    let farthest = corners.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    (NOTHING * layout.faces.size[face as usize]).max(OF_COORDINATES * farthest)
+}
