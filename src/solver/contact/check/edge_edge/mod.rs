@@ -7,13 +7,14 @@
 mod constraint;
 mod ends;
 pub(super) mod lines;
+mod newcomer;
 mod reach;
+mod surfaces;
 
 use super::FLUSH;
-use crate::common::vector::{add, dot, normalized, scaled, subtract};
+use crate::common::vector::{add, dot, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::Constraint;
-use crate::solver::contact::geometry::crossing;
 use crate::solver::contact::geometry::edges::{Edge, Shape};
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::{NodeMotion, larger, smaller, three};
@@ -22,15 +23,12 @@ use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::pairings::Pairing;
 use ends::{BEYOND_END, IN_VALLEY};
-use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE, between};
+use lines::{CROSSING, Crossing, Line, QuickCrossing, WHOLE};
 pub use reach::{farthest_reach, largest_reach, reach};
 
 /// The same as [`CROSSING`] of edges of surfaces, which have no inside: ends that lie on both sides of an edge are apart by this part of
 /// it, and the side on which they stay must be known by then.
 const CROSSING_OF_SURFACES: f64 = 0.01;
-
-/// Edges of surfaces nearer to each other than this part of the distance at which they touch are on neither side of each other but for round-off.
-const LEVEL: f64 = 1e-3;
 
 /// Least cosine between the way from one edge of a surface to another at the beginning of a step and the normal to both at its end.
 const SAME_SIDE: f64 = 0.5;
@@ -301,13 +299,6 @@ impl EdgeCheck<'_> {
         Some((now, self.constraint((pair, half), &end, &now, gap, pairing)))
     }
 
-    /// Whether a pair that has touched begins the step no deeper in each other than they may be. It comes from there, however far it would go in the step:
-    /// what is pressed hardest would go farthest.
-    fn begins_together(&self, pair: [u32; 2], past: &EdgeContact) -> bool {
-        Crossing::of(self.starts(pair, 0))
-            .is_some_and(|start| past.sense * start.gap - past.tolerated > -KEEP * start.shorter())
-    }
-
     /// How two edges cross at the end of the step, and which half of ridges it is; `None` where they do not between their ends.
     #[inline(always)]
     fn quick_crossing(&self, pair: [u32; 2]) -> Option<QuickCrossing> {
@@ -430,132 +421,8 @@ impl EdgeCheck<'_> {
         add(a, b)
     }
 
-    /// Where the body of an edge is, seen from the edge at the beginning of the step, a vector of at most about a unit: nothing for an edge in the middle of a
-    /// flat surface, which is on both sides.
-    fn inwards(&self, edge: u32) -> [f64; 3] {
-        let Edge { ends, faces, .. } = self.edges[edge as usize];
-        let [a, b] = ends.map(|point| self.motion.start(point));
-        let middle = scaled(add(a, b), 0.5);
-        let of = |face: u32| {
-            let corners = self.faces.start(face, self.motion);
-            let inwards = if self.faces.is_two_sided(face) {
-                // Across the edge: along it the middle of the face may lie anywhere.
-                let (arm, along) = (subtract(centre(&corners), middle), subtract(b, a));
-                subtract(arm, scaled(along, dot(arm, along) / dot(along, along)))
-            } else {
-                scaled(area_normal(&corners), -1.0)
-            };
-            normalized(inwards).unwrap_or_default()
-        };
-        scaled(add(of(faces[0]), of(faces[1])), 0.5)
-    }
-
     /// Distance at which two edges touch, a length.
     fn distance(&self, pair: [u32; 2]) -> f64 {
         pair.iter().map(|&edge| self.edges[edge as usize].distance(self.faces)).sum()
-    }
-
-    /// −1 where the normal of two edges of surfaces has turned over within the step, as they went through parallel; else 1.
-    fn turned(&self, pair: [u32; 2], half: usize, end: &Crossing) -> f64 {
-        if !self.is_of_surface(pair) {
-            return 1.0;
-        }
-        let start = Crossing::with(self.starts(pair, half), 0.0);
-        start.map_or(1.0, |start| if dot(start.normal, end.normal) < 0.0 { -1.0 } else { 1.0 })
-    }
-
-    /// A pair that has not touched before and touches at a distance: the side on which the step begins is the side on which it
-    /// stays. Where the mesh or a path from beside has brought them nearer, they stay as near.
-    fn comes_near(&self, pair: [u32; 2], half: usize, end: &Crossing, distance: f64) -> Option<EdgeContact> {
-        // What has too little room is as thin to what comes from beside, see `Faces::rim`.
-        let rim = distance * self.faces.least_room(pair.iter().flat_map(|&edge| self.edges[edge as usize].ends));
-        let separation = between(self.starts(pair, half));
-        let (length, along) = (dot(separation, separation).sqrt(), dot(separation, end.normal));
-        let is_level = length <= LEVEL * distance;
-        let (sense, before, away) = if is_level {
-            // Where they touch exactly, as a mesh may have it, their bodies say on which side each is.
-            let [first, second] = pair.map(|edge| self.inwards(edge));
-            let apart = subtract(first, second);
-            let (sense, square) = (dot(apart, end.normal), dot(apart, apart));
-            // In the middle of flat surfaces nothing says it but round-off.
-            if square < SAME_SIDE * SAME_SIDE || sense * sense <= SAME_SIDE * SAME_SIDE * square {
-                return None;
-            }
-            (sense.signum(), sense.signum() * along - distance, scaled(end.normal, sense.signum()))
-        } else if along.abs() <= SAME_SIDE * length {
-            return None;
-        } else {
-            (along.signum(), length - distance, separation)
-        };
-        // Into its own body no edge of a solid is pushed.
-        let outwards = [-1.0, 1.0].iter().zip(pair).all(|(sign, edge)| {
-            self.edges[edge as usize].is_of_surface(self.faces) || sign * dot(away, self.outwards(edge)) > 0.0
-        });
-        // Over a line in a wall that ends at a rim an edge may slide, not over the rim itself.
-        let is_in_the_way = || {
-            let other = &self.edges[pair[1] as usize];
-            other.stands_out()
-                || other.is_of_surface(self.faces)
-                || !self.slides_over_rim((pair, half), end, f64::INFINITY)
-        };
-        (outwards && sense * end.gap < rim && is_in_the_way()).then_some(EdgeContact {
-            pair,
-            sense,
-            tolerated: before.min(0.0),
-            carried: Carried::NOTHING,
-        })
-    }
-
-    /// A pair that has not touched before: it must come together within the step, both edges from outside.
-    fn newcomer(&self, pair: [u32; 2], end: &Crossing) -> Option<EdgeContact> {
-        let start = Crossing::of(self.starts(pair, 0))?;
-        // Turning through parallel within a step leaves no sense to compare.
-        if dot(start.normal, end.normal) <= 0.0 {
-            return None;
-        }
-        let outwards = |sense: f64, normal: [f64; 3]| {
-            // Pushed along the normal, the first edge goes back into its own body.
-            sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
-        };
-        let touch = |sense, tolerated| EdgeContact { pair, sense, tolerated, carried: Carried::NOTHING };
-        // Where they touch already, as a mesh may have it, the faces say on which side the other one is, and round-off nothing.
-        if start.gap.abs() <= TOUCHING * start.shorter() {
-            let comes = |sense: &f64| outwards(*sense, start.normal) && sense * end.gap < 0.0;
-            let sense = [1.0, -1.0].into_iter().find(comes)?;
-            if !self.is_between_ends(pair, &start, 0.0, |point| self.motion.start(point)) {
-                return None;
-            }
-            return Some(touch(sense, (sense * start.gap).min(0.0)));
-        }
-        let sense = start.gap.signum();
-        if outwards(sense, start.normal) && sense * end.gap < 0.0 {
-            return self.meets(pair, -sense * end.gap).then_some(touch(sense, 0.0));
-        }
-        // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
-        let depth = start.gap.abs();
-        let sense = -sense;
-        (outwards(sense, start.normal)
-            && depth < KEEP * start.shorter()
-            && self.is_between_ends(pair, &start, depth, |point| self.motion.start(point)))
-        .then_some(touch(sense, -depth))
-    }
-
-    /// Whether the edges come into one plane within the step, and there between their ends, or in a valley beyond these by the depth to
-    /// which they would go, a length.
-    fn meets(&self, pair: [u32; 2], depth: f64) -> bool {
-        let path = |edge: u32, end: usize| self.motion.path(self.edges[edge as usize].ends[end]);
-        let (a, b) = ([path(pair[0], 0), path(pair[0], 1)], [path(pair[1], 0), path(pair[1], 1)]);
-        let volume = crossing::coplanarity(
-            crossing::relative(b[0], a[0]),
-            crossing::relative(a[1], a[0]),
-            crossing::relative(b[1], b[0]),
-        );
-        crossing::roots(&volume).any(|t| {
-            let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
-            Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]]).is_some_and(|crossing| {
-                self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point))
-                    || self.is_in_valley(pair, &crossing, depth)
-            })
-        })
     }
 }
