@@ -83,12 +83,21 @@ impl NodeFaceCheck<'_> {
         }
         // Behind the edge of a hollow a point is behind both faces and its foot beyond both. Around a bend of a surface it
         // is as well, where it is nearer than they touch.
-        // What has gone around the end of a surface is on its other side, which has its turn; from this one it would be pushed through.
-        let is_past_end = self.faces.is_two_sided(old) && left.is_at_border(self.faces.borders_of(old));
+        let is_past_end = self.is_past_end(point, old, &left);
         let deep = behind && !is_past_end && left.gap < 0.0 && left.outside <= 2.0 * left.gap.abs();
         let flat = as_it_was.filter(|_| deep);
         let around = || self.held_around(point, old, tolerated);
         if rises { flat.or_else(around) } else { around().or(flat) }
+    }
+
+    /// Whether a point of a solid has gone around the end of a surface, no nearer to that than they touch: what is on the other side then has its turn,
+    /// and from this one it would be pushed through. Nodes of surfaces are held as they were: in folds of triangles one would go through else.
+    fn is_past_end(&self, point: u32, old: u32, left: &Projection) -> bool {
+        let may_be = self.faces.is_two_sided(old) && !self.faces.is_on_surface(point);
+        may_be && left.is_at_border(self.faces.borders_of(old)) && {
+            let from_end = left.seen_from_border(&self.faces.end(old, self.motion), self.motion.end(point));
+            from_end.gap >= self.faces.distance(point, old)
+        }
     }
 
     /// The face around one that a point has left to which it has gone on, if any.
@@ -196,8 +205,9 @@ impl NodeFaceCheck<'_> {
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
                 let behind = (-old.projection.gap).max(0.0);
                 let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
-                // What overlaps in the mesh does so behind the faces beside as well, which hardly fold where a body is pressed.
-                let tolerated = old.tolerated;
+                // What overlaps in the mesh does so behind the faces beside as well, which hardly fold where a solid is pressed. In folds of surfaces
+                // what one leaf tolerates would let a node through another.
+                let tolerated = if self.faces.is_two_sided(face) { 0.0 } else { old.tolerated };
                 if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, tolerated));
                 }
