@@ -240,32 +240,49 @@ fn overlaps_too_deep_to_be_taken_out_are_told() {
     assert!(told.contains("18 nodes") && told.contains("4.0000e-3"), "{told}");
 }
 
+/// Height at which the ridge of the second knife lies on that of the first.
+const LEVEL: f64 = 2.0 * std::f64::consts::FRAC_1_SQRT_2;
+
+/// Two knives whose ridges cross: the upper one, of so many elements, is turned about the vertical by an angle in degrees and moved.
+fn knives(elements: &str, turn: f64, [x, y, z]: [f64; 3]) -> Mesh {
+    recipe(&format!(
+        "TITLE\n knives\nBOX, 1, -1., -0.5, -0.5, 2., 1., 1., 4, 2, 2\nROTATE, 1, X, 45.\nBOX, 2, -0.5, -1., -0.5, 1., 2., 1., {elements}\n\
+         ROTATE, 2, Y, 45.\nROTATE, 2, Z, {turn:?}\nTRANSLATE, 2, {x:?}, {y:?}, {z:?}\n"
+    ))
+}
+
+/// A deck in which the upper knife begins at a velocity; the speed of sound is 116.
+fn knives_deck([x, y, z]: [f64; 3], [end, plots]: [f64; 2], more: &str) -> String {
+    format!(
+        "TITLE\n knives\nTERMINATION TIME, {end:?}\nPLOT TIME, {plots:?}\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nCONTACT MATERIAL\n\
+         {more}INITIAL VELOCITY MATERIAL, 2, {x:?}, {y:?}, {z:?}\n{}{}",
+        elastic(1, 1000., 1e7, 0.3),
+        elastic(2, 1000., 1e7, 0.3)
+    )
+}
+
+/// Asserts that two and three ranks have the bits of a run on one.
+#[track_caller]
+fn same_on_ranks(case: &str, run: &Run, (deck, mesh): (&str, &Mesh)) {
+    for ranks in [2, 3] {
+        assert!(bits(&run_on(ranks, deck, mesh), mesh) == bits(run, mesh), "{case} are others on {ranks} ranks");
+    }
+}
+
 /// Two knives that cross where their meshes have nodes, or near them. Those of the first struck the flank of the other, slid off to the side, and
 /// the edges went through: by 0.35 of a face.
 #[test]
 fn knives_that_cross_near_nodes_hold_each_other() {
-    let height = 2.0 * std::f64::consts::FRAC_1_SQRT_2 + 0.01;
-    let deck = format!(
-        "TITLE\n knives\nTERMINATION TIME, 0.13\nPLOT TIME, 0.01\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nCONTACT MATERIAL\n\
-         INITIAL VELOCITY MATERIAL, 2, 0., 0., -3.\n{}{}",
-        elastic(1, 1000., 1e7, 0.3),
-        elastic(2, 1000., 1e7, 0.3)
-    );
+    let deck = knives_deck([0., 0., -3.], [0.13, 0.01], "");
     for [x, y] in [[0.0, 0.0], [0.0, 0.12], [5e-4, 0.12], [0.12, 0.003], [0.01, -0.01], [0.03, 0.12], [0.12, 0.12]] {
-        let mesh = recipe(&format!(
-            "TITLE\n knives\nBOX, 1, -1., -0.5, -0.5, 2., 1., 1., 4, 2, 2\nROTATE, 1, X, 45.\n\
-             BOX, 2, -0.5, -1., -0.5, 1., 2., 1., 2, 4, 2\nROTATE, 2, Y, 45.\nTRANSLATE, 2, {x:?}, {y:?}, {height:?}\n"
-        ));
+        let mesh = knives("2, 4, 2", 0.0, [x, y, LEVEL + 0.01]);
         let run = run(&deck, &mesh);
         let case = format!("knives at {x}, {y}");
         nothing_deeper(&case, &run, (&mesh, &Skin::new(&mesh)), [0.005, 0.005]);
         // Equal bodies that meet centrally exchange their momentum, less what goes on as vibration; what went through kept half of it.
         let falls = mean_velocity(run.end(), &nodes_of(&mesh, 2))[2];
         between(&case, "velocity after, of -3", falls, -0.3, 0.0);
-        for ranks in [2, 3] {
-            let other = run_on(ranks, &deck, &mesh);
-            assert!(bits(&other, &mesh) == bits(&run, &mesh), "{case} are others on {ranks} ranks");
-        }
+        same_on_ranks(&case, &run, (&deck, &mesh));
     }
 }
 
@@ -273,29 +290,17 @@ fn knives_that_cross_near_nodes_hold_each_other() {
 /// with its own edge but for round-off, its flank stopped that node: a hundredth of the speed was lost at each, and it rose.
 #[test]
 fn a_knife_slides_along_a_knife_past_its_nodes() {
-    let height = 2.0 * std::f64::consts::FRAC_1_SQRT_2;
     for (y, turn, rigid) in
         [(0.0, 0.0, ""), (0.1, 30.0, ""), (0.1, 0.0, "RIGID BODY, 2\n"), (0.0, 30.0, "RIGID BODY, 2\n")]
     {
-        let deck = format!(
-            "TITLE\n knives\nTERMINATION TIME, 0.5\nPLOT TIME, 0.1\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nCONTACT MATERIAL\n\
-             {rigid}INITIAL VELOCITY MATERIAL, 2, 1., 0., 0.\n{}{}",
-            elastic(1, 1000., 1e7, 0.3),
-            elastic(2, 1000., 1e7, 0.3)
-        );
-        let mesh = recipe(&format!(
-            "TITLE\n knives\nBOX, 1, -1., -0.5, -0.5, 2., 1., 1., 4, 2, 2\nROTATE, 1, X, 45.\n\
-             BOX, 2, -0.5, -1., -0.5, 1., 2., 1., 2, 4, 2\nROTATE, 2, Y, 45.\nROTATE, 2, Z, {turn:?}\nTRANSLATE, 2, 0.1, {y:?}, {height:?}\n"
-        ));
+        let deck = knives_deck([1., 0., 0.], [0.5, 0.1], rigid);
+        let mesh = knives("2, 4, 2", turn, [0.1, y, LEVEL]);
         let run = run(&deck, &mesh);
         // From x = 0.1 to 0.6, past the node at 0.5; round-off of the mesh is what is left.
         let [x, y, z] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
         let off = (x - 1.0).abs().max(y.abs()).max(z.abs());
         assert!(off < 1e-9, "turned by {turn}, {rigid}: {x} {y} {z}");
-        for ranks in [2, 3] {
-            let other = run_on(ranks, &deck, &mesh);
-            assert!(bits(&other, &mesh) == bits(&run, &mesh), "turned by {turn}, {rigid}: others on {ranks} ranks");
-        }
+        same_on_ranks(&format!("knives turned by {turn}, {rigid}"), &run, (&deck, &mesh));
     }
 }
 
@@ -304,28 +309,15 @@ fn a_knife_slides_along_a_knife_past_its_nodes() {
 /// by up to half an element.
 #[test]
 fn knives_that_bend_each_other_hand_the_touch_on() {
-    let height = 2.0 * std::f64::consts::FRAC_1_SQRT_2 + 0.01;
-    let deck = format!(
-        "TITLE\n knives\nTERMINATION TIME, 0.08\nPLOT TIME, 0.004\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nCONTACT MATERIAL\n\
-         INITIAL VELOCITY MATERIAL, 2, 0., 0., -10.\n{}{}",
-        elastic(1, 1000., 1e7, 0.3),
-        elastic(2, 1000., 1e7, 0.3)
-    );
+    let deck = knives_deck([0., 0., -10.], [0.08, 0.004], "");
     for ([x, y], turn, elements) in
         [([0.1, 1e-4], 0.0, "2, 5, 2"), ([0.25, 0.01], 30.0, "3, 6, 3"), ([-0.5, 0.25], 10.0, "2, 4, 2")]
     {
-        let mesh = recipe(&format!(
-            "TITLE\n knives\nBOX, 1, -1., -0.5, -0.5, 2., 1., 1., 4, 2, 2\nROTATE, 1, X, 45.\nBOX, 2, -0.5, -1., -0.5, 1., 2., 1., {elements}\n\
-             ROTATE, 2, Y, 45.\nROTATE, 2, Z, {turn:?}\nTRANSLATE, 2, {x:?}, {y:?}, {height:?}\n"
-        ));
+        let mesh = knives(elements, turn, [x, y, LEVEL + 0.01]);
         let run = run(&deck, &mesh);
+        let case = format!("knives at {x}, {y}");
         // Five hundredths are what edges may sink in by; where flanks are bent like this, lines of theirs do by 3.5.
-        nothing_deeper(&format!("knives at {x}, {y}"), &run, (&mesh, &Skin::new(&mesh)), [0.01, 0.05]);
-        for ranks in [2, 3] {
-            assert!(
-                bits(&run_on(ranks, &deck, &mesh), &mesh) == bits(&run, &mesh),
-                "{x}, {y}: others on {ranks} ranks"
-            );
-        }
+        nothing_deeper(&case, &run, (&mesh, &Skin::new(&mesh)), [0.01, 0.05]);
+        same_on_ranks(&case, &run, (&deck, &mesh));
     }
 }

@@ -1,10 +1,15 @@
 //! Which bodies may overlap in the mesh, and where: in what the boxes around two of them have in common.
 
-use super::initial_overlap::{STUCK, bodies_of};
+use super::behind::behind;
+use super::initial_overlap::{STUCK, bodies_of, stand_still};
+use crate::mesh::Mesh;
+use crate::model::Model;
 use crate::solver::Body;
+use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::Layout;
+use crate::solver::contact::surface::pairings::Pairings;
 use std::collections::BTreeMap;
 
 /// Bodies are what shares nodes. Bricks that lie upon each other have no room in common, nor have a body and the air around it, so
@@ -53,6 +58,15 @@ impl BodyPairs {
     /// The body of a node of the mesh.
     pub fn body(&self, node: u32) -> u32 {
         self.of_node[node as usize]
+    }
+
+    /// Points that contact knows to be behind faces, each with the body of the face.
+    pub fn known(&self, (mesh, model): (&Mesh, &Model), body: &Body, layout: &Layout) -> Vec<(u32, u32)> {
+        let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+        stand_still(&mut motion, body, layout);
+        let known = behind(layout, &Pairings::new(mesh, model, body), &motion).into_iter();
+        let body_of = |face: u32| self.body(layout.nodes[layout.faces.corners[face as usize][0] as usize]);
+        known.map(|(point, contact, _)| (point, body_of(contact.face))).collect()
     }
 
     /// Whether a box of a body reaches into a room that the body has in common with another.

@@ -1,20 +1,17 @@
 //! Elements that begin inside other bodies without any node that contact knows to be inside: the same body twice at one place, or one
 //! that lies wholly in a large element of another.
 
-use super::behind::behind;
 use super::body_pairs::BodyPairs;
-use super::initial_overlap::{is_inside, solid_elements, stand_still};
+use super::initial_overlap::{is_inside, solid_elements};
 use super::unheld::{Place, Unheld};
 use crate::mesh::check::hexahedron_volume;
 use crate::mesh::{Mesh, plane};
 use crate::model::Model;
 use crate::solver::Body;
 use crate::solver::body::centroid;
-use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
-use crate::solver::contact::surface::pairings::Pairings;
 use std::collections::BTreeSet;
 
 /// A solid element where bodies may overlap: its number in canonical order, its nodes and its corners.
@@ -56,7 +53,8 @@ pub fn engulfed(
     if found.is_empty() {
         return Unheld::default();
     }
-    let known = known_bodies(mesh, model, body, layout, pairs);
+    let known = pairs.known((mesh, model), body, layout).into_iter();
+    let known: BTreeSet<(u32, u32)> = known.map(|(point, other)| (layout.nodes[point as usize], other)).collect();
     let is_known = |node: &u32, other: u32| known.contains(&(*node, other));
     found.retain(|(inner, other)| !inner.1.iter().any(|node| is_known(node, pairs.body(other.1[0]))));
     let ids = |(inner, other): &(&Element, &Element)| [inner, other].map(|of| mesh.blocks[block(of) as usize].id);
@@ -68,13 +66,4 @@ pub fn engulfed(
         deepest: 0.0,
     });
     Unheld::new(found.len(), found.iter().map(ids), worst)
-}
-
-/// Nodes behind faces, each with the body of the face.
-fn known_bodies(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout, pairs: &BodyPairs) -> BTreeSet<(u32, u32)> {
-    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
-    stand_still(&mut motion, body, layout);
-    let behind = behind(layout, &Pairings::new(mesh, model, body), &motion).into_iter();
-    let body_of = |face: u32| pairs.body(layout.nodes[layout.faces.corners[face as usize][0] as usize]);
-    behind.map(|(point, contact, _)| (layout.nodes[point as usize], body_of(contact.face))).collect()
 }

@@ -126,26 +126,24 @@ impl Overlap {
             )
         })
     }
-}
 
-impl Overlap {
     /// Why a mesh is refused whose overlaps contact does not see: always where elements are inside others, else where they must go.
     fn refusal_of_unheld(&self, mesh: &Mesh) -> Option<String> {
-        let elements = Told::of(&self.engulfed, mesh).map(|told| (told.elements_in_words(), ADVICE_ON_ELEMENTS));
-        let edges = || {
-            let must_go = Some(&self.pierced).filter(|pierced| pierced.must_go)?;
-            Some((Told::of(must_go, mesh)?.edges_in_words(), ADVICE_ON_EDGES))
-        };
-        let (words, advice) = elements.or_else(edges)?;
-        Some(format!("error: bodies overlap in the mesh: {words}\nhelp: {advice}"))
+        let [edges, elements] = self.unheld(mesh);
+        let told = elements.or(edges.filter(|_| self.pierced.must_go))?;
+        Some(format!("error: bodies overlap in the mesh: {told}"))
     }
 
     /// Warnings of the overlaps that contact does not see.
     pub fn warnings_of_unheld(&self, mesh: &Mesh) -> Vec<String> {
+        self.unheld(mesh).into_iter().flatten().map(|told| format!("warning: {told}")).collect()
+    }
+
+    /// What is said of edges through faces and of elements inside bodies, with what to try.
+    fn unheld(&self, mesh: &Mesh) -> [Option<String>; 2] {
         let edges = Told::of(&self.pierced, mesh).map(|told| (told.edges_in_words(), ADVICE_ON_EDGES));
         let elements = Told::of(&self.engulfed, mesh).map(|told| (told.elements_in_words(), ADVICE_ON_ELEMENTS));
-        let in_words = |(words, advice)| format!("warning: {words}\nhelp: {advice}");
-        edges.into_iter().chain(elements).map(in_words).collect()
+        [edges, elements].map(|told| told.map(|(words, advice)| format!("{words}\nhelp: {advice}")))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Edges that begin going through faces of other bodies, where no node is inside: contact, which holds nodes and what comes together,
 //! sees nothing of such an overlap.
 
-use super::behind::behind;
 use super::body_pairs::{BodyPairs, box_of};
 use super::edge_edge::lines::Crossing;
 use super::edge_edge::{self, SUNK};
@@ -11,13 +10,11 @@ use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::solver::Body;
-use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection::{self, area_normal, centre};
 use crate::solver::contact::geometry::strip;
 use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::Layout;
-use crate::solver::contact::surface::pairings::Pairings;
 use std::collections::BTreeMap;
 
 /// Both ends of an edge must be farther from a face than this part of it, and than the round-off of coordinates in single precision, in which
@@ -277,14 +274,11 @@ impl Scene<'_> {
         if found.is_empty() {
             return;
         }
-        let mut motion = NodeMotion::new(self.layout.nodes.len(), self.layout.origin);
-        super::initial_overlap::stand_still(&mut motion, self.body, self.layout);
-        let known = behind(self.layout, &Pairings::new(self.mesh, self.model, self.body), &motion);
         let of_face = |face: u32| self.body_of(self.layout.faces.corners[face as usize][0]);
         let sorted = |a: u32, b: u32| [a.min(b), a.max(b)];
         let mut places: BTreeMap<[u32; 2], Vec<[f64; 3]>> = BTreeMap::new();
-        for (point, contact, _) in known {
-            places.entry(sorted(self.body_of(point), of_face(contact.face))).or_default().push(self.at(point));
+        for (point, other) in self.pairs.known((self.mesh, self.model), self.body, self.layout) {
+            places.entry(sorted(self.body_of(point), other)).or_default().push(self.at(point));
         }
         let length = |a: [f64; 3], b: [f64; 3]| {
             let way = subtract(a, b);

@@ -8,7 +8,7 @@
 use super::faces::Faces;
 use super::motion::NodeMotion;
 use super::projection::{area_normal, centre};
-use crate::common::vector::{dot, subtract};
+use crate::common::vector::{dot, scaled, subtract};
 
 /// Largest cosine between the normals at an edge that stands out: 30 degrees.
 const SHARP: f64 = 0.866;
@@ -33,8 +33,8 @@ const FLATTENED: f64 = 0.7;
 /// folds, where their normal says little and nodes hold them.
 pub const CLEAR_CROSSING: f64 = 0.31;
 
-/// Least cosine between two edges of which one goes on where the other ends.
-pub const STRAIGHT: f64 = 0.8;
+/// Least cosine between two edges of which one goes on where the other ends, unless it bends out of the body.
+const STRAIGHT: f64 = 0.8;
 
 /// How the faces at an edge lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -231,32 +231,33 @@ fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
     (has_four_sides && !faces.is_two_sided(face)).then(|| [[a.min(c), a.max(c)], [b.min(d), b.max(d)]])
 }
 
-/// How an edge, from a point to its end, goes on there at the beginning of the step. `outwards` is a vector out of its body, of any length.
+/// How an edge along one vector is continued by one along another. `outwards` is a vector out of its body, of any length.
+pub fn bend(along: [f64; 3], onwards: [f64; 3], outwards: [f64; 3]) -> Onward {
+    let [length, next] = [along, onwards].map(|arm| dot(arm, arm).sqrt());
+    let cosine = dot(along, onwards);
+    if cosine <= 0.0 {
+        Onward::Ends
+    } else if dot(onwards, outwards) * length > dot(along, outwards) * next {
+        Onward::Upwards
+    } else if cosine > STRAIGHT * length * next {
+        Onward::Straight
+    } else {
+        Onward::Ends
+    }
+}
+
+/// How an edge, from a point to its end, goes on there at the beginning of the step: by that edge of the mesh which counts most.
 pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outwards: [f64; 3]) -> Onward {
-    let at = |point: u32| motion.start(point);
-    let along = subtract(at(end), at(from));
-    let (length, rise) = (dot(along, along).sqrt(), dot(along, outwards));
-    let to = |other: u32| {
-        let onwards = subtract(at(other), at(end));
-        let cosine = dot(along, onwards);
-        let (lengths, turn) = (length * dot(onwards, onwards).sqrt(), dot(onwards, outwards) * length);
-        match cosine > 0.0 {
-            true if turn * length > rise * lengths => Onward::Upwards,
-            true if cosine > STRAIGHT * lengths => Onward::Straight,
-            _ => Onward::Ends,
-        }
-    };
-    let of_face = |&face: &u32| {
+    let to = |other: u32| subtract(motion.start(other), motion.start(end));
+    let along = scaled(to(from), -1.0);
+    let neighbours = |&face: &u32| {
         let corners = faces.corners[face as usize];
-        let leaving = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
-        leaving.filter_map(move |[a, b]| match end {
-            _ if a == b => None,
-            _ if a == end => Some(b),
-            _ if b == end => Some(a),
-            _ => None,
-        })
+        let sides = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
+        let of_end = sides.filter(move |[a, b]| a != b && (*a == end || *b == end));
+        of_end.map(move |[a, b]| if a == end { b } else { a })
     };
-    faces.around(end).iter().flat_map(of_face).map(to).max().unwrap_or(Onward::Ends)
+    let bends = faces.around(end).iter().flat_map(neighbours).map(|other| bend(along, to(other), outwards));
+    bends.max().unwrap_or(Onward::Ends)
 }
 
 /// A face by its corners.

@@ -172,8 +172,12 @@ pub fn numbering(
     edges.dedup();
     let around = found.slave_nodes.iter().flat_map(|&point| faces.around(point).iter().copied());
     let met = plan.faces.list();
-    // So it is with nodes that come through faces at sharp borders, of which there are some where an element has two faces with a common edge.
-    let at_borders = met.iter().flat_map(|&face| {
+    let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
+    let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
+    // Where an edge ends, and what is beyond its ends, the faces there say: of those that may cross, and where edges hold, of sharp borders at which
+    // nodes may come through faces. An element has some where two of its faces have a common edge.
+    let at_ends = edges.iter().flat_map(|&edge| layout.edges[edge as usize].ends);
+    let at_borders = met.iter().filter(|_| !layout.edges.is_empty()).flat_map(|&face| {
         let corners = faces.corners[face as usize];
         let common = move |other: u32| {
             let ends = corners.into_iter().filter(move |corner| faces.corners[other as usize].contains(corner));
@@ -181,10 +185,6 @@ pub fn numbering(
         };
         faces.of_same_element(face).filter_map(common).flatten()
     });
-    let of_elements = met.iter().flat_map(|&face| faces.of_same_element(face));
-    let beside = edges.iter().flat_map(|&edge| layout.edges[edge as usize].faces);
-    // Where an edge ends, and what is beyond its ends, the faces there say.
-    let at_ends = edges.iter().flat_map(|&edge| layout.edges[edge as usize].ends);
     let beyond = at_ends.chain(at_borders).flat_map(|end| faces.around(end).iter().copied());
     for face in around.chain(of_elements).chain(beside).chain(beyond) {
         if chosen.choose(face) {

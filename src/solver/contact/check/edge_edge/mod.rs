@@ -166,10 +166,11 @@ impl EdgeCheck<'_> {
     /// Box around the path of an edge over the step.
     #[inline(always)]
     fn swept_box(&self, edge: u32) -> Box3 {
-        let points = self.edges[edge as usize].points(self.faces);
+        let edge = &self.edges[edge as usize];
+        let points = edge.points(self.faces);
         let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         // Loops over whole vectors: as closures they would be calls.
-        for point in if points[0] == points[2] { &points[..2] } else { &points[..] } {
+        for point in if edge.is_ridge() { &points[..] } else { &points[..2] } {
             for at in [self.motion.start_four(*point), self.motion.end_four(*point)] {
                 for i in 0..4 {
                     low[i] = smaller(at[i], low[i]);

@@ -2,7 +2,7 @@
 
 use super::NodeFaceCheck;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
-use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Onward, STRAIGHT, Shape};
+use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Onward, Shape};
 use crate::solver::contact::geometry::projection;
 
 /// A node that comes through a face nearer to its border than this part of the face's size is level with the border but for round-off, and
@@ -26,62 +26,66 @@ impl NodeFaceCheck<'_> {
         };
         let corners = self.faces.corners[face as usize];
         let Some(place) = projection::project(&corners.map(at), at(point)) else { return false };
-        let [a, b] = place.edge().map(|i| corners[i]);
-        let along = subtract(at(b), at(a));
-        let arm = cross(subtract(at(point), at(a)), along);
-        let level = LEVEL * self.faces.size[face as usize];
-        if dot(arm, arm) > level * level * dot(along, along) {
+        let border = place.edge().map(|i| corners[i]);
+        let [from, to] = border.map(at);
+        let (along, arm) = (subtract(to, from), subtract(at(point), from));
+        let (off, level) = (cross(arm, along), LEVEL * self.faces.size[face as usize]);
+        if dot(off, off) > level * level * dot(along, along) {
             return false;
         }
-        let is_ridge = |first: u32, second: u32| {
-            let side = |face: u32| edges::side(&self.faces.start(face, self.motion));
-            Shape::of(side(first), side(second), false) == Shape::StandsOut
+        let part = dot(arm, along) / dot(along, along);
+        let crosses = |ridge: [f64; 3]| {
+            let upright = cross(ridge, along);
+            let (square, push) = (dot(upright, upright), dot(place.normal, upright));
+            square > CLEAR_CROSSING * CLEAR_CROSSING * dot(ridge, ridge) * dot(along, along)
+                && push * push < SAME_PUSH * SAME_PUSH * square
         };
-        let has = |face: u32, point: u32| self.faces.corners[face as usize].contains(&point);
-        let part = dot(subtract(at(point), at(a)), along) / dot(along, along);
+        self.is_sharp_border(face, border, part) && self.is_on_ridge(point, at, crosses)
+    }
+
+    /// Whether one of the sides of a face is a sharp edge of its element, and goes on at an end if this part of it is near that.
+    fn is_sharp_border(&self, face: u32, [a, b]: [u32; 2], part: f64) -> bool {
         let normal = |face: u32| projection::area_normal(&self.faces.start(face, self.motion));
         let goes_on = |part: f64, ends: [u32; 2], outwards: [f64; 3]| {
             part > NEAR_END || edges::onward(self.faces, self.motion, ends, outwards) != Onward::Ends
         };
         let is_border = |other: u32| {
             let outwards = add(normal(face), normal(other));
-            has(other, a)
-                && has(other, b)
-                && is_ridge(face, other)
+            self.has(other, a)
+                && self.has(other, b)
+                && self.is_ridge(face, other)
                 && goes_on(part, [b, a], outwards)
                 && goes_on(1.0 - part, [a, b], outwards)
         };
-        if a == b || !self.beside(face).any(is_border) {
-            return false;
-        }
-        let crosses = |onwards: [f64; 3]| {
-            let upright = cross(onwards, along);
-            let square = dot(upright, upright);
-            let push = dot(place.normal, upright);
-            square > CLEAR_CROSSING * CLEAR_CROSSING * dot(onwards, onwards) * dot(along, along)
-                && push * push < SAME_PUSH * SAME_PUSH * square
-        };
-        // The ridges that leave the node: each lies between two of the faces around it.
+        a != b && self.beside(face).any(is_border)
+    }
+
+    /// Whether a point is in the middle of a sharp edge of its body, for both parts of which something holds.
+    fn is_on_ridge(&self, point: u32, at: impl Fn(u32) -> [f64; 3], holds: impl Fn([f64; 3]) -> bool) -> bool {
         let around = self.faces.around(point);
+        // Each part lies between two of the faces around the point.
         let mut ridges: Vec<[f64; 3]> = Vec::new();
         for (i, &first) in around.iter().enumerate() {
             for &second in &around[i + 1..] {
-                let shared =
-                    self.faces.corners[first as usize].into_iter().find(|&end| end != point && has(second, end));
-                if let Some(end) = shared.filter(|_| is_ridge(first, second)) {
-                    ridges.push(subtract(at(end), at(point)));
-                }
+                let corners = self.faces.corners[first as usize];
+                let shared = corners.into_iter().find(|&end| end != point && self.has(second, end));
+                ridges.extend(shared.filter(|_| self.is_ridge(first, second)).map(|end| subtract(at(end), at(point))));
             }
         }
-        // As in `edges::onward`: in a valley both parts are met before the node.
         let outwards = self.faces.point_normal(point, self.motion);
-        let goes_on = |a: &[f64; 3], b: &[f64; 3]| {
-            let (cosine, lengths) = (dot(*a, *b), [dot(*a, *a).sqrt(), dot(*b, *b).sqrt()]);
-            let is_valley = dot(*a, outwards) * lengths[1] + dot(*b, outwards) * lengths[0] > 0.0;
-            cosine < 0.0 && (is_valley || cosine < -STRAIGHT * lengths[0] * lengths[1])
-        };
-        let middle =
-            |(i, a): (usize, &[f64; 3])| ridges[i + 1..].iter().any(|b| goes_on(a, b) && crosses(*a) && crosses(*b));
-        ridges.iter().enumerate().any(middle)
+        let goes_on = |a: [f64; 3], b: [f64; 3]| edges::bend(scaled(a, -1.0), b, outwards) != Onward::Ends;
+        let is_middle =
+            |(i, &a): (usize, &[f64; 3])| ridges[i + 1..].iter().any(|&b| goes_on(a, b) && holds(a) && holds(b));
+        ridges.iter().enumerate().any(is_middle)
+    }
+
+    /// Whether two faces turn away from each other at the edge that they share.
+    fn is_ridge(&self, first: u32, second: u32) -> bool {
+        let [first, second] = [first, second].map(|face| edges::side(&self.faces.start(face, self.motion)));
+        Shape::of(first, second, false) == Shape::StandsOut
+    }
+
+    fn has(&self, face: u32, point: u32) -> bool {
+        self.faces.corners[face as usize].contains(&point)
     }
 }
