@@ -234,30 +234,48 @@ fn diagonals(face: u32, faces: &Faces) -> Option<[[u32; 2]; 2]> {
 /// How an edge along one vector is continued by one along another. `outwards` is a vector out of its body, of any length.
 pub fn bend(along: [f64; 3], onwards: [f64; 3], outwards: [f64; 3]) -> Onward {
     let [length, next] = [along, onwards].map(|arm| dot(arm, arm).sqrt());
-    let cosine = dot(along, onwards);
-    if cosine <= 0.0 {
+    if dot(along, onwards) <= 0.0 {
         Onward::Ends
     } else if dot(onwards, outwards) * length > dot(along, outwards) * next {
         Onward::Upwards
-    } else if cosine > STRAIGHT * length * next {
-        Onward::Straight
     } else {
-        Onward::Ends
+        straight(along, onwards)
     }
 }
 
-/// How an edge, from a point to its end, goes on there at the beginning of the step: by that edge of the mesh which counts most.
+/// The same, whether or not it is nearly straight.
+fn straight(along: [f64; 3], onwards: [f64; 3]) -> Onward {
+    let lengths = dot(along, along).sqrt() * dot(onwards, onwards).sqrt();
+    if dot(along, onwards) > STRAIGHT * lengths { Onward::Straight } else { Onward::Ends }
+}
+
+/// How an edge, from a point to its end, goes on there at the beginning of the step: by that edge of the mesh which counts most. Upwards only
+/// sharp ones lead: in folds, lines of the next leaf rise from every crease.
 pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outwards: [f64; 3]) -> Onward {
     let to = |other: u32| subtract(motion.start(other), motion.start(end));
     let along = scaled(to(from), -1.0);
-    let neighbours = |&face: &u32| {
+    let around = faces.around(end);
+    let is_sharp = |face: u32, other: u32| {
+        let mut beside = around.iter().filter(|&&next| next != face && faces.corners[next as usize].contains(&other));
+        beside.any(|&next| is_sharp_between(faces, motion, [face, next]))
+    };
+    let bends = around.iter().flat_map(|&face| {
         let corners = faces.corners[face as usize];
         let sides = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
         let of_end = sides.filter(move |[a, b]| a != b && (*a == end || *b == end));
-        of_end.map(move |[a, b]| if a == end { b } else { a })
+        of_end.map(move |[a, b]| (face, if a == end { b } else { a }))
+    });
+    let how = |(face, other): (u32, u32)| match bend(along, to(other), outwards) {
+        Onward::Upwards if !is_sharp(face, other) => straight(along, to(other)),
+        bend => bend,
     };
-    let bends = faces.around(end).iter().flat_map(neighbours).map(|other| bend(along, to(other), outwards));
-    bends.max().unwrap_or(Onward::Ends)
+    bends.map(how).max().unwrap_or(Onward::Ends)
+}
+
+/// Whether two faces turn away from each other at the edge that they share, at the beginning of the step.
+pub fn is_sharp_between(faces: &Faces, motion: &NodeMotion, both: [u32; 2]) -> bool {
+    let [first, second] = both.map(|face| side(&faces.start(face, motion)));
+    Shape::of(first, second, false) == Shape::StandsOut
 }
 
 /// A face by its corners.

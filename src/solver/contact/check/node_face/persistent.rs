@@ -1,5 +1,6 @@
 //! Nodes that faces have held before: whether they still do, and to which faces around them a node has gone on.
 
+use super::super::FLUSH;
 use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
 use crate::common::vector::{dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
@@ -205,9 +206,9 @@ impl NodeFaceCheck<'_> {
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
                 let behind = (-old.projection.gap).max(0.0);
                 let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
-                // What overlaps in the mesh does so behind the faces beside as well, which hardly fold where a solid is pressed. In folds of surfaces
-                // what one leaf tolerates would let a node through another.
-                let tolerated = if self.faces.is_two_sided(face) { 0.0 } else { old.tolerated };
+                // What overlaps in the mesh does so as well behind faces beside that hardly fold, where a solid is pressed.
+                let goes_on = dot(old.projection.normal, projection.normal) > FLUSH;
+                let tolerated = if goes_on && !self.faces.is_two_sided(face) { old.tolerated } else { 0.0 };
                 if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, tolerated));
                 }

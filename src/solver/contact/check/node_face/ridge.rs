@@ -2,7 +2,7 @@
 
 use super::NodeFaceCheck;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
-use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Onward, Shape};
+use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Onward};
 use crate::solver::contact::geometry::projection;
 
 /// A node that comes through a face nearer to its border than this part of the face's size is level with the border but for round-off, and
@@ -53,7 +53,7 @@ impl NodeFaceCheck<'_> {
             let outwards = add(normal(face), normal(other));
             self.has(other, a)
                 && self.has(other, b)
-                && self.is_ridge(face, other)
+                && edges::is_sharp_between(self.faces, self.motion, [face, other])
                 && goes_on(part, [b, a], outwards)
                 && goes_on(1.0 - part, [a, b], outwards)
         };
@@ -69,7 +69,11 @@ impl NodeFaceCheck<'_> {
             for &second in &around[i + 1..] {
                 let corners = self.faces.corners[first as usize];
                 let shared = corners.into_iter().find(|&end| end != point && self.has(second, end));
-                ridges.extend(shared.filter(|_| self.is_ridge(first, second)).map(|end| subtract(at(end), at(point))));
+                ridges.extend(
+                    shared
+                        .filter(|_| edges::is_sharp_between(self.faces, self.motion, [first, second]))
+                        .map(|end| subtract(at(end), at(point))),
+                );
             }
         }
         let outwards = self.faces.point_normal(point, self.motion);
@@ -77,12 +81,6 @@ impl NodeFaceCheck<'_> {
         let is_middle =
             |(i, &a): (usize, &[f64; 3])| ridges[i + 1..].iter().any(|&b| goes_on(a, b) && holds(a) && holds(b));
         ridges.iter().enumerate().any(is_middle)
-    }
-
-    /// Whether two faces turn away from each other at the edge that they share.
-    fn is_ridge(&self, first: u32, second: u32) -> bool {
-        let [first, second] = [first, second].map(|face| edges::side(&self.faces.start(face, self.motion)));
-        Shape::of(first, second, false) == Shape::StandsOut
     }
 
     fn has(&self, face: u32, point: u32) -> bool {
