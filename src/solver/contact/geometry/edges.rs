@@ -249,27 +249,38 @@ fn straight(along: [f64; 3], onwards: [f64; 3]) -> Onward {
     if dot(along, onwards) > STRAIGHT * lengths { Onward::Straight } else { Onward::Ends }
 }
 
-/// How an edge, from a point to its end, goes on there at the beginning of the step: by that edge of the mesh which counts most. Upwards only
-/// sharp ones lead: in folds, lines of the next leaf rise from every crease.
+/// How an edge, from a point to its end, goes on there at the beginning of the step: by that edge of the mesh which counts most. Upwards leads
+/// only a sharp one, if it is the only one there beside this: where more meet is a corner, and held by all of them it could not get away.
 pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outwards: [f64; 3]) -> Onward {
     let to = |other: u32| subtract(motion.start(other), motion.start(end));
     let along = scaled(to(from), -1.0);
     let around = faces.around(end);
-    let is_sharp = |face: u32, other: u32| {
-        let mut beside = around.iter().filter(|&&next| next != face && faces.corners[next as usize].contains(&other));
-        beside.any(|&next| is_sharp_between(faces, motion, [face, next]))
+    let mut others: Vec<u32> = around.iter().flat_map(|&face| beside(faces.corners[face as usize], end)).collect();
+    others.sort_unstable();
+    others.dedup();
+    others.retain(|&other| other != from);
+    let is_sharp = |other: &&u32| {
+        let has = |face: &&u32| faces.corners[**face as usize].contains(*other);
+        let mut both = around.iter().filter(has);
+        let (first, second) = (both.next(), both.next());
+        first.zip(second).is_some_and(|(&first, &second)| is_sharp_between(faces, motion, [first, second]))
     };
-    let bends = around.iter().flat_map(|&face| {
-        let corners = faces.corners[face as usize];
-        let sides = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
-        let of_end = sides.filter(move |[a, b]| a != b && (*a == end || *b == end));
-        of_end.map(move |[a, b]| (face, if a == end { b } else { a }))
-    });
-    let how = |(face, other): (u32, u32)| match bend(along, to(other), outwards) {
-        Onward::Upwards if !is_sharp(face, other) => straight(along, to(other)),
-        bend => bend,
-    };
-    bends.map(how).max().unwrap_or(Onward::Ends)
+    let best = others.iter().map(|&other| bend(along, to(other), outwards)).max().unwrap_or(Onward::Ends);
+    if best != Onward::Upwards {
+        return best;
+    }
+    let mut sharp = others.iter().filter(is_sharp);
+    match (sharp.next(), sharp.next()) {
+        (Some(&only), None) => bend(along, to(only), outwards),
+        _ => others.iter().map(|&other| straight(along, to(other))).max().unwrap_or(Onward::Ends),
+    }
+}
+
+/// Corners of a face beside one of them.
+fn beside(corners: [u32; 4], point: u32) -> impl Iterator<Item = u32> {
+    let sides = (0..4).map(move |i| [corners[i], corners[(i + 1) % 4]]);
+    let of_point = sides.filter(move |[a, b]| a != b && (*a == point || *b == point));
+    of_point.map(move |[a, b]| if a == point { b } else { a })
 }
 
 /// Whether two faces turn away from each other at the edge that they share, at the beginning of the step.

@@ -26,21 +26,24 @@ impl NodeFaceCheck<'_> {
         };
         let corners = self.faces.corners[face as usize];
         let Some(place) = projection::project(&corners.map(at), at(point)) else { return false };
-        let border = place.edge().map(|i| corners[i]);
-        let [from, to] = border.map(at);
-        let (along, arm) = (subtract(to, from), subtract(at(point), from));
-        let (off, level) = (cross(arm, along), LEVEL * self.faces.size[face as usize]);
-        if dot(off, off) > level * level * dot(along, along) {
-            return false;
-        }
-        let part = dot(arm, along) / dot(along, along);
-        let crosses = |ridge: [f64; 3]| {
-            let upright = cross(ridge, along);
-            let (square, push) = (dot(upright, upright), dot(place.normal, upright));
-            square > CLEAR_CROSSING * CLEAR_CROSSING * dot(ridge, ridge) * dot(along, along)
-                && push * push < SAME_PUSH * SAME_PUSH * square
-        };
-        self.is_sharp_border(face, border, part) && self.is_on_ridge(point, at, crosses)
+        let level = LEVEL * self.faces.size[face as usize];
+        // At a corner two sides are as near.
+        (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).any(|border| {
+            let [from, to] = border.map(at);
+            let (along, arm) = (subtract(to, from), subtract(at(point), from));
+            let (off, square) = (cross(arm, along), dot(along, along));
+            let (part, near) = (dot(arm, along) / square, level / square.sqrt());
+            let crosses = |ridge: [f64; 3]| {
+                let upright = cross(ridge, along);
+                let (of_upright, push) = (dot(upright, upright), dot(place.normal, upright));
+                of_upright > CLEAR_CROSSING * CLEAR_CROSSING * dot(ridge, ridge) * square
+                    && push * push < SAME_PUSH * SAME_PUSH * of_upright
+            };
+            dot(off, off) <= level * level * square
+                && (-near..=1.0 + near).contains(&part)
+                && self.is_sharp_border(face, border, part)
+                && self.is_on_ridge(point, at, crosses)
+        })
     }
 
     /// Whether one of the sides of a face is a sharp edge of its element, and goes on at an end if this part of it is near that.
