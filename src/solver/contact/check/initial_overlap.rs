@@ -2,6 +2,7 @@
 
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use super::overlap::{Crowded, DeepOverlap, Overlap, Squeezed, Stuck};
 use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
@@ -38,118 +39,14 @@ const CLEARLY: f64 = 0.01;
 /// The same where overlaps stay: contact knows points as deep as half the element.
 const KNOWN: f64 = 1.0;
 
+/// Nodes of an element that have come as near to each other as this part of their distance before are at the same place.
+const TOGETHER: f64 = 1e-3;
+
 /// Of so many nodes that are left inside elements the depth is measured.
 const MEASURED: usize = 1000;
 
 /// Rounds of finding overlaps and moving nodes: what moves may overlap elsewhere.
 const ROUNDS: usize = 10;
-
-/// What was moved, and what was not.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Overlap {
-    /// Number of nodes moved.
-    pub nodes: usize,
-    /// Farthest move, a length.
-    pub farthest: f64,
-    /// What is left deep inside.
-    pub deep: DeepOverlap,
-    /// What could not be moved out, though it is not deep.
-    pub stuck: Stuck,
-    /// What is to be pushed apart through strain between rigid bodies, which have none.
-    pub rigid: Stuck,
-    /// Where the mesh leaves less room than thicknesses.
-    pub crowded: Crowded,
-}
-
-/// Nodes that begin nearer to faces than their thicknesses allow. Contact holds them as near as they are, and farther once they
-/// have been farther.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Crowded {
-    /// Their number.
-    pub nodes: usize,
-    /// The least room, as a part of the distance at which they would touch.
-    pub least: f64,
-    /// The node with the least room, from 0 in the mesh file.
-    pub node: u32,
-}
-
-impl Crowded {
-    /// Tells the user, where there are any.
-    pub fn note(&self, mesh: &Mesh) -> Option<String> {
-        let Crowded { nodes, least, node } = *self;
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (nodes > 0).then(|| {
-            format!(
-                "note: {nodes} nodes begin nearer to shells or bars than their thickness allows; contact uses what room there is, \
-                 at least {:.1} % of it: node {} at {x:.4e} {y:.4e} {z:.4e}",
-                100.0 * least,
-                mesh.node_ids[node as usize]
-            )
-        })
-    }
-}
-
-/// Overlaps that moving nodes cannot remove, because the deck holds them or others are in the way.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stuck {
-    /// Number of nodes behind faces.
-    pub nodes: usize,
-    /// The deepest, a length.
-    pub deepest: f64,
-    /// Its node, from 0 in the mesh file.
-    pub node: u32,
-}
-
-impl Overlap {
-    /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
-    pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
-        let Overlap { deep, stuck, rigid, .. } = *self;
-        let ((count, deepest, node), why) = if deep.nodes > 0 {
-            ((deep.nodes, deep.deepest, deep.node), "deeper than half an element")
-        } else if rigid.nodes > 0 {
-            ((rigid.nodes, rigid.deepest, rigid.node), "between rigid bodies, which no stress deforms")
-        } else {
-            ((stuck.nodes, stuck.deepest, stuck.node), "held by the deck or between others")
-        };
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (count > 0).then(|| {
-            format!(
-                "error: bodies overlap in the mesh, and {count} nodes cannot be moved out, being {why}: the deepest is node {} at \
-                 {x:.4e} {y:.4e} {z:.4e}, {deepest:.4e} below the surface\n\
-                 help: mend the mesh, or say CONTACT OVERLAP, REMOVE or KEEP in the deck to run with what is left",
-                mesh.node_ids[node as usize]
-            )
-        })
-    }
-}
-
-/// Nodes that remain inside elements that are not theirs: too deep to say which way is out. Contact does not see them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct DeepOverlap {
-    /// Their number.
-    pub nodes: usize,
-    /// Distance of the deepest from the nearest face of the outside, a length.
-    pub deepest: f64,
-    /// The deepest, from 0 in the mesh file.
-    pub node: u32,
-    /// The element in which it is, from 0 in the mesh file.
-    pub element: u32,
-}
-
-impl DeepOverlap {
-    /// Tells the user, where there are any.
-    pub fn warning(&self, mesh: &Mesh) -> Option<String> {
-        let DeepOverlap { nodes, deepest, node, element } = *self;
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (nodes > 0).then(|| {
-            format!(
-                "warning: {nodes} nodes of contact surfaces begin deep inside other elements and are not held by contact there, \
-                 the deepest {deepest:.4e} below the surface: node {} at {x:.4e} {y:.4e} {z:.4e} in element {}",
-                mesh.node_ids[node as usize], mesh.element_ids[element as usize]
-            )
-        })
-    }
-}
 
 /// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition. Where the room is less
 /// than thicknesses, the body is told.
@@ -215,12 +112,9 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
 fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
-    let left = || Overlap { deep: deep_overlap(body, &layout, KNOWN), ..Default::default() };
     match model.contact.control.overlap {
-        ContactOverlap::Keep => return left(),
-        ContactOverlap::Stress(_) => {
-            return Overlap { rigid: between_rigid_bodies(mesh, model, body, &layout), ..left() };
-        }
+        ContactOverlap::Keep => return Overlap { rigid: Stuck::default(), ..kept(mesh, model, body, &layout) },
+        ContactOverlap::Stress(_) => return kept(mesh, model, body, &layout),
         ContactOverlap::Refuse | ContactOverlap::Remove => (),
     }
     let pairings = Pairings::new(mesh, model, body);
@@ -253,20 +147,46 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
             positions[node] = within(there, before[node], farthest[point]);
         }
     }
-    Overlap { deep: deep_overlap(body, &layout, CLEARLY), stuck, ..moved(&before, body, &layout) }
+    let (deep, squeezed) = (deep_overlap(body, &layout, CLEARLY), squeezed(&before, body));
+    Overlap { deep, stuck, squeezed, ..moved(&before, body, &layout) }
 }
 
-/// Overlaps of rigid bodies with each other.
-fn between_rigid_bodies(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Stuck {
-    if body.block_body.iter().all(Option::is_none) {
-        return Stuck::default();
-    }
+/// Overlaps that stay where they are, those of rigid bodies with each other once more.
+fn kept(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Overlap {
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     stand_still(&mut motion, body, layout);
     let mut constraints = overlaps(layout, &Pairings::new(mesh, model, body), &motion);
+    let kept = Stuck::of(&constraints, layout);
     let is_rigid = of_rigid_bodies(mesh, body, layout);
     constraints.retain(|c| c.parts().all(|(point, _)| is_rigid[point]));
-    Stuck::of(&constraints, layout)
+    Overlap {
+        deep: deep_overlap(body, layout, KNOWN),
+        kept,
+        rigid: Stuck::of(&constraints, layout),
+        ..Default::default()
+    }
+}
+
+/// Elements two of whose nodes have come together, where they were `before`.
+fn squeezed(before: &[[f64; 3]], body: &Body) -> Squeezed {
+    let has_moved = |&node: &u32| body.positions[node as usize] != before[node as usize];
+    let apart = |at: &[[f64; 3]], a: u32, b: u32| {
+        let between = subtract(at[a as usize], at[b as usize]);
+        dot(between, between).sqrt()
+    };
+    let mut squeezed = Squeezed::default();
+    for (nodes, &element) in body.element_nodes.iter().zip(body.element_order.iter()) {
+        let Some(&node) = nodes.iter().find(|node| has_moved(node)) else { continue };
+        let pairs = nodes.iter().enumerate().flat_map(|(i, &a)| nodes[..i].iter().map(move |&b| (a, b)));
+        let meet = |(a, b): (u32, u32)| apart(&body.positions, a, b) < TOGETHER * apart(before, a, b);
+        if pairs.into_iter().any(meet) {
+            if squeezed.elements == 0 || element < squeezed.element {
+                (squeezed.element, squeezed.node) = (element, node);
+            }
+            squeezed.elements += 1;
+        }
+    }
+    squeezed
 }
 
 impl Stuck {
@@ -305,6 +225,8 @@ fn deep_overlap(body: &Body, layout: &Layout, part: f64) -> DeepOverlap {
     let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
     let mut candidates = Candidates::default();
     SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
+    let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
+    stand_still(&mut motion, body, layout);
     let mut deep = DeepOverlap::default();
     let mut bodies: Option<Vec<u32>> = None;
     for (point, &node) in layout.nodes.iter().enumerate() {
@@ -317,7 +239,8 @@ fn deep_overlap(body: &Body, layout: &Layout, part: f64) -> DeepOverlap {
             face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
         };
         let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
-        let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, (at(point), part)));
+        let is_known = |&element: &u32| touches_a_side(body, layout, element, (point as u32, &motion), part);
+        let on_the_side = held.iter().any(is_known);
         let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
         deep.nodes += 1;
         // A great number says enough: the depth of those that come first.
@@ -350,14 +273,24 @@ fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u
     of_blocks.map(|((element, nodes), _)| (element, plane::eight(nodes))).collect()
 }
 
-/// Whether a point in an element is no deeper below one of its outer faces than this part of half the element.
-fn touches_a_side(body: &Body, layout: &Layout, element: u32, (point, part): ([f64; 3], f64)) -> bool {
+/// Whether a point in an element is no deeper below one of its outer faces than this part of half the element. Contact knows what is below a
+/// face only where the point's body looks at it: what is inside another body looks at faces on its far side.
+fn touches_a_side(body: &Body, layout: &Layout, element: u32, (point, motion): (u32, &NodeMotion), part: f64) -> bool {
     let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
-    let gap = |face: u32| {
-        projection::project(&corners_of(body, layout, face), point)
-            .map_or(f64::NEG_INFINITY, |projection| projection.gap)
+    let outwards = layout.faces.point_normal(point, motion);
+    let length = dot(outwards, outwards).sqrt();
+    let is_known = |face: u32| {
+        let (depth, projection) = (
+            layout.faces.depth[face as usize],
+            projection::project(&corners_of(body, layout, face), motion.start(point)),
+        );
+        projection.is_some_and(|projection| {
+            // A node without faces of its own looks everywhere.
+            let looks = length == 0.0 || dot(outwards, projection.normal) < node_face::FACING * length;
+            projection.gap > -CLEARLY * depth || (looks && projection.gap > -part * depth)
+        })
     };
-    faces.into_iter().any(|face| gap(face) > -part * layout.faces.depth[face as usize])
+    faces.into_iter().any(is_known)
 }
 
 fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {

@@ -4,6 +4,7 @@ pub mod edge_edge;
 pub mod embedded;
 pub mod initial_overlap;
 pub mod node_face;
+pub mod overlap;
 pub mod planes;
 
 /// Cosine of the angle between two planes that count as one.

@@ -9,6 +9,8 @@ mod newcomer;
 mod persistent;
 mod ridge;
 
+pub(super) use newcomer::FACING;
+
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
