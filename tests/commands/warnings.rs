@@ -182,7 +182,11 @@ fn the_check_tells_of_overlaps_what_the_run_tells() {
             desk.urto(&["check", "case.i", "--strict"]).with(1);
             continue;
         };
-        assert_eq!(told(&run), [""; 0], "{treatment}");
+        assert!(
+            !run.err.contains("overlap in the mesh") && !run.err.contains("begin deep"),
+            "{treatment}: {}",
+            run.err
+        );
         checked
             .says(&["note: bodies overlap in the mesh: 10 nodes begin behind faces, the deepest by 1.0000e-2", note]);
         assert!(desk.text("case.o").contains("NODES BEHIND FACES    DEEPEST"), "{treatment}");
