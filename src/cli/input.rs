@@ -91,6 +91,9 @@ impl Given {
         if let Some(refusal) = body.tied.refusal(&self.mesh, model, &body.node_mass) {
             return Err(Failure::input(refusal));
         }
+        if let Some(refusal) = body.overlap.squeezed.refusal(&self.mesh) {
+            return Err(Failure::input(refusal));
+        }
         match body.overlap.refusal(&self.mesh) {
             Some(refusal) if model.contact.control.overlap.refuses() => Err(Failure::input(refusal)),
             _ => Ok(body),

@@ -25,7 +25,7 @@ pub use domain::joints::{loose, studs};
 pub use domain::trial::BlockTrial;
 pub use domain::{Body, Cut, Domain, NoMaterial, Rotations, centroid, nodes, state_names};
 pub use health::stop::{ElementPlace, Stop};
-pub use health::{Evidence, Finding, Spot};
+pub use health::{Evidence, Finding, Spot, of_overlaps};
 pub use rigid::{BodyShape, RigidBodies};
 pub use state::remembered::Remembered;
 pub use tied::{Tied, TiedReport, Ties};

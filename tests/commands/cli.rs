@@ -227,7 +227,7 @@ fn check_foretells_and_runs_nothing() {
     desk.urto(&["check", "bar.i", "--strict"]).with(0);
     put_bar(&desk, 1e-3, "SHELL THICKNESS, 1, 0.1\n");
     desk.urto(&["check", "bar.i"]).with(0).says(&["so that nothing follows from this"]);
-    desk.urto(&["check", "bar.i", "--strict"]).with(1).says(&["deck and mesh are sound"]);
+    desk.urto(&["check", "bar.i", "--strict"]).with(1).says(&["deck and mesh can be run, but see the warnings"]);
     desk.put("wrong.i", "TITLE\n x\n");
     desk.urto(&["check", "wrong.i", "-m", "bar.g"]).with(2).says(&["TERMINATION TIME", "MATERIAL"]);
 }
@@ -558,7 +558,10 @@ fn every_example_is_sound_without_options() {
     let desk = Desk::new();
     let decks = std::fs::read_dir(project("decks")).expect("the examples").map(|entry| entry.expect("a file").path());
     for deck in decks.filter(|path| path.extension().is_some_and(|suffix| suffix == "i")) {
-        desk.urto(&["check", &deck.display().to_string()]).with(0).says(&["deck and mesh are sound"]);
+        // The deck of all commands has some without effect.
+        let is_all = deck.file_stem().is_some_and(|name| name == "commands");
+        let end = if is_all { "deck and mesh can be run, but see the warnings" } else { "deck and mesh are sound" };
+        desk.urto(&["check", &deck.display().to_string()]).with(0).says(&[end]);
     }
 }
 

@@ -156,6 +156,91 @@ fn overlaps_that_nothing_can_move_are_in_the_log() {
     assert!(!log.contains("inf"), "{log}");
 }
 
+/// What the run will do with bodies that overlap in the mesh is said by the check in the run's own words, whatever the deck wants done with
+/// them; what it lets stay is a note. The upper block begins 0.01 below the top of the lower one, its nine lower nodes behind four faces,
+/// and the middle of these behind the upper one's.
+#[test]
+fn the_check_tells_of_overlaps_what_the_run_tells() {
+    let told = |left: &Left| left.err.lines().filter(|line| !line.is_empty()).map(String::from).collect::<Vec<_>>();
+    for (treatment, note) in [
+        ("", None),
+        ("CONTACT OVERLAP, REMOVE\n", None),
+        ("CONTACT OVERLAP, KEEP\n", Some("KEEP leaves them there, and lets none sink deeper")),
+        (
+            "CONTACT OVERLAP, STRESS, 1.E-5\n",
+            Some("STRESS pushes them apart through the strain of the bodies until time 1.0000e-5"),
+        ),
+    ] {
+        let desk = overlapping(0.01);
+        desk.put("case.i", &desk.text("case.i").replace("CONTACT OVERLAP, REMOVE\n", treatment));
+        let checked = desk.urto(&["check", "case.i"]).with(0);
+        let run = desk.urto(&["case.i", "-q"]).with(0);
+        let Some(note) = note else {
+            assert!(told(&run).concat().contains("nodes were moved out of faces before the run"), "{}", run.err);
+            assert_eq!(told(&checked), told(&run), "{treatment}");
+            checked.says(&["deck and mesh can be run, but see the warnings"]);
+            desk.urto(&["check", "case.i", "--strict"]).with(1);
+            continue;
+        };
+        assert!(
+            !run.err.contains("overlap in the mesh") && !run.err.contains("begin deep"),
+            "{treatment}: {}",
+            run.err
+        );
+        checked
+            .says(&["note: bodies overlap in the mesh: 10 nodes begin behind faces, the deepest by 1.0000e-2", note]);
+        assert!(desk.text("case.o").contains("NODES BEHIND FACES    DEEPEST"), "{treatment}");
+        desk.urto(&["check", "case.i", "--strict"]).with(0).says(&["deck and mesh are sound"]);
+    }
+}
+
+/// A row of bars through a block has several nodes within half of its outer elements, which would all go to the same place on its face: bars
+/// without length. It is refused before the run, as is a block inside another one where it has to be moved; where it need not be, it is told
+/// that nothing holds it. So is what is nearer to faces than half an element, but not to those at which it looks.
+#[test]
+fn overlaps_that_cannot_be_taken_out_are_told_before_the_run() {
+    let solid =
+        |block: u32| format!("MATERIAL, {block}, ELASTIC, 1000.\nYOUNGS MODULUS = 1.E9\nPOISSONS RATIO = 0.\nEND\n");
+    let deck = |more: &str| format!("TERMINATION TIME, 1.E-3\nCONTACT MATERIAL\n{more}{}{}", solid(1), solid(2));
+    let bars = "BOX, 1, -1., -1., -0.5, 2., 2., 1., 4, 4, 2\nLINE, 2, 0.1, 0.1, -2., 0.1, 0.1, 2.1, 40\n";
+    for treatment in ["", "CONTACT OVERLAP, REMOVE\n"] {
+        let desk = desk(&deck(&format!("BEAM SECTION, 2, ROD, 0.04\n{treatment}")), bars);
+        for command in [&["check", "case.i"][..], &["case.i"]] {
+            desk.urto(command).with(2).says(&["4 elements have nodes at the same place", "CONTACT OVERLAP, KEEP"]);
+        }
+    }
+    let inside = "BOX, 1, -1., -1., -1., 2., 2., 2., 1, 1, 1\nBOX, 2, -.2, -.1, -.15, .3, .3, .3, 1, 1, 1\n";
+    let deep = "8 nodes of contact surfaces begin deep inside";
+    desk(&deck(""), inside).urto(&["check", "case.i"]).with(2).says(&[
+        "8 nodes cannot",
+        "half an element below every face that they look at",
+        "8.5000e-1 below the nearest",
+    ]);
+    kept(&deck("CONTACT OVERLAP, REMOVE\n"), inside, &[deep, "8.5000e-1 below the nearest"]);
+    let elements = "1 elements begin inside another body, of blocks 1 and 2";
+    desk(&deck("CONTACT OVERLAP, STRESS\n"), inside).urto(&["check", "case.i"]).with(2).says(&[elements]);
+    kept(&deck("CONTACT OVERLAP, KEEP\n"), inside, &[elements]);
+    // A post that has come nearly through a plate of elements so large that no node of theirs is in it.
+    let through = "BOX, 1, -1.5, -1.5, -0.1, 3., 3., 0.1, 3, 3, 1\nBOX, 2, -.2, -.1, -.09, .3, .3, 1., 1, 1, 1\n";
+    let nodes = "4 nodes of contact surfaces begin deep inside";
+    kept(&deck("CONTACT OVERLAP, KEEP\n"), through, &[nodes, "1.0000e-2 below the nearest face"]);
+    let refused = desk(&deck("CONTACT OVERLAP, STRESS\n"), through).urto(&["check", "case.i"]).with(2);
+    refused.says(&["4 nodes cannot", "half an element below every face that they look at"]);
+    // Half as deep it looks at the face above it, and contact knows it.
+    let shallow = desk(&deck("CONTACT OVERLAP, KEEP\n"), &through.replace("-.09", "-.04"));
+    let checked = shallow.urto(&["check", "case.i", "--strict"]).with(0);
+    assert!(!checked.err.contains("warning"), "{}", checked.err);
+}
+
+/// Asserts that the check and the run tell this of bodies that may stay in each other.
+#[track_caller]
+fn kept(deck: &str, shapes: &str, told: &[&str]) {
+    let kept = desk(deck, shapes);
+    for command in [&["check", "case.i"][..], &["case.i"]] {
+        kept.urto(command).with(0).says(told);
+    }
+}
+
 #[test]
 fn every_warning_stands_in_three_places_and_is_the_same_on_any_ranks() {
     for Scene { desk, label, words } in scenes() {

@@ -236,7 +236,7 @@ fn overlaps_too_deep_to_be_taken_out_are_told() {
     assert_eq!((overlap.nodes, overlap.deep.nodes), (0, 18));
     assert!((overlap.deep.deepest - 0.004).abs() < 1e-12, "{:?}", overlap.deep);
     assert_eq!(mesh.coordinates[overlap.deep.node as usize].map(|x| (1e3 * x).round()), [5.0, 5.0, 4.0]);
-    let told = overlap.deep.warning(&mesh).unwrap_or_default();
+    let told = overlap.refusal(&mesh).unwrap_or_default();
     assert!(told.contains("18 nodes") && told.contains("4.0000e-3"), "{told}");
 }
 

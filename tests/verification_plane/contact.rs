@@ -6,7 +6,7 @@ use crate::support::meshes::recipe;
 use crate::support::run::{Run, State, model, run, run_on};
 use crate::support::{at_least, between};
 use urto::mesh::Mesh;
-use urto::solver::Body;
+use urto::solver::{Body, of_overlaps};
 
 /// Mean velocity of a block along an axis, by mass.
 fn mean(state: &State, mesh: &Mesh, block: usize, name: &str) -> f64 {
@@ -312,8 +312,8 @@ fn overlaps_too_deep_to_be_taken_out_are_refused() {
         let refusal = overlap.refusal(&mesh).expect("a refusal");
         assert!(refusal.contains("4 nodes") && refusal.contains("1.5000e0 below"), "{refusal}");
         let kept = deck.replace("CONTACT MATERIAL\n", "CONTACT MATERIAL\nCONTACT OVERLAP, KEEP\n");
-        let overlap = Body::new(&mesh, &model(&kept, &mesh)).expect("materials").overlap;
-        let told = overlap.deep.warning(&mesh).expect("a warning");
-        assert!(told.contains("4 nodes"), "{told}");
+        let body = Body::new(&mesh, &model(&kept, &mesh)).expect("materials");
+        let told = of_overlaps(&mesh, &body).iter().map(|found| found.words()).collect::<String>();
+        assert!(told.starts_with("4 nodes of contact surfaces begin deep"), "{told}");
     }
 }

@@ -11,7 +11,7 @@ use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
 use crate::solver::elements::Element;
-use crate::solver::{BlockTrial, Body, Request, Solver, Stop, state_names, studs};
+use crate::solver::{BlockTrial, Body, Request, Solver, Stop, of_overlaps, state_names, studs};
 use crate::studies::advice;
 use std::time::Instant;
 
@@ -48,16 +48,18 @@ pub fn check(options: &options::Check) -> Result<u8, Failure> {
     let model = &given.problem.model;
     say(model.title.trim());
     let body = given.body()?;
-    warn(body.overlap.deep.warning(&given.mesh));
-    body.overlap.warnings_of_unheld(&given.mesh).into_iter().for_each(|warning| warn(Some(warning)));
-    if let Some(note) = body.overlap.crowded.note(&given.mesh) {
+    of_overlaps(&given.mesh, &body).iter().for_each(|found| warn(Some(print::warning_on_terminal(found))));
+    let overlap = &body.overlap;
+    overlap.warnings_of_unheld(&given.mesh).into_iter().for_each(|warning| warn(Some(warning)));
+    for note in overlap.note(&given.mesh, model, &body).into_iter().chain(overlap.crowded.note(&given.mesh)) {
         complain(format_args!("{note}\n"));
     }
     say(modelled(&given, &body));
     if let Some(assumed) = assumed(&given) {
         say(assumed);
     }
-    say(trial(&given, &body)?);
+    say(trial(&given, &body)?.trim_end());
+    say(if is_warned { "deck and mesh can be run, but see the warnings" } else { "deck and mesh are sound" });
     Ok(if options.strict && is_warned { FAILED } else { DONE })
 }
 
@@ -239,7 +241,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          {by_block}about {} of memory, {:.0} bytes per element\n\
-         {foretold}deck and mesh are sound",
+         {foretold}",
         scientific(first, 4),
         per_step * 1e9 / elements,
         duration(per_step * steps),

@@ -2,7 +2,7 @@
 
 use super::{echo::table, number};
 use crate::model::{ContactEdges, ContactMaterials, ContactSearch, Death, Friction, Model};
-use crate::solver::contact::{Crowded, DeepOverlap, Overlap};
+use crate::solver::contact::{Crowded, DeepOverlap, Overlap, Stuck};
 
 /// Tables of contact, of initial overlaps and of erosion; empty where the deck asks for none.
 pub fn tables(model: &Model, overlap: Overlap) -> String {
@@ -23,6 +23,11 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table("CONTACT", "BETWEEN          FIRST  SECOND    PARTITION     FRICTION   HIGH SPEED        DECAY", lines),
         table("CONTACT CONTROL", "", if contact.is_some() { control(model) } else { Vec::new() }),
         table("INITIAL OVERLAPS TAKEN OUT OF THE MESH", "NODES MOVED   FARTHEST", overlaps(overlap)),
+        table(
+            "OVERLAPS THAT CONTACT OVERLAP LETS STAY OR PUSHES APART",
+            "NODES BEHIND FACES    DEEPEST",
+            kept(overlap.kept),
+        ),
         table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.deep)),
         table(
             "NODES NEARER TO SHELLS OR BARS THAN THEIR THICKNESS",
@@ -96,6 +101,11 @@ fn edges(edges: ContactEdges) -> &'static str {
 fn overlaps(overlap: Overlap) -> Vec<String> {
     let moved = (overlap.nodes > 0).then(|| format!("{:>11}{:>13}", overlap.nodes, number(overlap.farthest)));
     moved.into_iter().collect()
+}
+
+fn kept(kept: Stuck) -> Vec<String> {
+    let some = (kept.nodes > 0).then(|| format!("{:>18}{:>13}", kept.nodes, number(kept.deepest)));
+    some.into_iter().collect()
 }
 
 fn left(left: DeepOverlap) -> Vec<String> {

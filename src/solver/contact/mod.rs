@@ -50,7 +50,8 @@ use surface::pairings::Pairings;
 use surface::skin::Skin;
 
 pub use check::embedded::EmbeddedNode;
-pub use check::initial_overlap::{Crowded, DeepOverlap, Overlap, remove as remove_overlap};
+pub use check::initial_overlap::remove as remove_overlap;
+pub use check::overlap::{Crowded, DeepOverlap, Overlap, Stuck};
 pub use check::unheld;
 pub use enforcement::iterations::LOOSER;
 pub use observations::report::{Report, Tally, Work};

@@ -19,3 +19,4 @@ pub(super) use finding::percent;
 pub use finding::{Evidence, Finding, Spot};
 pub(super) use place::elements;
 pub(super) use watch::Watch;
+pub use watch::of_overlaps;

@@ -1,6 +1,7 @@
 //! Looking, and remembering what was found.
 
 use super::finding::{Evidence, Finding, ROW, Spot};
+use super::symptoms::contact::{overlap_deep, overlap_moved};
 use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
@@ -294,6 +295,18 @@ impl Solver {
         }
         energy::check(totals, self.initial_energy, self.watch.supplied, facts.energy_floor)
     }
+}
+
+/// What the first look of a run will find of overlaps in the mesh.
+pub fn of_overlaps(mesh: &Mesh, body: &Body) -> Vec<Finding> {
+    let moved = (overlap_moved::SYMPTOM.code, overlap_moved::evidence(&body.overlap), farthest_moved(mesh, body));
+    let deep = (overlap_deep::SYMPTOM.code, overlap_deep::evidence(&body.overlap), left_deepest(mesh, body));
+    let found = [moved, deep].into_iter().filter(|(_, evidence, _)| evidence.count > 0);
+    let finding = |(code, mut evidence, spot): (u32, Evidence, Option<Spot>)| {
+        evidence.spots[0] = spot;
+        Finding { code, step: 0, time: 0.0, evidence, worst: evidence.share }
+    };
+    found.map(finding).collect()
 }
 
 /// See [`Facts::node_id`]. Rotations have no numbers of their own.

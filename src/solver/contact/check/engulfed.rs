@@ -20,12 +20,12 @@ type Element = (u32, [u32; 8], [[f64; 3]; 8]);
 /// Of two elements that are in each other the smaller one is inside; both are where their volumes differ by no more than this factor.
 const AS_LARGE: f64 = 1.0 + 1e-6;
 
-/// Elements with faces of an interface whose middle is inside an element of another body.
+/// Elements with faces of an interface whose middle is inside an element of another body, and their nodes.
 pub fn engulfed(
     (mesh, model): (&Mesh, &Model),
     (body, layout, interface): (&Body, &Layout, &Interface),
     pairs: &BodyPairs,
-) -> Unheld {
+) -> (Unheld, BTreeSet<u32>) {
     let solid = solid_elements(body, layout, interface).into_iter();
     let placed = solid.map(|(number, nodes)| (number, nodes, plane::solid(&body.corners(&nodes))));
     let elements: Vec<Element> =
@@ -51,7 +51,7 @@ pub fn engulfed(
         found.extend(around.filter(|_| !inner.1.iter().any(joined)).map(|other| (inner, other)));
     }
     if found.is_empty() {
-        return Unheld::default();
+        return (Unheld::default(), BTreeSet::new());
     }
     let known = pairs.known((mesh, model), body, layout).into_iter();
     let known: BTreeSet<(u32, u32)> = known.map(|(point, other)| (layout.nodes[point as usize], other)).collect();
@@ -65,5 +65,6 @@ pub fn engulfed(
         element: body.element_order[inner.0 as usize],
         deepest: 0.0,
     });
-    Unheld::new(found.len(), found.iter().map(ids), worst)
+    let nodes = found.iter().flat_map(|(inner, _)| inner.1).collect();
+    (Unheld::new(found.len(), found.iter().map(ids), worst), nodes)
 }

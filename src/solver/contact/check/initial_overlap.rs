@@ -2,9 +2,11 @@
 
 use super::behind::{NOTHING, behind, overlaps};
 use super::body_pairs::BodyPairs;
+use super::deep::{self, deep_points, measured};
 use super::engulfed::engulfed;
+use super::overlap::{Crowded, Overlap, Squeezed, Stuck};
 use super::pierced::pierced;
-use super::unheld::{ADVICE_ON_EDGES, ADVICE_ON_ELEMENTS, Told, Unheld};
+use super::unheld::Unheld;
 use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
@@ -19,7 +21,6 @@ use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::locate::Interface;
-use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
@@ -30,150 +31,14 @@ use std::collections::BTreeMap;
 /// it is.
 pub(super) const STUCK: f64 = 1e-4;
 
-/// A point nearer to an outer face than this part of half the element touches it, once what overlaps has been moved out.
-const CLEARLY: f64 = 0.01;
-
-/// The same where overlaps stay: contact knows points as deep as half the element.
+/// Where overlaps stay, contact knows points as deep as this part of half the element.
 const KNOWN: f64 = 1.0;
 
-/// Of so many nodes that are left inside elements the depth is measured.
-const MEASURED: usize = 1000;
+/// Nodes of an element that have come as near to each other as this part of their distance before are at the same place.
+const TOGETHER: f64 = 1e-3;
 
 /// Rounds of finding overlaps and moving nodes: what moves may overlap elsewhere.
 const ROUNDS: usize = 10;
-
-/// What was moved, and what was not.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Overlap {
-    /// Number of nodes moved.
-    pub nodes: usize,
-    /// Farthest move, a length.
-    pub farthest: f64,
-    /// What is left deep inside.
-    pub deep: DeepOverlap,
-    /// What could not be moved out, though it is not deep.
-    pub stuck: Stuck,
-    /// What is to be pushed apart through strain between rigid bodies, which have none.
-    pub rigid: Stuck,
-    /// Where the mesh leaves less room than thicknesses.
-    pub crowded: Crowded,
-    /// Edges that go through faces where no node is inside.
-    pub pierced: Unheld,
-    /// Elements inside other bodies of which no node says so.
-    pub engulfed: Unheld,
-}
-
-/// Nodes that begin nearer to faces than their thicknesses allow. Contact holds them as near as they are, and farther once they
-/// have been farther.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Crowded {
-    /// Their number.
-    pub nodes: usize,
-    /// The least room, as a part of the distance at which they would touch.
-    pub least: f64,
-    /// The node with the least room, from 0 in the mesh file.
-    pub node: u32,
-}
-
-impl Crowded {
-    /// Tells the user, where there are any.
-    pub fn note(&self, mesh: &Mesh) -> Option<String> {
-        let Crowded { nodes, least, node } = *self;
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (nodes > 0).then(|| {
-            format!(
-                "note: {nodes} nodes begin nearer to shells or bars than their thickness allows; contact uses what room there is, \
-                 at least {:.1} % of it: node {} at {x:.4e} {y:.4e} {z:.4e}",
-                100.0 * least,
-                mesh.node_ids[node as usize]
-            )
-        })
-    }
-}
-
-/// Overlaps that moving nodes cannot remove, because the deck holds them or others are in the way.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stuck {
-    /// Number of nodes behind faces.
-    pub nodes: usize,
-    /// The deepest, a length.
-    pub deepest: f64,
-    /// Its node, from 0 in the mesh file.
-    pub node: u32,
-}
-
-impl Overlap {
-    /// Why a mesh whose overlaps must go is refused; `None` where all are gone.
-    pub fn refusal(&self, mesh: &Mesh) -> Option<String> {
-        if let Some(refusal) = self.refusal_of_unheld(mesh).filter(|_| self.deep.nodes == 0) {
-            return Some(refusal);
-        }
-        let Overlap { deep, stuck, rigid, .. } = *self;
-        let ((count, deepest, node), why) = if deep.nodes > 0 {
-            ((deep.nodes, deep.deepest, deep.node), "deeper than half an element")
-        } else if rigid.nodes > 0 {
-            ((rigid.nodes, rigid.deepest, rigid.node), "between rigid bodies, which no stress deforms")
-        } else {
-            ((stuck.nodes, stuck.deepest, stuck.node), "held by the deck or between others")
-        };
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (count > 0).then(|| {
-            format!(
-                "error: bodies overlap in the mesh, and {count} nodes cannot be moved out, being {why}: the deepest is node {} at \
-                 {x:.4e} {y:.4e} {z:.4e}, {deepest:.4e} below the surface\n\
-                 help: mend the mesh, or say CONTACT OVERLAP, REMOVE or KEEP in the deck to run with what is left",
-                mesh.node_ids[node as usize]
-            )
-        })
-    }
-
-    /// Why a mesh is refused whose overlaps contact does not see: always where elements are inside others, else where they must go.
-    fn refusal_of_unheld(&self, mesh: &Mesh) -> Option<String> {
-        let [edges, elements] = self.unheld(mesh);
-        let told = elements.or(edges.filter(|_| self.pierced.must_go))?;
-        Some(format!("error: bodies overlap in the mesh: {told}"))
-    }
-
-    /// Warnings of the overlaps that contact does not see.
-    pub fn warnings_of_unheld(&self, mesh: &Mesh) -> Vec<String> {
-        self.unheld(mesh).into_iter().flatten().map(|told| format!("warning: {told}")).collect()
-    }
-
-    /// What is said of edges through faces and of elements inside bodies, with what to try.
-    fn unheld(&self, mesh: &Mesh) -> [Option<String>; 2] {
-        let edges = Told::of(&self.pierced, mesh).map(|told| (told.edges_in_words(), ADVICE_ON_EDGES));
-        let elements = Told::of(&self.engulfed, mesh).map(|told| (told.elements_in_words(), ADVICE_ON_ELEMENTS));
-        [edges, elements].map(|told| told.map(|(words, advice)| format!("{words}\nhelp: {advice}")))
-    }
-}
-
-/// Nodes that remain inside elements that are not theirs: too deep to say which way is out. Contact does not see them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct DeepOverlap {
-    /// Their number.
-    pub nodes: usize,
-    /// Distance of the deepest from the nearest face of the outside, a length.
-    pub deepest: f64,
-    /// The deepest, from 0 in the mesh file.
-    pub node: u32,
-    /// The element in which it is, from 0 in the mesh file.
-    pub element: u32,
-}
-
-impl DeepOverlap {
-    /// Tells the user, where there are any.
-    pub fn warning(&self, mesh: &Mesh) -> Option<String> {
-        let DeepOverlap { nodes, deepest, node, element } = *self;
-        let [x, y, z] = mesh.coordinates.get(node as usize)?;
-        (nodes > 0).then(|| {
-            format!(
-                "warning: {nodes} nodes of contact surfaces begin deep inside other elements and are not held by contact there, \
-                 the deepest {deepest:.4e} below the surface: node {} at {x:.4e} {y:.4e} {z:.4e} in element {}",
-                mesh.node_ids[node as usize], mesh.element_ids[element as usize]
-            )
-        })
-    }
-}
 
 /// Moves nodes of the body out of the faces that they begin behind; both sides go their share, by mass and partition. Where the room is less
 /// than thicknesses, the body is told.
@@ -239,25 +104,32 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
 fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     // No thickness is put into a mesh that has no room for it.
     let layout = Skin::new(mesh, model, body, Vec::new()).without_thickness().layout();
-    let overlap = remove_known(mesh, model, body, &layout);
+    let mut overlap = remove_known(mesh, model, body, &layout);
     let Some(automatic) = layout.automatic() else { return overlap };
-    let Some(pairs) = BodyPairs::of(body, &layout, automatic) else { return overlap };
-    let must_go = matches!(model.contact.control.overlap, ContactOverlap::Stress(_));
-    let (given, surface) = ((mesh, model), (&*body, &layout, automatic));
-    let pierced = Unheld { must_go, ..pierced(given, surface, &pairs) };
-    // What is told by its nodes is told.
-    let engulfed = if overlap.deep.nodes > 0 { Unheld::default() } else { engulfed(given, surface, &pairs) };
-    Overlap { pierced, engulfed, ..overlap }
+    let treatment = model.contact.control.overlap;
+    let moves = matches!(treatment, ContactOverlap::Refuse | ContactOverlap::Remove);
+    let part = if moves { deep::CLEARLY } else { KNOWN };
+    let mut inside = deep_points(body, &layout, automatic, part);
+    if let Some(pairs) = BodyPairs::of(body, &layout, automatic) {
+        let (given, surface) = ((mesh, model), (&*body, &layout, automatic));
+        let must_go = matches!(treatment, ContactOverlap::Stress(_));
+        overlap.pierced = Unheld { must_go, ..pierced(given, surface, &pairs) };
+        // What is told by its nodes is told; of what only looks away from faces that are near, elements tell more.
+        if inside.iter().all(|inside| inside.faces_away) {
+            let nodes;
+            (overlap.engulfed, nodes) = engulfed(given, surface, &pairs);
+            inside.retain(|inside| !nodes.contains(&layout.nodes[inside.point as usize]));
+        }
+    }
+    overlap.deep = measured(body, &layout, automatic, &inside);
+    overlap
 }
 
 /// Moves nodes out of the faces behind which contact knows them to be.
 fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) -> Overlap {
-    let left = || Overlap { deep: deep_overlap(body, layout, KNOWN), ..Default::default() };
     match model.contact.control.overlap {
-        ContactOverlap::Keep => return left(),
-        ContactOverlap::Stress(_) => {
-            return Overlap { rigid: between_rigid_bodies(mesh, model, body, layout), ..left() };
-        }
+        ContactOverlap::Keep => return Overlap { rigid: Stuck::default(), ..kept(mesh, model, body, layout) },
+        ContactOverlap::Stress(_) => return kept(mesh, model, body, layout),
         ContactOverlap::Refuse | ContactOverlap::Remove => (),
     }
     let pairings = Pairings::new(mesh, model, body);
@@ -290,20 +162,42 @@ fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) ->
             positions[node] = within(there, before[node], farthest[point]);
         }
     }
-    Overlap { deep: deep_overlap(body, layout, CLEARLY), stuck, ..moved(&before, body, layout) }
+    let moved = moved(&before, body, layout);
+    let squeezed = if moved.nodes > 0 { squeezed(&before, body) } else { Squeezed::default() };
+    Overlap { stuck, squeezed, ..moved }
 }
 
-/// Overlaps of rigid bodies with each other.
-fn between_rigid_bodies(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Stuck {
-    if body.block_body.iter().all(Option::is_none) {
-        return Stuck::default();
-    }
+/// Overlaps that stay where they are, those of rigid bodies with each other once more.
+fn kept(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Overlap {
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     stand_still(&mut motion, body, layout);
     let mut constraints = overlaps(layout, &Pairings::new(mesh, model, body), &motion);
+    let kept = Stuck::of(&constraints, layout);
     let is_rigid = of_rigid_bodies(mesh, body, layout);
     constraints.retain(|c| c.parts().all(|(point, _)| is_rigid[point]));
-    Stuck::of(&constraints, layout)
+    Overlap { kept, rigid: Stuck::of(&constraints, layout), ..Overlap::default() }
+}
+
+/// Elements two of whose nodes have come together, where they were `before`.
+fn squeezed(before: &[[f64; 3]], body: &Body) -> Squeezed {
+    let has_moved = |&node: &u32| body.positions[node as usize] != before[node as usize];
+    let apart = |at: &[[f64; 3]], a: u32, b: u32| {
+        let between = subtract(at[a as usize], at[b as usize]);
+        dot(between, between).sqrt()
+    };
+    let mut squeezed = Squeezed::default();
+    for (nodes, &element) in body.element_nodes.iter().zip(body.element_order.iter()) {
+        let Some(&node) = nodes.iter().find(|node| has_moved(node)) else { continue };
+        let pairs = nodes.iter().enumerate().flat_map(|(i, &a)| nodes[..i].iter().map(move |&b| (a, b)));
+        let meet = |(a, b): (u32, u32)| apart(&body.positions, a, b) < TOGETHER * apart(before, a, b);
+        if pairs.into_iter().any(meet) {
+            if squeezed.elements == 0 || element < squeezed.element {
+                (squeezed.element, squeezed.node) = (element, node);
+            }
+            squeezed.elements += 1;
+        }
+    }
+    squeezed
 }
 
 impl Stuck {
@@ -330,51 +224,6 @@ fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
     if length > most { add(from, scaled(path, most / length)) } else { there }
 }
 
-/// Nodes of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks, deeper than this part of half
-/// the element.
-fn deep_overlap(body: &Body, layout: &Layout, part: f64) -> DeepOverlap {
-    let Some(automatic) = layout.automatic() else { return DeepOverlap::default() };
-    let elements = solid_elements(body, layout, automatic);
-    let corners = |place: u32| plane::solid(&body.corners(&elements[place as usize].1));
-    let boxes: Vec<Box3> = (0..elements.len() as u32).map(|place| Box3::around(&corners(place))).collect();
-    let at = |point: usize| body.positions[layout.nodes[point] as usize];
-    let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };
-    let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
-    let mut candidates = Candidates::default();
-    SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
-    let mut deep = DeepOverlap::default();
-    let mut bodies: Option<Vec<u32>> = None;
-    for (point, &node) in layout.nodes.iter().enumerate() {
-        let holds = |&place: &u32| !elements[place as usize].1.contains(&node) && is_inside(&corners(place), at(point));
-        let held = candidates.of(point).iter().copied().filter(holds);
-        let held: Vec<u32> = held.map(|place| elements[place as usize].0).collect();
-        let apart = |element: &u32| {
-            let face = (6 * element..6 * element + 6).map(|number| layout.face(number)).find(|&face| face != ABSENT);
-            let block = layout.point_block[point];
-            face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
-        };
-        let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
-        let on_the_side = held.iter().any(|&element| touches_a_side(body, layout, element, (at(point), part)));
-        let Some(&element) = held.first().filter(|_| !on_the_side) else { continue };
-        deep.nodes += 1;
-        // A great number says enough: the depth of those that come first.
-        if deep.nodes <= MEASURED {
-            let bodies = bodies.get_or_insert_with(|| bodies_of(body));
-            let inside = bodies[body.element_nodes[element as usize][0] as usize];
-            let of_body = |face: u32| {
-                let corner = layout.faces.corners[face as usize][0];
-                bodies[layout.nodes[corner as usize] as usize] == inside
-            };
-            let faces = automatic.faces.iter().copied().filter(|&face| of_body(face));
-            let depth = depth(body, layout, faces, at(point));
-            if depth > deep.deepest {
-                deep = DeepOverlap { deepest: depth, node, element: body.element_order[element as usize], ..deep };
-            }
-        }
-    }
-    deep
-}
-
 /// Solid elements of the blocks with faces of an interface, each by its canonical number and its nodes as [`plane::eight`] has
 /// them. Surfaces have no inside.
 pub(super) fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
@@ -387,17 +236,7 @@ pub(super) fn solid_elements(body: &Body, layout: &Layout, interface: &Interface
     of_blocks.map(|((element, nodes), _)| (element, plane::eight(nodes))).collect()
 }
 
-/// Whether a point in an element is no deeper below one of its outer faces than this part of half the element.
-fn touches_a_side(body: &Body, layout: &Layout, element: u32, (point, part): ([f64; 3], f64)) -> bool {
-    let faces = (6 * element..6 * element + 6).map(|number| layout.face(number)).filter(|&face| face != ABSENT);
-    let gap = |face: u32| {
-        projection::project(&corners_of(body, layout, face), point)
-            .map_or(f64::NEG_INFINITY, |projection| projection.gap)
-    };
-    faces.into_iter().any(|face| gap(face) > -part * layout.faces.depth[face as usize])
-}
-
-fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
+pub(super) fn corners_of(body: &Body, layout: &Layout, face: u32) -> [[f64; 3]; 4] {
     layout.faces.corners[face as usize].map(|corner| body.positions[layout.nodes[corner as usize] as usize])
 }
 

@@ -2,11 +2,13 @@
 
 mod behind;
 mod body_pairs;
+mod deep;
 pub mod edge_edge;
 pub mod embedded;
 mod engulfed;
 pub mod initial_overlap;
 pub mod node_face;
+pub mod overlap;
 mod pierced;
 pub mod planes;
 pub mod unheld;

@@ -10,6 +10,8 @@ mod persistent;
 mod ridge;
 mod way_out;
 
+pub(super) use newcomer::FACING;
+
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, MEMBERS, Origin};
@@ -304,13 +306,9 @@ impl NodeFaceCheck<'_> {
         projection.gap < keep(self.faces, face) + tolerated && projection.gap > -self.faces.depth[face as usize]
     }
 
-    /// Cosine between the normal of a point and that of a face that it meets. A free node faces everything, and so does one of a surface,
-    /// whose two sides leave nothing but round-off.
+    /// See [`opposition`].
     fn opposition(&self, point: u32, projection: &Projection) -> f64 {
-        let normal = self.faces.point_normal(point, self.motion);
-        let length = dot(normal, normal).sqrt();
-        let size = self.faces.around(point).first().map_or(0.0, |&face| self.faces.size[face as usize]);
-        if length > NO_NORMAL * size * size { dot(normal, projection.normal) / length } else { -1.0 }
+        opposition(self.faces, self.motion, point, projection)
     }
 
     /// Puts contacts in order and keeps those that push in directions of their own.
@@ -360,6 +358,15 @@ impl NodeFaceCheck<'_> {
         let round = first.projection.rounded || second.projection.rounded;
         rise > if round { HOLLOW * self.faces.size[second.face as usize] } else { 0.0 }
     }
+}
+
+/// Cosine between the normal of a point and that of a face that it meets. A free node faces everything, and so does one of a surface,
+/// whose two sides leave nothing but round-off.
+pub fn opposition(faces: &Faces, motion: &NodeMotion, point: u32, projection: &Projection) -> f64 {
+    let normal = faces.point_normal(point, motion);
+    let length = dot(normal, normal).sqrt();
+    let size = faces.around(point).first().map_or(0.0, |&face| faces.size[face as usize]);
+    if length > NO_NORMAL * size * size { dot(normal, projection.normal) / length } else { -1.0 }
 }
 
 /// The constraint of a point on a face. `None` where the point is to be the master only.

@@ -10,7 +10,7 @@ use crate::solver::contact::geometry::projection::{self, Projection};
 const CLEARLY: f64 = 1e-6;
 
 /// Cosine between the normals of two faces that look at each other, at most.
-pub(super) const FACING: f64 = -0.02;
+pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
 
 /// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
 /// each other's planes must not be taken for a seam.

@@ -1,5 +1,6 @@
 //! Overlaps of the mesh were taken out by moving nodes before the run.
 
+use crate::solver::contact::Overlap;
 use crate::solver::health::finding::Evidence;
 use crate::solver::health::symptoms::{Symptom, When};
 
@@ -8,11 +9,7 @@ pub const SYMPTOM: Symptom = Symptom {
     when: When::Start,
     threshold: 0.0,
     cause: f64::INFINITY,
-    measure: |exam, _| {
-        let overlap = exam.facts.overlap;
-        let (count, amount) = (overlap.nodes as u64, overlap.farthest);
-        vec![Evidence { share: count as f64, count, amount, ..Evidence::default() }]
-    },
+    measure: |exam, _| vec![evidence(&exam.facts.overlap)],
     place: |exam, evidence, _| evidence.spots[0] = exam.facts.overlap_spots[0],
     label: |_| "nodes moved out of initial overlaps".into(),
     words: |evidence| {
@@ -25,3 +22,9 @@ pub const SYMPTOM: Symptom = Symptom {
     advice: "look at the first plot state: the run begins with the shapes that it shows; a mesh with a gap there, or with \
              faces that lie upon each other, needs no moves",
 };
+
+/// What there is to see in the mesh.
+pub fn evidence(overlap: &Overlap) -> Evidence {
+    let (count, amount) = (overlap.nodes as u64, overlap.farthest);
+    Evidence { share: count as f64, count, amount, ..Evidence::default() }
+}
