@@ -160,3 +160,34 @@ fn bars_across_bars_in_the_plane_are_told() {
     let flush = overlap("RECTANGLE, 1, -1., -0.1, 2., 0.2, 3, 1\nRECTANGLE, 2, -0.7, 0.1, 0.2, 2., 2, 4\n");
     assert_eq!((flush.pierced.count, flush.nodes), (0, 0), "{flush:?}");
 }
+
+/// The nodes of a tube that follow the chords of a coarser one around it do so in the mean: between them they are in its elements, or out of them.
+/// What TIED CONTACT joins is no overlap; such tubes were refused for nodes "deeper than half an element", a fortieth of one deep.
+#[test]
+fn what_is_tied_to_a_curved_surface_does_not_overlap_it() {
+    for (inner, outer) in [(12, 3), (3, 12)] {
+        for tie in ["TIED CONTACT, 100, 200, 0.5\n", "TIED CONTACT, 200, 100, 0.5\n"] {
+            let shapes = format!(
+                "TUBE, 1, 0.10, 0.12, 0.2, 4, {inner}, 8, QUARTER\nTUBE, 2, 0.12, 0.13, 0.2, 2, {outer}, 4, QUARTER\n\
+                 SIDE SET FACE, 100, 1, OUTER\nSIDE SET FACE, 200, 2, INNER\n"
+            );
+            let overlap = overlap_of(&shapes, tie);
+            assert_eq!((overlap.nodes, overlap.deep.nodes), (0, 0), "{inner}, {outer}, {tie}: {overlap:?}");
+        }
+    }
+}
+
+/// A column whose flanks stand upright on the face in which it is, and a bar on its edge, sunk in so deep that its upper flanks look up at
+/// that face from inside: contact knows the nodes below, and what is held with them is not told as deep, for which a press fit would
+/// be refused. The bar's elements are larger than the others, so that none is inside one of these.
+#[test]
+fn what_is_held_with_its_body_is_not_deep() {
+    let column = "BOX, 1, -1., -1., -1., 2., 2., 1., 3, 3, 1\nBOX, 2, -0.3, -0.3, -0.12, 0.6, 0.6, 1.02, 6, 6, 12\n";
+    let bar = "BOX, 1, -1., -1., -1., 2., 2., 1., 20, 20, 1\nBOX, 2, 0., -0.52, 0., 0.2, 1.04, 0.2, 2, 1, 2\n\
+               ROTATE, 2, Y, 45.\nTRANSLATE, 2, -0.091421356, 0., -0.118578644\n";
+    for (shapes, deepest) in [(column, 0.12), (bar, 0.26)] {
+        let overlap = overlap_of(shapes, "CONTACT OVERLAP, STRESS\n");
+        assert_eq!((overlap.deep.nodes, overlap.engulfed.count), (0, 0), "{shapes}: {overlap:?}");
+        assert!((overlap.kept.deepest - deepest).abs() < 1e-6, "{shapes}: {overlap:?}");
+    }
+}

@@ -62,6 +62,7 @@ pub fn deep_points(body: &Body, layout: &Layout, automatic: &Interface, part: f6
             let face = (6 * element..6 * element + 6).map(|number| layout.face(number)).find(|&face| face != ABSENT);
             let block = layout.point_block[point];
             face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
+                || is_joined(body, layout, point as u32, *element)
         };
         let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
         let Some(&element) = held.first() else { continue };
@@ -94,6 +95,13 @@ fn leave_out_held(body: &Body, layout: &Layout, deep: &mut Vec<Inside>, known: &
     let known: BTreeSet<[u32; 2]> = known.iter().map(|&nodes| pair(nodes)).collect();
     let nodes = |inside: &Inside| [layout.nodes[inside.point as usize], body.element_nodes[inside.element as usize][0]];
     deep.retain(|inside| !(inside.faces_away && known.contains(&pair(nodes(inside)))));
+}
+
+/// Whether TIED CONTACT joins a point with a node of an element: what follows a curved surface is in it by what faces of both meshes differ.
+fn is_joined(body: &Body, layout: &Layout, point: u32, element: u32) -> bool {
+    let nodes = body.element_nodes[element as usize].iter().map(|&node| layout.point(node));
+    let corners: Vec<u32> = nodes.filter(|&corner| corner != ABSENT).collect();
+    layout.are_joined(point, &corners)
 }
 
 fn at_rest(body: &Body, layout: &Layout) -> NodeMotion {
