@@ -27,7 +27,6 @@ impl NodeFaceCheck<'_> {
         let corners = self.faces.corners[face as usize];
         let Some(place) = projection::project(&corners.map(at), at(point)) else { return false };
         let level = LEVEL * self.faces.size[face as usize];
-        let outwards = self.faces.point_normal(point, self.motion);
         // At a corner two sides are as near.
         (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).any(|border| {
             let [from, to] = border.map(at);
@@ -35,17 +34,16 @@ impl NodeFaceCheck<'_> {
             let (off, square) = (cross(arm, along), dot(along, along));
             let (part, near) = (dot(arm, along) / square, level / square.sqrt());
             let is_level = dot(off, off) <= level * level * square;
-            // How high the border is above the node at the beginning of the step. What comes down in it meets the edges before the node.
+            // How high the border is above the node at the beginning of the step: in it, what slides may come down on the edges that it meets.
             let [first, last] = border.map(|corner| self.motion.start(corner));
             let rise = subtract(add(first, scaled(subtract(last, first), part)), self.motion.start(point));
             let crosses = |ridge: [f64; 3]| {
                 let upright = cross(ridge, along);
                 let (of_upright, push) = (dot(upright, upright), dot(place.normal, upright));
-                let begins_above =
-                    || dot(rise, upright) * dot(outwards, upright).signum() >= -level * of_upright.sqrt();
+                let begins_level = || dot(rise, upright).abs() <= level * of_upright.sqrt();
                 of_upright > CLEAR_CROSSING * CLEAR_CROSSING * dot(ridge, ridge) * square
                     && push * push < SAME_PUSH * SAME_PUSH * of_upright
-                    && (is_level || begins_above())
+                    && (is_level || begins_level())
             };
             (-near..=1.0 + near).contains(&part)
                 && self.is_sharp_border(face, border, part)
