@@ -1,10 +1,11 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
 use super::super::FLUSH;
-use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY};
+use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::search::locate::Candidate;
 
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
@@ -143,6 +144,28 @@ impl NodeFaceCheck<'_> {
         self.faces.is_two_sided(face) && !self.begins_in_front(point, face) && self.faces.distance(point, face) > 0.0
     }
 
+    /// Whether a point that begins the step beyond the border of a face of a surface is outside the fold there: behind the face that goes on across
+    /// the border and rises in front of this one. It is in front of this plane, but not of this side of the surface, and taken for a point in the fold
+    /// it would be pulled through the other flank into it. Only faces near the point are asked, which all ranks have that check it.
+    pub(super) fn is_behind_flank(&self, point: u32, face: u32, near: &[Candidate]) -> bool {
+        if !self.faces.is_two_sided(face) {
+            return false;
+        }
+        let Some(start) = self.projection_at_start(point, face).filter(|start| start.outside > 0.0) else {
+            return false;
+        };
+        let corners = self.faces.corners[face as usize];
+        let border = start.edge().map(|i| corners[i]);
+        let middle = |face| projection::centre(&self.faces.start(face, self.motion));
+        let is_flank = |&other: &u32| {
+            border.iter().all(|corner| self.faces.corners[other as usize].contains(corner))
+                && self.faces.go_on(face, other) == Some(true)
+                && dot(subtract(middle(other), middle(face)), start.normal) > 0.0
+        };
+        let is_behind = |flank: u32| self.projection_at_start(point, flank).is_some_and(|start| start.gap < 0.0);
+        faces_of(near).filter(is_flank).any(is_behind)
+    }
+
     /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
     /// faces pushed outwards.
     fn first_touch(&self, point: u32, face: u32) -> Option<f64> {
@@ -218,5 +241,57 @@ impl NodeFaceCheck<'_> {
             near(foot).is_some()
                 && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::NO_CONTACT;
+    use super::*;
+    use crate::mesh::exterior::exterior;
+    use crate::mesh::{Connectivity, Shape};
+    use crate::solver::contact::geometry::faces::Faces;
+    use crate::solver::contact::geometry::motion::NodeMotion;
+    use crate::solver::contact::search::locate::Rule;
+
+    /// Directions in which the faces of two square elements push a free point that goes from one place to another in a step. The first element
+    /// lies in the plane z = 0, from the y axis to x = 1; the second goes on from the y axis, raised by an angle. They touch at 0.1.
+    fn pushes(degrees: f64, from: [f64; 3], to: [f64; 3]) -> Vec<[f64; 3]> {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let at = [0.0, 1.0].map(|y| [[0.0, y, 0.0], [1.0, y, 0.0], [cosine, y, sine]]).concat();
+        let elements = Connectivity::of(Shape::Quadrilateral, vec![0, 1, 4, 3, 0, 3, 5, 2]);
+        let numbers = exterior(elements.shaped(), at.len(), |_| true);
+        let point = at.len() as u32;
+        let faces = Faces::new(&numbers, (&elements, &[0, 0], &at), (|node| node, at.len() + 1), |_| 0.1);
+        let mut motion = NodeMotion::new(at.len() + 1, [0.0; 3]);
+        motion.begin([1.0, 1.0]);
+        let path = subtract(to, from);
+        let still = (0..point).zip(at).map(|(node, [x, y, z])| (node, [x, y, z, 0., 0., 0., 0., 0., 0.]));
+        still.for_each(|(node, message)| motion.receive(node, message));
+        motion.receive(point, [from[0], from[1], from[2], path[0], path[1], path[2], 0., 0., 0.]);
+        let longest_path = path.iter().fold(0.0, |longest: f64, along| longest.max(along.abs()));
+        let (motion, faces, rules) = (&motion, &faces, &[Rule::Blocks][..]);
+        let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold: true };
+        let near: Vec<Candidate> = (0..faces.len() as u32).map(|face| Candidate { face, interface: 0 }).collect();
+        let mut contacts = Vec::new();
+        check.point(point, &near, &NO_CONTACT, &mut contacts);
+        contacts.iter().map(|contact| contact.projection.normal).collect()
+    }
+
+    #[test]
+    fn what_comes_from_outside_a_fold_is_not_held_from_inside_it() {
+        // It would go through the raised flank, and over the flat one, of whose plane it is in front.
+        let outside = pushes(70.0, [-0.12, 0.4, 0.03], [0.05, 0.4, 0.03]);
+        let (sine, cosine) = 70_f64.to_radians().sin_cos();
+        assert_eq!(outside.len(), 1, "{outside:?}");
+        // The normal of that flank on its outer side, to round-off.
+        assert!(dot(outside[0], [-sine, 0.0, cosine]) > 1.0 - 1e-12, "{outside:?}");
+    }
+
+    #[test]
+    fn what_comes_along_a_flank_in_a_hollow_is_held_by_the_other() {
+        // From before the raised flank of an obtuse hollow, and in front of both.
+        let inside = pushes(120.0, [-0.05, 0.4, 0.3], [0.06, 0.4, 0.06]);
+        assert!(inside.iter().any(|normal| normal[2] > 1.0 - 1e-12), "{inside:?}");
     }
 }
