@@ -14,14 +14,13 @@ impl EdgeCheck<'_> {
         if dot(start.normal, end.normal) <= 0.0 {
             return None;
         }
-        let outwards = |sense: f64, normal: [f64; 3]| {
-            // Pushed along the normal, the first edge goes back into its own body.
-            sense * dot(normal, self.outwards(pair[0])) < 0.0 && sense * dot(normal, self.outwards(pair[1])) > 0.0
-        };
+        // Pushed along the normal, the first edge goes back into its own body.
+        let [first, second] = pair.map(|edge| dot(start.normal, self.outwards(edge)));
+        let outwards = |sense: f64| sense * first < 0.0 && sense * second > 0.0;
         let touch = |sense, tolerated| EdgeContact { pair, sense, tolerated, carried: Carried::NOTHING };
         // Where they touch already, as a mesh may have it, the faces say on which side the other one is, and round-off nothing.
         if start.gap.abs() <= TOUCHING * start.shorter() {
-            let comes = |sense: &f64| outwards(*sense, start.normal) && sense * end.gap < 0.0;
+            let comes = |sense: &f64| outwards(*sense) && sense * end.gap < 0.0;
             let sense = [1.0, -1.0].into_iter().find(comes)?;
             if !self.is_between_ends(pair, &start, 0.0, |point| self.motion.start(point)) {
                 return None;
@@ -29,13 +28,13 @@ impl EdgeCheck<'_> {
             return Some(touch(sense, (sense * start.gap).min(0.0)));
         }
         let sense = start.gap.signum();
-        if outwards(sense, start.normal) && sense * end.gap < 0.0 {
+        if outwards(sense) && sense * end.gap < 0.0 {
             return self.meets(pair, -sense * end.gap).then_some(touch(sense, 0.0));
         }
         // Overlapping from the start, made by other contacts: seen as soon as it is shallow and between the ends.
         let depth = start.gap.abs();
         let sense = -sense;
-        (outwards(sense, start.normal)
+        (outwards(sense)
             && depth < KEEP * start.shorter()
             && self.is_between_ends(pair, &start, depth, |point| self.motion.start(point)))
         .then_some(touch(sense, -depth))
