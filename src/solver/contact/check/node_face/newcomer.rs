@@ -18,9 +18,14 @@ pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
 const SEAM: f64 = 1e-4;
 
 impl NodeFaceCheck<'_> {
-    /// A point that this face has not seen before.
+    /// A point that this face, one of those `near` it, has not seen before.
     #[inline(always)]
-    pub(super) fn newcomer(&self, point: u32, face: u32, strict: bool) -> Option<DetectedContact> {
+    pub(super) fn newcomer(
+        &self,
+        (point, face): (u32, u32),
+        near: &[Candidate],
+        strict: bool,
+    ) -> Option<DetectedContact> {
         if self.is_in_front(point, face) {
             return None;
         }
@@ -65,8 +70,11 @@ impl NodeFaceCheck<'_> {
         // Behind the face from the start: pushed there by other contacts, laid bare by erosion, or never in front. What is as deep in the plane
         // of a face beside it lies flush against that, however far the face comes down in the step.
         let depth = self.faces.depth[face as usize];
-        let shallow = start.outside == 0.0 && end.outside == 0.0 && start.gap > -depth && end.gap > -depth;
+        let shallow = start.gap > -depth && end.gap > -depth;
+        let is_over =
+            || start.outside == 0.0 && end.outside == 0.0 || self.is_behind_seam((point, face), near, [&start, &end]);
         let inside = shallow
+            && is_over()
             && self.opposition(point, &end) < FACING
             && !self.in_front_of_another(point, face)
             && !self.slides_over(point, face, &start.weights);
@@ -164,6 +172,33 @@ impl NodeFaceCheck<'_> {
         };
         let is_behind = |flank: u32| self.projection_at_start(point, flank).is_some_and(|start| start.gap < 0.0);
         faces_of(near).filter(is_flank).any(is_behind)
+    }
+
+    /// Whether a point is behind a seam of a solid at which its foot is beyond the border of a face: behind two faces that see each other, as those
+    /// of a bore do, or where such faces end, as in a plane of symmetry, in the side of the body. So at the beginning of the step, and no farther
+    /// beyond at its end than it is deep. The faces near the point are asked, which all ranks have that check it.
+    fn is_behind_seam(&self, (point, face): (u32, u32), near: &[Candidate], ends: [&Projection; 2]) -> bool {
+        if ends.iter().any(|at| at.outside > -at.gap) {
+            return false;
+        }
+        let start = ends[0];
+        let corners = self.faces.corners[face as usize];
+        let is_across = |other: u32| {
+            let around = self.faces.corners[other as usize];
+            let mut shares = corners.iter().zip(start.weights).filter(|(_, weight)| *weight > projection::TIE);
+            shares.all(|(corner, _)| around.contains(corner))
+        };
+        let middle = |face| projection::centre(&self.faces.start(face, self.motion));
+        let is_beyond = |other: u32| {
+            dot(subtract(middle(other), middle(face)), start.normal) > 0.0
+                && self.projection_at_start(point, other).is_some_and(|at| at.gap < 0.0 && at.outside > 0.0)
+        };
+        let is_in_side = |other: u32| {
+            let reach = SEAM * self.faces.size[other as usize];
+            self.projection_at_start(point, other).is_some_and(|at| at.gap.abs() <= reach)
+        };
+        let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
+        others.any(is_beyond) || self.beside(face).any(|other| is_across(other) && is_in_side(other))
     }
 
     /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
