@@ -315,9 +315,9 @@ mod tests {
 
     #[test]
     fn what_comes_from_outside_a_fold_is_not_held_from_inside_it() {
-        // It would go through the raised flank, and over the flat one, of whose plane it is in front.
-        let outside = pushes(70.0, [-0.12, 0.4, 0.03], [0.05, 0.4, 0.03]);
-        let (sine, cosine) = 70_f64.to_radians().sin_cos();
+        // It begins over the raised flank, and would go through it and over the flat one, to whose plane it is nearer than they touch all the time.
+        let outside = pushes(80.0, [-0.12, 0.4, 0.03], [0.05, 0.4, 0.03]);
+        let (sine, cosine) = 80_f64.to_radians().sin_cos();
         assert_eq!(outside.len(), 1, "{outside:?}");
         // The normal of that flank on its outer side, to round-off.
         assert!(dot(outside[0], [-sine, 0.0, cosine]) > 1.0 - 1e-12, "{outside:?}");
