@@ -85,7 +85,8 @@ impl NodeFaceCheck<'_> {
     /// most do that are near a face and not in front of it.
     #[inline(always)]
     fn is_around_corner(&self, point: u32, face: u32, end: &Projection) -> bool {
-        let is_elsewhere = end.outside > 0.0 || end.gap <= -self.faces.depth[face as usize];
+        // Behind a seam the foot is beyond by less than the point is deep.
+        let is_elsewhere = end.outside > -end.gap || end.gap <= -self.faces.depth[face as usize];
         is_elsewhere
             && self.faces.distance(point, face) == 0.0
             && projection::is_behind(&self.faces.start(face, self.motion), self.motion.start(point))
