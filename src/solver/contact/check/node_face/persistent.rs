@@ -206,9 +206,10 @@ impl NodeFaceCheck<'_> {
                     !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
                 let behind = (-old.projection.gap).max(0.0);
                 let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
-                // What overlaps in the mesh does so as well behind faces beside that hardly fold, where a solid is pressed.
-                let goes_on = dot(old.projection.normal, projection.normal) > FLUSH;
-                let tolerated = if goes_on && !self.faces.is_two_sided(face) { old.tolerated } else { 0.0 };
+                // What overlaps in the mesh does so as well behind faces beside that hardly fold; in a sheet around a shaft, as much as its mesh bends.
+                let flush = if self.faces.is_two_sided(face) { SAME_WAY } else { FLUSH };
+                let goes_on = dot(old.projection.normal, projection.normal) > flush;
+                let tolerated = if goes_on { old.tolerated } else { 0.0 };
                 if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
                     contacts.push(self.held(face, projection, tolerated));
                 }
