@@ -91,24 +91,35 @@ impl SweptBox {
     }
 }
 
-/// Whether boxes leave others; what is not a number leaves nothing.
-#[derive(Default)]
-pub struct Outside([f32; 8]);
+/// Whether boxes leave others, all of which have been carried along; what is not a number leaves nothing.
+pub struct Outside {
+    farthest: [f32; 8],
+    /// What takes sides there.
+    carried: [f32; 8],
+}
 
 impl Outside {
+    /// Others that have been carried so far. What rounding of the way takes away is more than made up for here, and what rounding of a
+    /// side takes away by what boxes have been moved outwards.
+    pub fn of_boxes_carried(way: [f64; 3]) -> Outside {
+        let [x, y, z] = way.map(|x| x as f32);
+        let inwards = |x: f32| x + x.abs() * OUTWARDS;
+        Outside { farthest: [0.0; 8], carried: [x, y, z, z, -x, -y, -z, -z].map(inwards) }
+    }
+
     /// Looks at a box and at the search box in which it is to be.
     #[inline(always)]
     pub fn take(&mut self, own: &SweptBox, search_box: &SweptBox) {
         for i in 0..8 {
             // What is not a number is not larger than anything, and so never chosen.
-            let beyond = search_box.0[i] - own.0[i];
-            self.0[i] = if beyond > self.0[i] { beyond } else { self.0[i] };
+            let beyond = (search_box.0[i] + self.carried[i]) - own.0[i];
+            self.farthest[i] = if beyond > self.farthest[i] { beyond } else { self.farthest[i] };
         }
     }
 
     /// Whether any did.
     pub fn any(&self) -> bool {
-        self.0.iter().any(|&beyond| beyond > 0.0)
+        self.farthest.iter().any(|&beyond| beyond > 0.0)
     }
 }
 
