@@ -169,6 +169,30 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// A box that has gone as far as those that it is to be in has not left, and one that is half a part in a million farther has:
+        /// rounding of the way never lets a box out unseen.
+        #[test]
+        fn boxes_that_are_carried_along_hold_what_goes_with_them(
+            low in prop::array::uniform3(-1.0..1.0), way in prop::array::uniform3(-1e3..1e3),
+            axis in 0usize..3, side in prop_oneof![Just(-1.0), Just(1.0)],
+        ) {
+            let high = low.map(|x| x + 0.5);
+            let search_box = SweptBox::around(low, high);
+            let leaves = |place: [f64; 3]| {
+                let mut outside = Outside::of_boxes_carried(way);
+                outside.take(&SweptBox::around(place, place), &search_box);
+                outside.any()
+            };
+            let gone = |from: [f64; 3], by: f64| [0, 1, 2].map(|i| from[i] + way[i] + if i == axis { by } else { 0.0 });
+            let middle = low.map(|x| x + 0.25);
+            prop_assert!(!leaves(gone(middle, 0.0)) && !leaves(gone(middle, 0.24 * side)));
+            let (edge, far) = (if side > 0.0 { high } else { low }, 5e-7 * (1.0 + way[axis].abs() + 1.5));
+            prop_assert!(leaves(gone(edge, far * side)));
+            prop_assert!(leaves(gone(middle, 0.26 * side + far * side)));
+        }
+    }
+
     #[test]
     fn what_is_not_a_number_meets_everything() {
         let nowhere = SweptBox::around([f64::NAN; 3], [f64::NAN; 3]);
