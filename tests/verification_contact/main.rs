@@ -7,6 +7,7 @@ mod energy;
 mod erosion;
 mod extremes;
 mod flush;
+mod flying;
 mod friction;
 mod overlaps;
 mod press_fit;

@@ -263,11 +263,16 @@ impl NodeMotion {
     }
 
     /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
-    /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box. With `ALL` it finds all
-    /// motions.
+    /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box, and how far these have all
+    /// been carried along. With `ALL` it finds all motions.
     #[inline(always)]
-    pub fn survey<const ALL: bool>(&mut self, nodes: &Nodes, last_drift: f64, of_each: (&[u64], &[SweptBox])) -> bool {
-        let (mut range, mut outside) = (PathRange::default(), Outside::default());
+    pub fn survey<const ALL: bool>(
+        &mut self,
+        nodes: &Nodes,
+        last_drift: f64,
+        of_each: (&[u64], &[SweptBox], [f64; 3]),
+    ) -> bool {
+        let (mut range, mut outside) = (PathRange::default(), Outside::of_boxes_carried(of_each.2));
         let soon = self.places.iter().skip(SOON).chain(self.places.last().into_iter().cycle());
         let places = self.places.iter().zip(soon).zip(self.motions.iter_mut().zip(&mut self.swept_boxes));
         for (((&node, &soon), (own, own_box)), (&counts, search_box)) in places.zip(of_each.0.iter().zip(of_each.1)) {

@@ -1,8 +1,10 @@
 //! The contact nodes of this rank: where they would go, and what contact does to them.
 
+mod frame;
 pub mod result;
 pub mod sparse;
 
+use crate::comm::Communicator;
 use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::enforcement::joints::Joints;
@@ -12,6 +14,7 @@ use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::layout::{ABSENT, inverse};
 use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
+use frame::Frame;
 use result::NodeResult;
 use std::sync::Arc;
 
@@ -52,8 +55,10 @@ pub struct ContactNodes {
     arms: Vec<f64>,
     /// By how much the path of one of them in the last step may differ from its velocity times the step, a length.
     turned: f64,
-    /// Box that the last search gave each. Coordinates beyond 3e38 have none, and meet nothing.
+    /// Box that the last search gave each, and the frame that has carried them all along since. Coordinates beyond 3e38 have none,
+    /// and meet nothing.
     search_boxes: Vec<SweptBox>,
+    frame: Frame,
     /// Whether there was a search, and whether one is due: a contact node leaves its box in this step, or there was none.
     searched: bool,
     pub expired: bool,
@@ -165,6 +170,7 @@ impl ContactNodes {
         self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
         let all = self.motion.is_crowded();
         let last_drift = self.motion.drift();
+        self.frame.advance(last_drift);
         self.motion.begin([step.drift, step.kick]);
         let leaves = match self.motion.instructions().vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
@@ -190,7 +196,7 @@ impl ContactNodes {
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
     fn survey_each(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
-        let of_each = (&self.counts[..], &self.search_boxes[..]);
+        let of_each = (&self.counts[..], &self.search_boxes[..], self.frame.gone());
         if all {
             self.motion.survey::<true>(nodes, last_drift, of_each)
         } else {
@@ -204,37 +210,53 @@ impl ContactNodes {
         chosen.for_each(|contact_node| self.counts[contact_node] = u64::MAX);
     }
 
+    /// Lets the next search boxes be carried along with what most of all contact nodes have in common. All ranks call it.
+    pub fn fly_along(&mut self, comm: &mut dyn Communicator) {
+        let ContactNodes { list, motion, .. } = self;
+        let owned = (0..).zip(list.iter()).filter(|(_, contact_node)| contact_node.owned);
+        self.frame = Frame::of(owned.map(|(i, _)| motion.velocity(i)), comm);
+    }
+
     /// Gives every contact node a new search box: around the path that it would go in `steps` of the present one, with room on
-    /// all sides for a turn, but at least `least`.
+    /// all sides for a turn, but at least `least`. The frame goes the first part of the way with it, and each step's own path is
+    /// seen from where the frame is at its beginning.
     pub fn renew(&mut self, steps: f64, least: f64) {
         self.searched = true;
         self.motion.count_anew();
         self.search_boxes.clear();
         for contact_node in 0..self.list.len() {
-            let path = self.path(contact_node);
-            let half = scaled(path, 0.5 * steps);
-            let longest = half.iter().fold(0.0, |longest, half| larger(half.abs(), longest));
-            let room = larger(SIDE * longest, least);
-            let centre = subtract(add(self.motion.start(contact_node as u32), half), self.motion.origin());
-            let side = half.map(|half| half.abs() + room);
+            let half_step = scaled(self.path(contact_node), 0.5);
+            let half = scaled(self.path_in_frame(contact_node), 0.5 * (steps - 1.0));
+            let side = [0, 1, 2].map(|i| half[i].abs() + half_step[i].abs());
+            let room = larger(SIDE * side.iter().fold(0.0, |longest, side| larger(*side, longest)), least);
+            let start = subtract(self.motion.start(contact_node as u32), self.motion.origin());
+            let centre = add(start, add(half, half_step));
+            let side = side.map(|side| side + room);
             self.search_boxes.push(SweptBox::around(subtract(centre, side), add(centre, side)));
         }
     }
 
     /// Lets those contact nodes that are near something much faster go along with it, for so many steps; `near` is asked with the box
-    /// of each and the path that it goes itself.
+    /// of each and the path that it goes itself, and tells paths; all of them are seen from the frame.
     pub fn widen<'a>(&mut self, steps: f64, near: impl Fn(&Box3, [f64; 3]) -> Option<&'a PathRange>) {
+        // In a step something goes along with the frame as well.
+        let along = self.frame.path(self.motion.drift());
         for contact_node in 0..self.list.len() {
             let [low, high] = self.search_boxes[contact_node].corners();
-            let Some(paths) = near(&Box3 { low, high }, self.path(contact_node)) else { continue };
+            let Some(paths) = near(&Box3 { low, high }, self.path_in_frame(contact_node)) else { continue };
             let at = subtract(self.motion.start(contact_node as u32), self.motion.origin());
             let room = STRUCK_SIDE * steps * paths.paths().longest;
             let [backward, forward] = paths.bounds();
             let of = |path: f64, room: f64, at: f64| at + (STRUCK * steps * path + room);
-            let least = [0, 1, 2].map(|i| smaller(of(backward[i], -room, at[i]), low[i]));
-            let most = [0, 1, 2].map(|i| larger(of(forward[i], room, at[i]), high[i]));
+            let least = [0, 1, 2].map(|i| smaller(of(backward[i], smaller(along[i], 0.0) - room, at[i]), low[i]));
+            let most = [0, 1, 2].map(|i| larger(of(forward[i], larger(along[i], 0.0) + room, at[i]), high[i]));
             self.search_boxes[contact_node] = SweptBox::around(least, most);
         }
+    }
+
+    /// How far a contact node would go in the present step along each axis, seen from the frame of the search boxes, lengths.
+    pub fn path_in_frame(&self, contact_node: usize) -> [f64; 3] {
+        subtract(self.path(contact_node), self.frame.path(self.motion.drift()))
     }
 
     /// How far a contact node would go in the present step along each axis, lengths.

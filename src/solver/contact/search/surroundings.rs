@@ -31,7 +31,8 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Where faces are whose corners leave the room of nodes at rest before their search boxes end. `faces` are those of elements
+    /// Where faces are whose corners leave the room of nodes at rest before their search boxes end, all seen from the frame of these
+    /// boxes: what flies along with it is at rest. `faces` are those of elements
     /// that are here; the boxes of the contact nodes are those of the coming search. All ranks call it and learn the same.
     pub fn of(
         faces: &[u32],
@@ -41,7 +42,7 @@ impl Surroundings {
     ) -> Surroundings {
         let most = MOST * reach.least / reach.steps;
         let limited = |path: f64| if path.is_nan() { 0.0 } else { path.clamp(-most, most) };
-        let path = |node: usize| contact_nodes.path(node).map(limited);
+        let path = |node: usize| contact_nodes.path_in_frame(node).map(limited);
         let mut kinds: [(PathRange, Vec<Box3>); KINDS] = Default::default();
         for &face in faces {
             let corners = layout.faces.corners[face as usize];
