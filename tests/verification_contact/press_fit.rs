@@ -207,8 +207,7 @@ fn outwards(run: &Run, mesh: &Mesh, block: i64, outer: bool) -> [f64; 2] {
     let last = if outer { radii().fold(0.0, f64::max) } else { radii().fold(f64::INFINITY, f64::min) };
     let [x, y] = ["DISPLX", "DISPLY"].map(|name| run.end().nodal(name));
     let chosen = nodes.iter().filter(|node| (radius(node) - last).abs() < 1e-9);
-    let moved: Vec<f64> =
-        chosen.map(|node| (x[*node] * at(node)[0] + y[*node] * at(node)[1]) / radius(node)).collect();
+    let moved: Vec<f64> = chosen.map(|node| (x[*node] * at(node)[0] + y[*node] * at(node)[1]) / radius(node)).collect();
     let mean = moved.iter().sum::<f64>() / moved.len() as f64;
     [mean, moved.iter().map(|one| (one - mean).abs()).fold(0.0, f64::max)]
 }
