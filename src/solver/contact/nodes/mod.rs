@@ -38,6 +38,11 @@ const SIDE: f64 = 0.25;
 const STRUCK: f64 = 0.7;
 const STRUCK_SIDE: f64 = 0.1;
 
+/// Search boxes are carried along where the way that nodes have in common is longer than so many rooms of nodes at rest, three faces.
+/// Shorter ways bring few candidates, and what slows down stays in a box that holds its whole way, but leaves one that flies on: the
+/// container that falls on a punch took 33 searches instead of 9.
+const FAR: f64 = 30.0;
+
 /// Contact nodes of this rank, in the order of their numbers in the layout.
 #[derive(Debug, Clone, Default)]
 pub struct ContactNodes {
@@ -210,11 +215,14 @@ impl ContactNodes {
         chosen.for_each(|contact_node| self.counts[contact_node] = u64::MAX);
     }
 
-    /// Lets the next search boxes be carried along with what most of all contact nodes have in common. All ranks call it.
-    pub fn fly_along(&mut self, comm: &mut dyn Communicator) {
+    /// Lets the next search boxes, which are for so many steps and have at least that room, be carried along with what most of all
+    /// contact nodes have in common. All ranks call it.
+    pub fn fly_along(&mut self, steps: f64, least: f64, comm: &mut dyn Communicator) {
         let ContactNodes { list, motion, .. } = self;
         let owned = (0..).zip(list.iter()).filter(|(_, contact_node)| contact_node.owned);
-        self.frame = Frame::of(owned.map(|(i, _)| motion.velocity(i)), comm);
+        let frame = Frame::of(owned.map(|(i, _)| motion.velocity(i)), comm);
+        let way = frame.path(steps * motion.drift());
+        self.frame = if dot(way, way).sqrt() > FAR * least { frame } else { Frame::default() };
     }
 
     /// Gives every contact node a new search box: around the path that it would go in `steps` of the present one, with room on
