@@ -194,9 +194,18 @@ impl NodeFaceCheck<'_> {
             dot(subtract(middle(other), middle(face)), start.normal) > 0.0
                 && self.projection_at_start(point, other).is_some_and(|at| at.gap < 0.0 && at.outside > 0.0)
         };
+        // From the border to the foot of the perpendicular beyond it.
+        let nearest = projection::foot(&self.faces.start(face, self.motion), &start.weights);
+        let foot = subtract(self.motion.start(point), scaled(start.normal, start.gap));
+        let beyond = subtract(foot, nearest);
         let is_in_side = |other: u32| {
             let reach = SEAM * self.faces.size[other as usize];
-            self.projection_at_start(point, other).is_some_and(|at| at.gap.abs() <= reach)
+            self.projection_at_start(point, other).is_some_and(|at| {
+                // What looks at the side touches that, as what follows a chord does.
+                at.gap.abs() <= reach
+                    && dot(beyond, at.normal) > 0.5 * start.outside
+                    && self.opposition(point, &at) > FACING
+            })
         };
         let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
         others.any(is_beyond) || self.beside(face).any(|other| is_across(other) && is_in_side(other))
