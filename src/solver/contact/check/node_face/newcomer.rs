@@ -102,14 +102,19 @@ impl NodeFaceCheck<'_> {
         }
         let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
         let own: Vec<[f64; 3]> = self.faces.around(point).iter().filter_map(|&own| normal(own)).collect();
-        let corners = self.faces.corners[face as usize];
         let is_flush = |other: u32| {
-            let around = self.faces.corners[other as usize];
-            let mut shares = corners.iter().zip(farther.weights).filter(|(_, weight)| *weight > projection::TIE);
-            shares.all(|(corner, _)| around.contains(corner))
+            self.is_across(face, &farther.weights, other)
                 && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
         };
         self.beside(face).any(is_flush).then(|| start.gap / (start.gap - end.gap))
+    }
+
+    /// Whether another face has all the corners of a face that have a share in a foot on its border: it goes on there.
+    fn is_across(&self, face: u32, weights: &[f64; 4], other: u32) -> bool {
+        let around = self.faces.corners[other as usize];
+        let mut shares =
+            self.faces.corners[face as usize].iter().zip(weights).filter(|(_, weight)| **weight > projection::TIE);
+        shares.all(|(corner, _)| around.contains(corner))
     }
 
     /// Whether a point that a face has not held is beside its border and too far from that to be stopped by it, see
@@ -183,12 +188,7 @@ impl NodeFaceCheck<'_> {
             return false;
         }
         let start = ends[0];
-        let corners = self.faces.corners[face as usize];
-        let is_across = |other: u32| {
-            let around = self.faces.corners[other as usize];
-            let mut shares = corners.iter().zip(start.weights).filter(|(_, weight)| *weight > projection::TIE);
-            shares.all(|(corner, _)| around.contains(corner))
-        };
+        let is_across = |other: u32| self.is_across(face, &start.weights, other);
         let middle = |face| projection::centre(&self.faces.start(face, self.motion));
         let is_beyond = |other: u32| {
             dot(subtract(middle(other), middle(face)), start.normal) > 0.0
