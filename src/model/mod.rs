@@ -114,6 +114,20 @@ impl Model {
         self.rigid_bodies.iter().flatten().any(|rigid| *rigid == block)
     }
 
+    /// Axes along which nothing holds or drives the model, so that it goes on as a whole as it began but for its loads.
+    pub fn free_axes(&self) -> [bool; 3] {
+        if !self.rigid_surfaces.is_empty() || !self.silent_boundaries.is_empty() {
+            return [false; 3];
+        }
+        let held = self.no_displacements.iter().map(|held| (held.of, held.direction));
+        let driven = self.prescribed_motions.iter().map(|driven| (driven.of, driven.direction));
+        let mut free = [true, true, self.analysis == Analysis::Solid];
+        // Bodies of revolution move together along their axis alone.
+        free[0] = matches!(self.analysis, Analysis::Solid | Analysis::PlaneStrain);
+        held.chain(driven).filter(|(of, _)| *of == Unknown::Position).for_each(|(_, axis)| free[axis.axis()] = false);
+        free
+    }
+
     /// Whether any material is a fluid: see [`Law::is_fluid`](crate::material::Law::is_fluid).
     pub fn has_fluids(&self) -> bool {
         self.materials.iter().any(|material| material.law.is_fluid())

@@ -145,9 +145,10 @@ impl Solver {
         let mut domain = Domain::new(mesh, model, body, share, comm);
         let global_step = (model.step_estimate == StepEstimate::Global).then(|| GlobalStep::new(&mut domain));
         let initial_energy = totals::initial_kinetic_energy(&domain, comm);
+        let flight_energy = totals::flight_energy(&domain, model.free_axes(), comm);
         Solver {
             prescribed: prescribed_at_start(&domain, &model.functions),
-            watch: Watch::new(mesh, model, body, share, initial_energy),
+            watch: Watch::new(mesh, model, body, share, [initial_energy, flight_energy]),
             domain,
             clock: Clock::default(),
             step: 0,

@@ -243,3 +243,19 @@ pub fn initial_kinetic_energy(domain: &Domain, comm: &mut dyn Communicator) -> f
     ExactSum::merge_ranks(&mut sum, comm);
     sum[0].value()
 }
+
+/// Kinetic energy of what all nodes do together along these axes, ½ P²/M of the velocities as they stand: no collision and no deformation can
+/// turn it into anything.
+pub fn flight_energy(domain: &Domain, axes: [bool; 3], comm: &mut dyn Communicator) -> f64 {
+    let mut sums: [ExactSum; 4] = std::array::from_fn(|_| ExactSum::new());
+    let nodes = &domain.nodes;
+    for (row, _) in nodes.rows.iter().zip(&nodes.owned).take(nodes.places).filter(|(_, owned)| **owned) {
+        let [.., u, v, w, _] = row.0;
+        let mass = row.0[3];
+        sums.iter_mut().zip([u, v, w, 1.0]).for_each(|(sum, velocity)| sum.add(mass * velocity));
+    }
+    ExactSum::merge_ranks(&mut sums, comm);
+    let [x, y, z, mass] = sums.map(|sum| sum.value());
+    let along = [x, y, z].into_iter().zip(axes).filter(|(_, counts)| *counts);
+    if mass > 0.0 { along.map(|(momentum, _)| 0.5 * momentum * momentum / mass).sum() } else { 0.0 }
+}

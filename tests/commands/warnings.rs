@@ -37,6 +37,30 @@ fn hourglass_energy_is_told_when_it_amounts_to_something() {
     assert!(time.is_some_and(|time| time < 0.06), "not at the end only: {told}");
 }
 
+/// A free beam of one element across, one half of which is thrown: it bends by hourglass modes alone. What warns of that must not be
+/// silent because all of it flies.
+#[test]
+fn hourglass_energy_is_told_of_what_flies_as_of_what_rests() {
+    let told = |flight: f64, precision: &str| {
+        let deck = format!(
+            "TERMINATION TIME, 2.E-3\nOUTPUT TIME, 1.E-4\nINITIAL VELOCITY MATERIAL, 4, {flight}, 0., 1.\n\
+             INITIAL VELOCITY MATERIAL, 5, {flight}, 0., -1.\n{precision}MATERIAL, 4, ELASTIC, 7800.\n{STEEL}\
+             MATERIAL, 5, ELASTIC, 7800.\n{STEEL}"
+        );
+        let recipe = "BOX, 4, 0., 0., 0., 0.5, 0.1, 0.1, 5, 1, 1\nBOX, 5, 0.5, 0., 0., 0.5, 0.1, 0.1, 5, 1, 1\nMERGE\n";
+        lines(&desk(&deck, recipe).urto(&["case.i", "--ranks", "2"]).with(0).err, "warning: ").concat()
+    };
+    for precision in ["", "PRECISION, SINGLE\n"] {
+        let [rests, flies] = [0.0, 2000.0].map(|flight| told(flight, precision));
+        assert!(rests.contains("hourglass energy of block 4") && rests.contains("of block 5"), "{rests}");
+        assert!(flies.contains("hourglass energy of block 4") && flies.contains("of block 5"), "{flies}");
+    }
+    let alone = "TERMINATION TIME, 2.E-3\nOUTPUT TIME, 1.E-4\nINITIAL VELOCITY MATERIAL, 4, 2000., 0., 0.\nPRECISION, SINGLE\n\
+                 MATERIAL, 4, ELASTIC, 7800.\n";
+    let desk = desk(&format!("{alone}{STEEL}"), "BOX, 4, 0., 0., 0., 0.5, 0.1, 0.1, 5, 1, 1\n");
+    desk.urto(&["case.i", "--strict", "--ranks", "1"]).with(0);
+}
+
 /// In half a period water swings twice as far as a slow pull would move it, its surface inclined by a/g: its centre by
 /// 2 a L²/(12 g H). With the factor that the advice names it does so, and nothing is warned of; without it does not come half as far.
 #[test]

@@ -29,6 +29,8 @@ pub struct Facts {
     pub energy_floor: f64,
     /// Internal energy that gases and explosives hold at the start.
     pub stored_energy: f64,
+    /// Kinetic energy that all had together at the start along axes where nothing holds the model: it stays that.
+    pub flight_energy: f64,
     /// Part of the whole damping by which hourglass modes of fluids are resisted.
     pub damping: f64,
     /// Time at which the run ends.
@@ -106,7 +108,13 @@ const WINDOW: f64 = 0.1;
 
 impl Watch {
     /// What there is to know of a run before its first step.
-    pub fn new(mesh: &Mesh, model: &Model, body: &Body, share: &Share, initial_energy: f64) -> Watch {
+    pub fn new(
+        mesh: &Mesh,
+        model: &Model,
+        body: &Body,
+        share: &Share,
+        [initial_energy, flight_energy]: [f64; 2],
+    ) -> Watch {
         let masses = body.block_masses(mesh.blocks.len());
         let block = |((block, mass), &material): ((&crate::mesh::Block, f64), &usize)| {
             let material = &model.materials[material];
@@ -118,6 +126,7 @@ impl Watch {
             blocks: mesh.blocks.iter().zip(masses).zip(body.block_material.iter()).map(block).collect(),
             energy_floor: energy::energy_floor(body, model),
             stored_energy: energy::stored_energy(body, model),
+            flight_energy,
             damping: of_fluids(model.hourglass),
             termination_time: model.termination_time,
             contact_limit: model.contact.control.energy_limit,

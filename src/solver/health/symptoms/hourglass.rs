@@ -10,6 +10,9 @@ use crate::solver::health::watch::{BlockFacts, Exam};
 /// Less than this part of the energy supplied, times the block's part of the mass, does no harm: so begins every impact.
 const WORTH_WORDS: f64 = 1e-3;
 
+/// Part of the energy supplied below which all that is left beside a common flight may be its round-off, in single precision too.
+const ROUND_OFF: f64 = 1e-6;
+
 pub const SYMPTOM: Symptom = Symptom {
     code: 4,
     when: When::Lines,
@@ -49,11 +52,13 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     };
     let sums = energies_of_blocks(exam, energies, comm);
     let mass: f64 = blocks.iter().map(|block| block.mass).sum();
+    // What all do together deforms nothing. Of a body that merely flies round-off is left.
+    let supplied = (exam.supplied - exam.facts.flight_energy).max(ROUND_OFF * exam.supplied);
     let evidence = |(block, [internal, hourglass]): (&BlockFacts, [f64; 2])| {
         // A gas that has expanded has lost internal energy; what it has done counts.
         let share = hourglass / internal.abs();
         // The first waves of loads that rise are all edges; what they leave is small against what follows.
-        let counts = !exam.begins && hourglass > WORTH_WORDS * exam.supplied * block.mass / mass;
+        let counts = !exam.begins && hourglass > WORTH_WORDS * supplied * block.mass / mass;
         counts.then_some(Evidence { share, amount: hourglass, of: internal, block: block.id, ..Evidence::default() })
     };
     blocks.iter().zip(sums).filter_map(evidence).collect()
