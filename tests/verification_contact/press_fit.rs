@@ -307,17 +307,33 @@ fn a_pin_in_a_ring_is_held_by_either_side() {
 /// the sleeve kept its overlap.
 #[test]
 fn a_sleeve_of_shells_is_pressed_on_everywhere() {
+    let bend = std::f64::consts::PI / 32.0;
+    for data in ["", "CONTACT DATA, 1, 2, 0., 0."] {
+        let [mean, uneven] = sleeve(data);
+        close("sleeve", &format!("displacement, {data}"), mean, 0.010 + 0.0005 / bend.cos() - 0.01049, 0.01);
+        between("sleeve", "uneven", uneven, 0.0, 0.01 * mean);
+    }
+}
+
+/// With the shaft as the only master the nodes of the sleeve touch the ridges between the facets of the shaft below them, half a thickness away: none of them is over a facet, and as the
+/// mesh leaves them less room than that, they counted as beside all of these. Nothing was held, without a word. One hundredth as above.
+#[test]
+fn a_sleeve_of_shells_is_pressed_on_by_the_shaft_alone() {
+    let [mean, uneven] = sleeve("CONTACT DATA, 1, 2, 0., 1.");
+    close("sleeve", "displacement, shaft as master", mean, 0.010 + 0.0005 - 0.01049, 0.01);
+    between("sleeve", "uneven", uneven, 0.0, 0.01 * mean);
+}
+
+/// Mean displacement of the nodes of a sleeve of shells that is pressed on a shaft, and by how much one of them differs from it at most; with a line more in the deck.
+fn sleeve(data: &str) -> [f64; 2] {
     let mesh = recipe(
         "TITLE\n SLEEVE\nCYLINDER, 1, 0.010, 0.02, 4, 2, QUARTER\nSHEET TUBE, 2, 0.01049, 0.02, 8, 2, QUARTER\nNODE SET PLANE, 1, X, 0.\n\
          NODE SET PLANE, 2, Y, 0.\nNODE SET PLANE, 3, Z, 0.\n",
     );
     let deck = format!(
-        "TITLE\n SLEEVE\nTERMINATION TIME, 4.E-4\nPLOT TIME, 4.E-4\nPLOT NODAL, DISPLACEMENT\nCONTACT MATERIAL\nCONTACT OVERLAP, STRESS, 2.E-4\n\
+        "TITLE\n SLEEVE\nTERMINATION TIME, 4.E-4\nPLOT TIME, 4.E-4\nPLOT NODAL, DISPLACEMENT\nCONTACT MATERIAL\n{data}\nCONTACT OVERLAP, STRESS, 2.E-4\n\
          RIGID BODY, 1\nSHELL THICKNESS, 2, 0.001\nNO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 3\nNO ROTATION, Y, 1\nNO ROTATION, Z, 1\n\
          NO ROTATION, X, 2\nNO ROTATION, Z, 2\nMATERIAL, 1, {STEEL}\nMATERIAL, 2, {STEEL}\nEXIT\n"
     );
-    let [mean, uneven] = outwards(&run(&deck, &mesh), &mesh, 2, true);
-    let bend = std::f64::consts::PI / 32.0;
-    close("sleeve", "displacement", mean, 0.010 + 0.0005 / bend.cos() - 0.01049, 0.01);
-    between("sleeve", "uneven", uneven, 0.0, 0.01 * mean);
+    outwards(&run(&deck, &mesh), &mesh, 2, true)
 }
