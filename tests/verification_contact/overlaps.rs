@@ -191,3 +191,27 @@ fn what_is_held_with_its_body_is_not_deep() {
         assert!((overlap.kept.deepest - deepest).abs() < 1e-6, "{shapes}: {overlap:?}");
     }
 }
+
+/// Bodies of elements thinner than the overlap that begin in a block, or in a ring: what is known at their surface says nothing of what is deeper than that. A pin
+/// through a block, and one wholly in it; one whose end is deeper than half an element of the block; a box of which one end is known and
+/// the other one deeper; a pin and a ring both of fine elements, of which neither is known; a pin in the wall of a ring.
+#[test]
+fn fine_bodies_inside_bodies_are_refused() {
+    let block = "BOX, 1, -1., -1., -1., 2., 2., 2., 4, 4, 4\n";
+    let pin = |length: f64, along: usize, from: f64| {
+        format!("{block}CYLINDER, 2, 0.3, {length:?}, 2, {along}, FULL, 8\nTRANSLATE, 2, 0.03, 0.02, {from:?}\n")
+    };
+    let tilted = format!(
+        "{block}BOX, 2, -0.6, -0.3, 0., 1.2, 0.6, 2., 12, 6, 20\nROTATE, 2, Y, 30.\nTRANSLATE, 2, 0., 0., 0.85\n"
+    );
+    let both = "TUBE, 1, 0.1, 0.2, 0.1, 100, 16, 2\nCYLINDER, 2, 0.104, 0.1, 4, 2, FULL, 40\n";
+    let wall = "TUBE, 1, 0.1, 0.2, 0.1, 2, 32, 4\nCYLINDER, 2, 0.02, 0.1, 2, 4, FULL, 20\nTRANSLATE, 2, 0.12, 0., 0.\n";
+    for shapes in [&pin(4.0, 40, -2.0), &pin(1.0, 10, -0.5), &pin(3.0, 40, 0.4), &tilted, both, wall] {
+        let overlap = overlap_of(shapes, "CONTACT OVERLAP, STRESS\n");
+        let mesh = recipe(&format!("TITLE\n overlap\n{shapes}"));
+        assert!(overlap.refusal(&mesh).is_some(), "{shapes}: {overlap:?}");
+    }
+    // The end of a pin that is no deeper than half an element is known, and with it the nodes of the block in the pin.
+    let overlap = overlap_of(&pin(3.0, 40, 0.8), "CONTACT OVERLAP, STRESS\n");
+    assert_eq!((overlap.deep.nodes, overlap.engulfed.count), (0, 0), "{overlap:?}");
+}

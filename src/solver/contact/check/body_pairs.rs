@@ -21,6 +21,17 @@ pub struct BodyPairs {
     rooms: BTreeMap<u32, Vec<Box3>>,
 }
 
+/// A point that contact knows to be behind a face of another body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
+    /// The point.
+    pub point: u32,
+    /// The body of the face.
+    pub other: u32,
+    /// How deep it is behind the face, a length.
+    pub depth: f64,
+}
+
 /// What contact sees of a body.
 #[derive(Debug, Clone, Copy)]
 struct Extent {
@@ -60,13 +71,15 @@ impl BodyPairs {
         self.of_node[node as usize]
     }
 
-    /// Points that contact knows to be behind faces, each with the body of the face.
-    pub fn known(&self, (mesh, model): (&Mesh, &Model), body: &Body, layout: &Layout) -> Vec<(u32, u32)> {
+    /// Points that contact knows to be behind faces.
+    pub fn known(&self, (mesh, model): (&Mesh, &Model), body: &Body, layout: &Layout) -> Vec<Known> {
         let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
         stand_still(&mut motion, body, layout);
         let known = behind(layout, &Pairings::new(mesh, model, body), &motion).into_iter();
         let body_of = |face: u32| self.body(layout.nodes[layout.faces.corners[face as usize][0] as usize]);
-        known.map(|(point, contact, _)| (point, body_of(contact.face))).collect()
+        known
+            .map(|(point, contact, _)| Known { point, other: body_of(contact.face), depth: -contact.projection.gap })
+            .collect()
     }
 
     /// Whether a box of a body reaches into a room that the body has in common with another.

@@ -1,6 +1,6 @@
 //! Nodes that begin inside elements and that contact does not know to be there: too deep below the faces at which they look.
 
-use super::initial_overlap::{bodies_of, corners_of, depth, is_inside, solid_elements, stand_still};
+use super::initial_overlap::{bodies_of, corners_of, depth, is_inside, seen_larger, solid_elements, stand_still};
 use super::node_face;
 use super::overlap::DeepOverlap;
 use crate::mesh::plane;
@@ -23,7 +23,7 @@ const MEASURED: usize = 1000;
 pub struct Inside {
     pub point: u32,
     /// The element, by its number in canonical order.
-    element: u32,
+    pub element: u32,
     /// Whether a face is near behind which it does not look.
     pub faces_away: bool,
 }
@@ -45,7 +45,8 @@ enum Place {
 /// the element below every face at which they look.
 pub fn deep_points(body: &Body, layout: &Layout, automatic: &Interface, part: f64) -> Vec<Inside> {
     let elements = solid_elements(body, layout, automatic);
-    let corners = |place: u32| plane::solid(&body.corners(&elements[place as usize].1));
+    // Nodes of meshes that match may be between two elements, where round-off would leave them in neither.
+    let corners = |place: u32| seen_larger(&plane::solid(&body.corners(&elements[place as usize].1)));
     let boxes: Vec<Box3> = (0..elements.len() as u32).map(|place| Box3::around(&corners(place))).collect();
     let at = |point: usize| body.positions[layout.nodes[point] as usize];
     let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };

@@ -1,15 +1,14 @@
 //! Nodes that are in the outermost elements of others, and how deep: beyond half an element contact does not hold them.
 
-use super::initial_overlap::is_inside;
+use super::initial_overlap::{is_inside, seen_larger};
 use crate::comm::Communicator;
 use crate::mesh::check::hexahedron_volume;
 use crate::mesh::{HEX_SIDES, plane};
-use crate::solver::body::centroid;
 use crate::solver::contact::Contact;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::ABSENT;
-use crate::solver::nodes::{Nodes, add, dot, scaled, subtract};
+use crate::solver::nodes::{Nodes, dot};
 
 /// A node inside an element that is not its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +23,6 @@ pub struct EmbeddedNode {
 
 /// An element by its canonical number and its local nodes, eight as [`plane::eight`] has them.
 pub type Outer = (u32, [u32; 8]);
-
-/// Elements are seen larger by this part, so that a point between two of them is in both.
-const LARGER: f64 = 1e-3;
 
 /// Elements that are looked at together. Neighbours follow each other in canonical order, so that few points are near those of one
 /// round, and what a search takes for a round is small against what a run keeps.
@@ -107,9 +103,7 @@ impl Contact {
 
     /// How deep a point is in an element, in thicknesses below the nearest of its outer faces; `None` where it is not in it.
     fn depth(&self, element: u32, corners: &[[f64; 3]; 8], point: [f64; 3]) -> Option<f64> {
-        let middle = centroid(corners);
-        let larger = corners.map(|corner| add(middle, scaled(subtract(corner, middle), 1.0 + LARGER)));
-        if !is_inside(&larger, point) {
+        if !is_inside(&seen_larger(corners), point) {
             return None;
         }
         let volume = hexahedron_volume(corners);

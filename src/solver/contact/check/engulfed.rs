@@ -3,6 +3,7 @@
 
 use super::body_pairs::BodyPairs;
 use super::initial_overlap::{is_inside, solid_elements};
+use super::sunk::{Inner, SunkFaces};
 use super::unheld::{Place, Unheld};
 use crate::mesh::check::hexahedron_volume;
 use crate::mesh::{Mesh, plane};
@@ -54,9 +55,14 @@ pub fn engulfed(
         return (Unheld::default(), BTreeSet::new());
     }
     let known = pairs.known((mesh, model), body, layout).into_iter();
-    let known: BTreeSet<(u32, u32)> = known.map(|(point, other)| (layout.nodes[point as usize], other)).collect();
+    let known: BTreeSet<(u32, u32)> = known.map(|of| (layout.nodes[of.point as usize], of.other)).collect();
     let is_known = |node: &u32, other: u32| known.contains(&(*node, other));
     found.retain(|(inner, other)| !inner.1.iter().any(|node| is_known(node, pairs.body(other.1[0]))));
+    let middle = |(inner, other): &(&Element, &Element)| {
+        let [body, other] = [inner, other].map(|of| pairs.body(of.1[0]));
+        Inner { at: centroid(&inner.2), body, other }
+    };
+    SunkFaces::of((mesh, model), body, layout, pairs).leave_out_below(&mut found, middle);
     let ids = |(inner, other): &(&Element, &Element)| [inner, other].map(|of| mesh.blocks[block(of) as usize].id);
     let worst = found.first().map(|pair @ (inner, _)| Place {
         blocks: ids(pair),

@@ -2,16 +2,18 @@
 
 use super::behind::{NOTHING, behind, overlaps};
 use super::body_pairs::BodyPairs;
-use super::deep::{self, deep_points, measured};
+use super::deep::{self, Inside, deep_points, measured};
 use super::engulfed::engulfed;
 use super::overlap::{Crowded, Overlap, Squeezed, Stuck};
 use super::pierced::pierced;
+use super::sunk::{Inner, SunkFaces};
 use super::unheld::Unheld;
 use crate::common::disjoint_sets::DisjointSets;
 use crate::common::vector::{add, cross, dot, scaled, subtract};
 use crate::mesh::{HEX_SIDES, Mesh, plane};
 use crate::model::{ContactOverlap, Model};
 use crate::solver::Body;
+use crate::solver::body::centroid;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::enforcement::accounts::ledger::Ledger;
 use crate::solver::contact::enforcement::constraint::Constraint;
@@ -33,6 +35,9 @@ pub(super) const STUCK: f64 = 1e-4;
 
 /// Where overlaps stay, contact knows points as deep as this part of half the element.
 const KNOWN: f64 = 1.0;
+
+/// Elements are seen larger by this part where points between two of them must not be in neither.
+const LARGER: f64 = 1e-3;
 
 /// Nodes of an element that have come as near to each other as this part of their distance before are at the same place.
 const TOGETHER: f64 = 1e-3;
@@ -114,6 +119,7 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
         let (given, surface) = ((mesh, model), (&*body, &layout, automatic));
         let must_go = matches!(treatment, ContactOverlap::Stress(_));
         overlap.pierced = Unheld { must_go, ..pierced(given, surface, &pairs) };
+        overlap.known_opposite = leave_out_sunk(given, (body, &layout), (&pairs, &mut inside));
         // What is told by its nodes is told; of what only looks away from faces that are near, elements tell more.
         if inside.iter().all(|inside| inside.faces_away) {
             let nodes;
@@ -123,6 +129,25 @@ fn remove_deep(mesh: &Mesh, model: &Model, body: &mut Body) -> Overlap {
     }
     overlap.deep = measured(body, &layout, automatic, &inside);
     overlap
+}
+
+/// Leaves out nodes that are deep in a fine mesh whose surface is known to be in their body. How many these are.
+fn leave_out_sunk(
+    given: (&Mesh, &Model),
+    (body, layout): (&Body, &Layout),
+    (pairs, inside): (&BodyPairs, &mut Vec<Inside>),
+) -> usize {
+    if inside.is_empty() {
+        return 0;
+    }
+    let place = |of: &Inside| {
+        let node = layout.nodes[of.point as usize];
+        let element = body.element_nodes[of.element as usize][0];
+        Inner { at: body.positions[node as usize], body: pairs.body(element), other: pairs.body(node) }
+    };
+    let before = inside.len();
+    SunkFaces::of(given, body, layout, pairs).leave_out_below(inside, place);
+    before - inside.len()
 }
 
 /// Moves nodes out of the faces behind which contact knows them to be.
@@ -274,6 +299,12 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
             whole > 0.0 && parts.iter().all(|part| *part >= 0.0) && parts.iter().sum::<f64>() <= 1.0
         })
     })
+}
+
+/// Corners of an element that is seen a little larger than it is, so that a point between two elements is in both.
+pub(super) fn seen_larger(corners: &[[f64; 3]; 8]) -> [[f64; 3]; 8] {
+    let middle = centroid(corners);
+    corners.map(|corner| add(middle, scaled(subtract(corner, middle), 1.0 + LARGER)))
 }
 
 /// Inverse masses; none in directions that the deck holds.

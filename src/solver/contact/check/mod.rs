@@ -11,6 +11,7 @@ pub mod node_face;
 pub mod overlap;
 mod pierced;
 pub mod planes;
+mod sunk;
 pub mod unheld;
 
 /// Cosine of the angle between two planes that count as one.

@@ -15,6 +15,8 @@ pub struct Overlap {
     pub farthest: f64,
     /// What is left deep inside.
     pub deep: DeepOverlap,
+    /// Nodes that are as deep, in a fine mesh whose own surface contact knows to be in their body.
+    pub known_opposite: usize,
     /// What could not be moved out, though it is not deep.
     pub stuck: Stuck,
     /// What is to be pushed apart through strain between rigid bodies, which have none.

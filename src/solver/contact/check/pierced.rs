@@ -1,7 +1,7 @@
 //! Edges that begin going through faces of other bodies, where no node is inside: contact, which holds nodes and what comes together,
 //! sees nothing of such an overlap.
 
-use super::body_pairs::{BodyPairs, box_of};
+use super::body_pairs::{BodyPairs, Known, box_of};
 use super::edge_edge::lines::Crossing;
 use super::edge_edge::{self, SUNK};
 use super::initial_overlap::depth;
@@ -277,7 +277,7 @@ impl Scene<'_> {
         let of_face = |face: u32| self.body_of(self.layout.faces.corners[face as usize][0]);
         let sorted = |a: u32, b: u32| [a.min(b), a.max(b)];
         let mut places: BTreeMap<[u32; 2], Vec<[f64; 3]>> = BTreeMap::new();
-        for (point, other) in self.pairs.known((self.mesh, self.model), self.body, self.layout) {
+        for Known { point, other, .. } in self.pairs.known((self.mesh, self.model), self.body, self.layout) {
             places.entry(sorted(self.body_of(point), other)).or_default().push(self.at(point));
         }
         let length = |a: [f64; 3], b: [f64; 3]| {

@@ -2,7 +2,7 @@
 
 use super::super::FLUSH;
 use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
-use crate::common::vector::{dot, normalized, scaled, subtract};
+use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
@@ -17,6 +17,9 @@ pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
 /// each other's planes must not be taken for a seam.
 const SEAM: f64 = 1e-4;
 
+/// A point in the side of a body is nearer to the plane of that side than this part of how far it is beyond the border of a face there.
+const LEVEL_WITH_SIDE: f64 = 0.1;
+
 impl NodeFaceCheck<'_> {
     /// A point that this face, one of those `near` it, has not seen before.
     #[inline(always)]
@@ -30,7 +33,7 @@ impl NodeFaceCheck<'_> {
             return None;
         }
         let end = self.around_border(point, face, true).filter(|projection| projection.gap < 0.0)?;
-        if self.is_beyond_rim(point, face, &end) {
+        if self.is_beyond_rim((point, face), near, &end) {
             return None;
         }
         let distance = self.faces.distance(point, face);
@@ -119,8 +122,45 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that a face has not held is beside its border and too far from that to be stopped by it, see
     /// [`Faces::rim`](crate::solver::contact::geometry::faces::Faces::rim).
-    pub(super) fn is_beyond_rim(&self, point: u32, face: u32, end: &Projection) -> bool {
-        end.rounded && end.gap + self.faces.distance(point, face) > self.faces.rim(point, face)
+    pub(super) fn is_beyond_rim(&self, (point, face): (u32, u32), near: &[Candidate], end: &Projection) -> bool {
+        end.rounded
+            && end.gap + self.faces.distance(point, face) > self.faces.rim(point, face)
+            && !self.is_over_bend((point, face), near, end)
+    }
+
+    /// Whether a point beyond the border of a solid's face is over the surface all the same: where that hardly bends, as at the facets of a shaft, and
+    /// beyond the border of the face that goes on, too; or where the facets end, as in a plane of symmetry, in the side of the body. The
+    /// faces near the point are asked, which all ranks have that check it.
+    fn is_over_bend(&self, (point, face): (u32, u32), near: &[Candidate], end: &Projection) -> bool {
+        let normal = |face: u32| normalized(projection::area_normal(&self.faces.end(face, self.motion)));
+        let Some(own) = normal(face).filter(|own| dot(*own, end.normal) > SAME_WAY) else { return false };
+        if self.faces.is_two_sided(face) {
+            return false;
+        }
+        let corners = self.faces.corners[face as usize];
+        let border = end.edge().map(|i| corners[i]);
+        let [from, to] = border.map(|corner| self.motion.end(corner));
+        let (along, arm) = (subtract(to, from), subtract(self.motion.end(point), from));
+        let (square, part) = (dot(along, along), dot(arm, along) / dot(along, along));
+        // How far the point is from the border to the outside of a face that runs along it, as a part of the size of the face.
+        let beyond =
+            |normal: [f64; 3]| dot(arm, cross(along, normal)) / (square.sqrt() * self.faces.size[face as usize]);
+        if !(-CLEARLY..=1.0 + CLEARLY).contains(&part) || beyond(own) <= CLEARLY {
+            return false;
+        }
+        // The face that goes on runs along the border the other way.
+        let is_beyond = |other: u32| {
+            normal(other).is_some_and(|normal| dot(own, normal) > SAME_WAY && beyond(scaled(normal, -1.0)) > CLEARLY)
+        };
+        // Upright sides, as those of a joint of flush blocks, are as far from the point as it is beyond the border.
+        let is_in_side = |other: u32| {
+            let least = LEVEL_WITH_SIDE * beyond(own) * self.faces.size[face as usize];
+            let place = projection::project(&self.faces.end(other, self.motion), self.motion.end(point));
+            place.is_some_and(|place| place.gap.abs() <= least.min(SEAM * self.faces.size[other as usize]))
+        };
+        let is_across = |other: u32| border.iter().all(|corner| self.faces.corners[other as usize].contains(corner));
+        let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
+        others.any(is_beyond) || self.beside(face).any(|other| is_across(other) && is_in_side(other))
     }
 
     /// How far a point is at the beginning of the step from touching a face: from the nearest point of its border where it is beyond.

@@ -198,7 +198,7 @@ impl NodeFaceCheck<'_> {
                     continue;
                 }
                 let Some(projection) = self.around_border(point, face, true) else { continue };
-                if self.is_beyond_rim(point, face, &projection) {
+                if self.is_beyond_rim((point, face), near, &projection) {
                     continue;
                 }
                 // In a corner of a solid, what is behind the one is as far beyond the border of the other.

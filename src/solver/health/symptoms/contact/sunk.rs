@@ -80,8 +80,9 @@ fn measure(exam: &Exam, comm: &mut dyn Communicator) -> Vec<Evidence> {
     let nodes = of_all(sunk(exam, comm).iter().map(|sunk| sunk.node).collect(), comm);
     let count = nodes.len() as u64;
     // Those that begin there are told at the start, beside others that are not that deep.
-    let begins = exam.facts.overlap.deep;
-    let new = count.saturating_sub((begins.nodes - begins.faces_away) as u64);
+    let overlap = exam.facts.overlap;
+    let begin = overlap.deep.nodes - overlap.deep.faces_away + overlap.known_opposite;
+    let new = count.saturating_sub(begin as u64);
     vec![Evidence { share: new as f64, count, ..Evidence::default() }]
 }
 
