@@ -2,6 +2,7 @@
 
 mod advice;
 mod cli;
+mod endings;
 mod input;
 mod scale;
 mod sweep;

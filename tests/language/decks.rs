@@ -1,49 +1,18 @@
-//! The command language from outside: wrong decks with their whole messages, right decks, and a hundred thousand
-//! mutilated ones.
+//! The command language from outside: wrong decks with their whole messages, and right decks with what they mean.
 
 use std::{fs, path::Path};
 
-use proptest::prelude::*;
+use crate::fixtures::{problem, two_blocks};
+use crate::properties::with_a_neighbour;
 use urto::{
     deck::{self, Deck, Source, Status, language},
-    material::{self, ElasticPlastic, Law, MATERIALS, Origin, Property, Range},
-    mesh::{Block, Mesh, NodeSet, Shape, SideSet},
+    material::{self, ElasticPlastic, Law, MATERIALS, Origin},
+    mesh::{Mesh, Shape},
     model::{
         self, Direction, ElementField, Hourglass, InitialVelocity, NodalField, PlotSchedule, Problem, StepModuli,
         examine,
     },
 };
-
-/// Two blocks of 1 × 1 × 2 hexahedra along z: node sets 1 (x = 0), 2 (y = 0), 3 (z = 0), 4 (top) and an empty 9;
-/// side sets 100 (bottom) and 200 (top).
-fn two_blocks() -> Mesh {
-    let coordinates: Vec<[f64; 3]> =
-        (0..20).map(|i| [f64::from(i % 2), f64::from(i / 2 % 2), f64::from(i / 4)]).collect();
-    let hex = |layer: u32| [0, 1, 3, 2, 4, 5, 7, 6].map(|corner| 4 * layer + corner);
-    let nodes = |keep: fn([f64; 3]) -> bool| -> Vec<u32> {
-        (0..20).filter(|&i| keep([f64::from(i % 2), f64::from(i / 2 % 2), f64::from(i / 4)])).collect()
-    };
-    let node_set = |id, nodes| NodeSet { id, name: String::new(), nodes };
-    let side_set = |id, sides| SideSet { id, name: String::new(), sides };
-    Mesh {
-        blocks: vec![
-            Block { name: "lower".into(), ..Block::hexahedra_of(1, [hex(0), hex(1)]) },
-            Block::hexahedra_of(2, [hex(2), hex(3)]),
-        ],
-        node_sets: vec![
-            node_set(1, nodes(|x| x[0] == 0.0)),
-            node_set(2, nodes(|x| x[1] == 0.0)),
-            node_set(3, nodes(|x| x[2] == 0.0)),
-            node_set(4, nodes(|x| x[2] == 4.0)),
-            node_set(9, Vec::new()),
-        ],
-        side_sets: vec![side_set(100, vec![(0, 4)]), side_set(200, vec![(3, 5)])],
-        node_ids: (1..=20).collect(),
-        element_ids: (1..=4).collect(),
-        coordinates: coordinates.into(),
-        ..Mesh::default()
-    }
-}
 
 /// Compares a text with a file; with URTO_BLESS=1 in the environment, writes the file instead.
 fn golden(path: &Path, text: &str) -> Result<(), String> {
@@ -66,10 +35,6 @@ fn files(folder: &str, extension: &str) -> Vec<std::path::PathBuf> {
 
 fn name(path: &Path) -> String {
     path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-fn problem(text: &str) -> Problem {
-    examine(Source::new("t.i", text), None).unwrap_or_else(|messages| panic!("{messages}"))
 }
 
 #[test]
@@ -214,7 +179,7 @@ fn the_language_of_pronto_is_known() {
 }
 
 /// A deck in the manner of 1988: blanks for commas, remarks behind data, small and capital letters, no EXIT.
-const OLD_MANNER: &str = "TITLE
+pub const OLD_MANNER: &str = "TITLE
  CASK - 10\" PUNCH, I = 1-4, O = 3-8  (5/1/88)
 TERMINATION TIME 40.0D-3
 PLOT TIME         1.0E-3
@@ -261,7 +226,7 @@ fn a_deck_in_the_old_manner() {
 }
 
 /// Every kind of expression and block.
-const EXPRESSIONS: &str = "TITLE
+pub const EXPRESSIONS: &str = "TITLE
  BAR OF {n = 4} BLOCKS {{length = 2.5}}
 $ {E = 28.1e6}  {steps = 10}  {nu = 0.3}   steel
 $ {include(\"tests/language/wrong_decks/include/expressions.inc\")}
@@ -302,7 +267,7 @@ fn a_deck_of_expressions_means_what_it_evaluates_to() {
 }
 
 /// The least that a deck must say.
-const LEAST: &str = "TERM TIME 1\nMATERIAL 1 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
+pub const LEAST: &str = "TERM TIME 1\nMATERIAL 1 ELASTIC 1\nYOU MOD 1\nPOI RAT 0\nEND\n";
 
 #[test]
 fn defaults_of_a_deck_that_says_little() {
@@ -499,265 +464,4 @@ fn commands_that_are_not_built_stop_or_warn() {
             _ => assert_eq!(result.map_err(|d| d.errors().count()).err(), Some(1), "{}", entry.name),
         }
     }
-}
-
-/// A value that a property takes.
-fn some_value(range: Range) -> f64 {
-    let likely = [1.0, 0.3, 0.5 * (low(range) + high(range))];
-    likely.into_iter().find(|&value| range.contains(value)).expect("a value in the range")
-}
-
-fn low(range: Range) -> f64 {
-    if let Range::Between { low, .. } = range { low.0 } else { 0.0 }
-}
-
-fn high(range: Range) -> f64 {
-    if let Range::Between { high, .. } = range { high.0 } else { 2.0 }
-}
-
-/// A group of a block with lines for all these properties but one, which may stand there misspelt.
-fn group(head: &str, properties: &[Property], left_out: Option<&str>, instead: &str) -> String {
-    let line = |p: &Property| match left_out {
-        Some(keyword) if keyword == p.keyword => instead.to_string(),
-        _ => format!("{} = {}\n", p.keyword, some_value(p.range)),
-    };
-    format!("{head}\n{}END\n", properties.iter().map(line).collect::<String>())
-}
-
-/// A deck with a sound material for block 2, so that block 1 could take it.
-fn with_a_neighbour(groups: &str) -> String {
-    format!(
-        "TERMINATION TIME 1\nFUNCTION 1\n0 0\n1 1\nEND\n{groups}\
-         MATERIAL 2 ELASTIC 1\nYOUNGS MODULUS 1\nPOISSONS RATIO 0\nEND\n"
-    )
-}
-
-/// The groups of block 1 for every law and every equation of state: what goes before, its head, its properties, what
-/// goes after.
-fn groups_of_all_laws() -> Vec<(String, String, &'static [Property])> {
-    let gas = "EQUATION OF STATE 1 IDEAL GAS\nGAMMA 1.4\nINITIAL ENERGY 1\nEND\n";
-    let laws = MATERIALS.iter().map(|law| {
-        let before = if law.name.contains("HYDRO") { gas } else { "" };
-        (before.to_string(), format!("MATERIAL 1, {}, 1.", law.name), law.properties)
-    });
-    let fluid = MATERIALS.iter().find(|law| law.name == "HYDRODYNAMIC").expect("the law of fluids").properties;
-    let equations = material::EQUATIONS_OF_STATE.iter().map(move |equation| {
-        let before = group("MATERIAL 1 HYDRODYNAMIC 1.", fluid, None, "");
-        (before, format!("EQUATION OF STATE 1, {}", equation.name), equation.properties)
-    });
-    laws.chain(equations).collect()
-}
-
-/// Errors of a deck that must have some; what it would compute, if it has none.
-fn errors_of(text: &str) -> Vec<String> {
-    match examine(Source::new("t.i", text), Some(&two_blocks())) {
-        Ok(problem) => panic!("taken:\n{text}\n{:?}", problem.model.materials),
-        Err(messages) => messages.errors().map(|d| d.message.clone()).collect(),
-    }
-}
-
-#[test]
-fn every_forgotten_property_is_named_and_no_block_gets_another_law() {
-    let mut tried = 0;
-    for (before, head, properties) in groups_of_all_laws() {
-        for property in properties.iter().filter(|p| p.default.is_none()) {
-            let deck = with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(property.keyword), "")));
-            let errors = errors_of(&deck);
-            let said = errors.iter().any(|e| e.ends_with(&format!("{} is missing", property.keyword)));
-            assert!(said, "{}: {errors:?}\n{deck}", property.keyword);
-            tried += 1;
-        }
-        // All of them forgotten.
-        let required: Vec<&str> = properties.iter().filter(|p| p.default.is_none()).map(|p| p.keyword).collect();
-        if !required.is_empty() {
-            let deck = with_a_neighbour(&format!("{before}{head}\nEND\n"));
-            let errors = errors_of(&deck);
-            assert!(errors.iter().any(|e| required.iter().all(|keyword| e.contains(keyword))), "{errors:?}\n{deck}");
-        }
-    }
-    assert!(tried > 60, "{tried} lines of all laws");
-}
-
-#[test]
-fn every_misspelt_property_is_an_error() {
-    for (before, head, properties) in groups_of_all_laws() {
-        for property in properties {
-            let keyword = property.keyword;
-            let value = some_value(property.range);
-            // A letter too much, no value, a word for a value, another line's keyword.
-            let mut lines = vec![format!("{keyword}QQQ {value}\n"), format!("{keyword} ROUGHLY\n")];
-            if property.default.is_none() {
-                lines.push(format!("{keyword}\n"));
-            }
-            lines
-                .extend(properties.iter().filter(|p| p.keyword != keyword).map(|p| format!("{} {value}\n", p.keyword)));
-            for line in lines {
-                errors_of(&with_a_neighbour(&format!("{before}{}", group(&head, properties, Some(keyword), &line))));
-            }
-        }
-    }
-}
-
-#[test]
-fn a_body_without_a_law_for_every_block_is_refused() {
-    let (mesh, mut model) = (two_blocks(), problem(&with_a_neighbour("")).model);
-    let missing = urto::solver::Body::new(&mesh, &model).err().map(|e| e.to_string());
-    assert_eq!(missing.as_deref(), Some("element block 1 has no MATERIAL"));
-    model.materials.clear();
-    assert!(urto::solver::Body::new(&mesh, &model).is_err());
-}
-
-/// Pieces that a mutation puts into a deck.
-const PIECES: &[&str] = &[
-    "\n",
-    ",",
-    "=",
-    " ",
-    "*",
-    "$",
-    "'",
-    "''",
-    "END",
-    "\nEND\n",
-    "MATERIAL",
-    "FUNCTION",
-    "TITLE",
-    "\nTITLE",
-    "PLOT",
-    "1E999",
-    "-1",
-    "0",
-    "1.5+3",
-    "99999999999999999999",
-    "\u{2212}1",
-    "\u{fffd}",
-    "\0",
-    "\r\n",
-    "\t",
-    "\u{feff}",
-    "\u{df}",
-    "{x}",
-    "XYZ",
-    "{",
-    "}",
-    "{{",
-    "}}",
-    "\\{",
-    "{x = 2}",
-    "{x++}",
-    "{1/0}",
-    "{\"a\"//'b'}",
-    "(",
-    ")",
-    "?",
-    ":",
-    "++",
-    "\n{if(x > 1)}\n",
-    "\n{else}\n",
-    "\n{endif}\n",
-    "\n{loop(3)}\n",
-    "\n{endloop}\n",
-    "{include(\"tests/language/wrong_decks/include/times.inc\")}",
-    "{ECHO(OFF)}",
-    "\n{VERBATIM(ON)}\n",
-];
-
-/// Applies one mutation: deletes, repeats or cuts a stretch, or puts a piece in. Positions are taken modulo the length.
-fn mutate(text: &mut Vec<char>, (kind, at, length, piece): (u8, usize, usize, usize)) {
-    let at = at % (text.len() + 1);
-    let end = (at + length).min(text.len());
-    match kind % 4 {
-        0 => drop(text.drain(at..end)),
-        1 => text.extend_from_within(at..end),
-        2 => text.truncate(text.len() - length.min(text.len()) / 8),
-        _ => drop(text.splice(at..at, PIECES[piece % PIECES.len()].chars())),
-    }
-}
-
-/// What an expression or a block can hold another of, before it and after it.
-const SHELLS: &[(&str, &str)] = &[
-    ("(", ")"),
-    ("-", ""),
-    ("!", ""),
-    ("1+", ""),
-    ("", "-1"),
-    ("1*1+", ""),
-    ("2^", ""),
-    ("", "^1"),
-    ("1<", ""),
-    ("1&&", ""),
-    ("", "||0"),
-    ("'a'//", ""),
-    ("", "//''"),
-    ("x=", ""),
-    ("x+=", ""),
-    ("++", ""),
-    ("1?", ":1"),
-    ("0?1:", ""),
-    ("sqrt(", ")"),
-    ("max(1,", ",2)"),
-    ("1,", ""),
-    ("}{", ""),
-    ("\\{", "\\}"),
-    ("\n{if(1)}\n", "\n{endif}\n"),
-    ("\n{else}\n", ""),
-    ("\n{loop(1)}\n", "\n{endloop}\n"),
-];
-
-/// Expressions as long and as deep as nobody writes them, on a stack of two megabytes, as every test has: in decks and in
-/// recipes they have a value or are refused.
-#[test]
-fn long_and_deep_expressions_are_answered() {
-    let shells = prop::collection::vec((0..SHELLS.len(), prop_oneof![1usize..5, 90usize..110, 1usize..15_000]), 1..4);
-    let cores = prop::sample::select(vec!["1", "'a'", "x", "", "1 2", "(", "f(1)"]);
-    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(500));
-    let outcome = cases.run(&(shells, cores, any::<bool>()), |(shells, core, closed)| {
-        let mut expression = core.to_string();
-        for (shell, count) in shells {
-            let (before, after) = SHELLS[shell];
-            expression = [&before.repeat(count), expression.as_str(), &after.repeat(count)].concat();
-        }
-        let brace = if closed { "}" } else { "" };
-        let deck = format!("{LEAST}$ {{{{x = 1}}}}{{{expression}{brace}\n");
-        if let Err(messages) = examine(Source::new("t.i", deck), None) {
-            prop_assert!(!messages.render(false).is_empty());
-        }
-        // A box that lacks most of its fields, so that no number makes it a large mesh.
-        let recipe = format!("BOX, {{{expression}{brace}\n");
-        prop_assert!(urto::mesher::make(&recipe, "t.mesh", 1).is_err());
-        Ok(())
-    });
-    outcome.unwrap_or_else(|why| panic!("{why}"));
-    let sum = format!("{{1{}}}", "+1".repeat(11_999));
-    assert_eq!(problem(&LEAST.replace("TIME 1", &format!("TIME {sum}"))).model.termination_time, 12_000.0);
-}
-
-#[test]
-fn a_hundred_thousand_mutilated_decks_are_answered() {
-    let seeds = [OLD_MANNER, &fs::read_to_string("decks/commands.i").expect("a deck of ours"), EXPRESSIONS];
-    let mesh = two_blocks();
-    let mutations = prop::collection::vec((any::<u8>(), any::<usize>(), 0usize..60, any::<usize>()), 1..8);
-    let mut cases = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(100_000));
-    let outcome = cases.run(&(0usize..3, mutations), |(seed, mutations)| {
-        let mut text: Vec<char> = seeds[seed].chars().collect();
-        mutations.into_iter().for_each(|mutation| mutate(&mut text, mutation));
-        let text: String = text.into_iter().collect();
-        let messages = match examine(Source::new("t.i", text), Some(&mesh)) {
-            Ok(problem) => {
-                for block in &mesh.blocks {
-                    let materials = &problem.model.materials;
-                    prop_assert!(materials.iter().any(|m| m.block == block.id), "block {} has no law", block.id);
-                }
-                problem.diagnostics
-            }
-            Err(messages) => messages,
-        };
-        for label in messages.errors().flat_map(|diagnostic| &diagnostic.labels) {
-            let (file, span) = messages.source().origin_of(label.span);
-            prop_assert!(file.text().get(span.start..span.end).is_some(), "a span cuts a character");
-        }
-        messages.render(false);
-        Ok(())
-    });
-    outcome.unwrap_or_else(|why| panic!("{why}"));
 }

@@ -12,6 +12,7 @@ mod friction;
 mod overlaps;
 mod press_fit;
 mod rigid;
+mod rigid_driven;
 mod rims;
 mod shells;
 mod sliding;
