@@ -194,6 +194,9 @@ impl NodeFaceCheck<'_> {
                 if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
                     continue;
                 }
+                if self.is_flush(point, old.projection.normal, (face, &corners)) {
+                    continue;
+                }
                 if !self.stays_outside(point, old.face, face) {
                     continue;
                 }
@@ -215,6 +218,13 @@ impl NodeFaceCheck<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a face of a solid goes on nearly in the plane of one that holds the point, of this normal: one of the two is enough, and either does.
+    fn is_flush(&self, point: u32, normal: [f64; 3], (face, corners): (u32, &[[f64; 3]; 4])) -> bool {
+        let other = projection::area_normal(corners);
+        let cosine = dot(normal, other);
+        self.faces.distance(point, face) == 0.0 && cosine > 0.0 && cosine * cosine > FLUSH * FLUSH * dot(other, other)
     }
 
     fn held(&self, face: u32, projection: Projection, tolerated: f64) -> DetectedContact {
