@@ -232,8 +232,7 @@ impl NodeFaceCheck<'_> {
         let is_across = |other: u32| self.is_across(face, &start.weights, other);
         let middle = |face| projection::centre(&self.faces.start(face, self.motion));
         let is_beyond = |other: u32| {
-            // What goes on in the same plane bounds nothing.
-            dot(subtract(middle(other), middle(face)), start.normal) > CLEARLY * self.faces.size[face as usize]
+            dot(subtract(middle(other), middle(face)), start.normal) > 0.0
                 && self.projection_at_start(point, other).is_some_and(|at| at.gap < 0.0 && at.outside > 0.0)
         };
         // From the border to the foot of the perpendicular beyond it.
