@@ -3,6 +3,7 @@
 use super::grown_together::GrownTogether;
 use super::motion::NodeMotion;
 use super::projection::area_normal;
+use super::sides::HiddenSides;
 use super::surface::{back_nodes, face_nodes};
 use crate::common::shared::Shared;
 use crate::common::vector::{dot, subtract};
@@ -51,6 +52,8 @@ pub struct Faces {
     two_sided: Shared<bool>,
     /// Which of its edges are on the border of the surface, a bit for each corner at which one begins.
     borders: Shared<u8>,
+    /// How the body goes on at the borders of side sets.
+    hidden_sides: HiddenSides,
     /// The same depth at the start.
     start_depth: Shared<f64>,
     /// How often the depth has become less by a factor of √2 since then.
@@ -124,6 +127,7 @@ impl Faces {
             reach: chosen_of(&self.reach, chosen),
             two_sided: chosen_of(&self.two_sided, chosen),
             borders: chosen_of(&self.borders, chosen),
+            hidden_sides: self.hidden_sides.subset(chosen),
             thinning: chosen_of(&self.thinning, chosen),
             element: chosen.iter().map(|&face| element(self.element[face as usize])).collect(),
             node_reach: vec![0.0; points].into(),
@@ -139,6 +143,23 @@ impl Faces {
         }
         some.connect(points);
         some
+    }
+
+    /// Says how the body goes on at the borders of side sets.
+    pub fn set_hidden_sides(&mut self, sides: HiddenSides) {
+        self.hidden_sides = sides;
+    }
+
+    /// The sides of the body at the edges of a face that are no faces of contact, at the present state: the ends of the edge, a point there, and the area normal
+    /// of the side.
+    pub fn hidden_sides(
+        &self,
+        face: u32,
+        motion: &NodeMotion,
+    ) -> impl Iterator<Item = ([u32; 2], [f64; 3], [f64; 3])> + '_ {
+        let (points, corners) = (self.corners[face as usize], self.start(face, motion));
+        let sides = self.hidden_sides.at(face, corners);
+        sides.map(move |(edge, normal)| ([edge, (edge + 1) % 4].map(|end| points[end]), corners[edge], normal))
     }
 
     /// How often the depth of a face has become less by a factor of √2, at most [`THINNEST`].

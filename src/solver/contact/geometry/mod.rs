@@ -7,6 +7,7 @@ mod grown_together;
 pub mod motion;
 pub mod paths;
 pub mod projection;
+pub mod sides;
 pub mod strip;
 pub mod surface;
 pub mod swept_box;

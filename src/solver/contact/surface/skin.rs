@@ -3,11 +3,12 @@
 use super::exclusions::Exclusions;
 use super::layout::Layout;
 use super::touching::Touching;
-use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh};
+use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh, exterior};
 use crate::model::{Contact, ContactEdges, Model};
 use crate::solver::Body;
 use crate::solver::contact::geometry::edges;
 use crate::solver::contact::geometry::faces::Faces;
+use crate::solver::contact::geometry::sides::HiddenSides;
 use crate::solver::contact::geometry::surface::{Surface, back_nodes, face_nodes};
 use crate::solver::contact::observations::meetings;
 use crate::solver::contact::search::Box3;
@@ -36,6 +37,8 @@ pub struct Skin {
     surface: Option<Arc<Surface>>,
     /// Faces of the side sets of each CONTACT SURFACE, two lists for each, ascending.
     sets: Vec<Vec<u32>>,
+    /// The outer faces of the elements of those, ascending, as the mesh has them.
+    around_sets: Arc<Vec<u32>>,
     /// Nodes that are points although they may not be on any face.
     more: Vec<u32>,
     /// Nodes that TIED CONTACT joins, ascending, each with those that it follows or that follow it.
@@ -56,6 +59,7 @@ impl Skin {
     pub fn new(mesh: &Mesh, model: &Model, body: &Body, more: Vec<u32>) -> Skin {
         let contact = &model.contact;
         let chosen: Vec<bool> = mesh.blocks.iter().map(|block| contact.names(block.id)).collect();
+        let sets = side_set_faces(mesh, contact, body);
         Skin {
             element_order: body.element_order.clone(),
             element_nodes: body.element_nodes.clone(),
@@ -63,7 +67,8 @@ impl Skin {
             positions: body.positions.clone(),
             of_points: Coordinates::default(),
             surface: contact.materials.is_some().then(|| Arc::new(surface(&chosen, body))),
-            sets: side_set_faces(mesh, contact, body),
+            around_sets: Arc::new(around(&sets, body)),
+            sets,
             more,
             joined: body.tied.joined(),
             // In the plane the edges are the faces.
@@ -92,7 +97,7 @@ impl Skin {
     /// Lets go of the body, of which a surface that is settled asks for nothing more once the run has been set up.
     pub fn release_construction_data(&mut self) {
         self.positions = Coordinates::default();
-        (self.element_nodes, self.element_block) = Default::default();
+        (self.element_nodes, self.element_block, self.around_sets) = Default::default();
     }
 
     /// Initial positions of the points of a layout.
@@ -153,6 +158,7 @@ impl Skin {
             blocks[point].get_or_insert(block);
         }
         faces.grow_together(|| self.positions(&layout.nodes));
+        faces.set_hidden_sides(HiddenSides::of(&numbers, &self.around_sets, (&self.element_nodes, &self.positions)));
         for &(node, part) in &self.rooms {
             faces.limit_room(layout.point(node), part);
         }
@@ -261,6 +267,24 @@ fn surface(chosen: &[bool], body: &Body) -> Surface {
         nodes.iter().for_each(|&node| wanted[node as usize] = true);
     }
     Surface::new(&body.element_nodes, body.positions.len(), |node| wanted[node as usize])
+}
+
+/// The outer faces of the solid elements of some faces, ascending.
+fn around(sets: &[Vec<u32>], body: &Body) -> Vec<u32> {
+    let solid = |face: &&u32| !body.element_nodes.shape(**face as usize / exterior::SIDES).is_surface();
+    let mut elements: Vec<u32> =
+        sets.iter().flatten().filter(solid).map(|face| face / exterior::SIDES as u32).collect();
+    if elements.is_empty() {
+        return Vec::new();
+    }
+    elements.sort_unstable();
+    elements.dedup();
+    let mut wanted = vec![false; body.positions.len()];
+    let nodes = elements.iter().flat_map(|&element| &body.element_nodes[element as usize]);
+    nodes.for_each(|&node| wanted[node as usize] = true);
+    let mut faces = exterior::exterior(body.element_nodes.shaped(), body.positions.len(), |node| wanted[node as usize]);
+    faces.retain(|face| elements.binary_search(&(face / exterior::SIDES as u32)).is_ok());
+    faces
 }
 
 fn side_set_faces(mesh: &Mesh, contact: &Contact, body: &Body) -> Vec<Vec<u32>> {

@@ -2,7 +2,7 @@
 
 use super::super::FLUSH;
 use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
-use crate::common::vector::{cross, dot, normalized, scaled, subtract};
+use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
@@ -222,7 +222,8 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point is behind a seam of a solid at which its foot is beyond the border of a face: behind two faces that see each other, as those
     /// of a bore do, or where such faces end, as in a plane of symmetry, in the side of the body. So at the beginning of the step, and no farther
-    /// beyond at its end than it is deep. The faces near the point are asked, which all ranks have that check it.
+    /// beyond at its end than it is deep. The faces near the point are asked, which all ranks have that check it; sides that touch nothing, as those of side
+    /// sets, are known with the face itself.
     fn is_behind_seam(&self, (point, face): (u32, u32), near: &[Candidate], ends: [&Projection; 2]) -> bool {
         if ends.iter().any(|at| at.outside > -at.gap) {
             return false;
@@ -248,7 +249,34 @@ impl NodeFaceCheck<'_> {
             })
         };
         let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
-        others.any(is_beyond) || self.beside(face).any(|other| is_across(other) && is_in_side(other))
+        others.any(is_beyond)
+            || self.beside(face).any(|other| is_across(other) && is_in_side(other))
+            || self.is_in_hidden_side((point, face), start, beyond)
+    }
+
+    /// Whether a point whose foot is beyond the border of a face by `beyond` is there in a side of the body that touches nothing itself.
+    fn is_in_hidden_side(&self, (point, face): (u32, u32), start: &Projection, beyond: [f64; 3]) -> bool {
+        let corners = self.faces.corners[face as usize];
+        let is_level = |(ends, at, area_normal): ([u32; 2], [f64; 3], [f64; 3])| {
+            let mut shares = corners.iter().zip(&start.weights).filter(|(_, weight)| **weight > projection::TIE);
+            let square = dot(area_normal, area_normal);
+            let (length, gap) = (square.sqrt(), dot(subtract(self.motion.start(point), at), area_normal));
+            shares.all(|(corner, _)| ends.contains(corner))
+                // As far from the side as a part of its size, which is the root of its area.
+                && gap.abs() <= SEAM * length.sqrt() * length
+                && dot(beyond, area_normal) > 0.5 * start.outside * length
+                && self.looks_past(point, area_normal)
+        };
+        self.faces.hidden_sides(face, self.motion).any(is_level)
+    }
+
+    /// Whether the body of a point, with its own sides that touch nothing, does not look at such a side of another.
+    fn looks_past(&self, point: u32, side: [f64; 3]) -> bool {
+        let own = self.faces.around(point).iter().flat_map(|&face| self.faces.hidden_sides(face, self.motion));
+        let own = own.filter(|(ends, ..)| ends.contains(&point)).map(|(_, _, area_normal)| area_normal);
+        let normal = own.fold(self.faces.point_normal(point, self.motion), add);
+        let square = dot(normal, normal) * dot(side, side);
+        dot(normal, side) > FACING * square.sqrt()
     }
 
     /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
@@ -276,12 +304,17 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
-    /// however far behind the face's plane.
+    /// however far behind the face's plane. So it is in front of a side that touches nothing itself.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
-        self.beside(face).any(|other| {
+        let is_outside = |(_, at, area_normal): ([u32; 2], [f64; 3], [f64; 3])| {
+            let length = dot(area_normal, area_normal).sqrt();
+            dot(subtract(self.motion.start(point), at), area_normal) > CLEARLY * length.sqrt() * length
+        };
+        let mut others = self.beside(face);
+        others.any(|other| {
             let start = self.projection_at_start(point, other);
             start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
-        })
+        }) || self.faces.hidden_sides(face, self.motion).any(is_outside)
     }
 
     /// The other outer faces of a face's element.
