@@ -524,3 +524,38 @@ fn check_foretells_who_meets_nobody_and_when_contact_can_begin() {
         seen.split_whitespace().nth(4).and_then(|text| text.trim_end_matches(',').parse().ok()).expect("a time");
     assert!(time >= 1e-5, "{seen}");
 }
+
+/// Mass is added for a longer step, and joints take it away again: both are said in one place, before the run and after it, and with the other side following
+/// the step is what was asked for, so that the run takes as much fewer steps.
+#[test]
+fn joints_that_take_back_what_mass_was_added_for_are_told() {
+    let desk = Desk::new();
+    desk.put(
+        "bars.mesh",
+        "TITLE\n TIED\nBOX, 1, 0., 0., 0., 0.02, 0.02, 0.02, 8, 8, 4\nBOX, 2, 0., 0., 0.02, 0.02, 0.02, 0.02, 2, 2, 2\n\
+         SIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM\n",
+    );
+    let deck = |follows: &str| {
+        format!(
+            "TITLE\n TIED\nTERMINATION TIME, 40.E-6\nPLOT TIME, 40.E-6\nTIED CONTACT, {follows}\nMASS SCALING, ALL, STEP, 8.E-7, 10.\n\
+             MATERIAL, 1, ELASTIC, 7850.\n{STEEL}END\nMATERIAL, 2, ELASTIC, 7850.\n{STEEL}END\nEXIT\n"
+        )
+    };
+    let words = "joints of TIED CONTACT make all steps";
+    let coarse = advised(&desk, "coarse", &deck("200, 100"), &[]);
+    let told = about(&coarse, words).unwrap_or_else(|| panic!("{coarse:#?}"));
+    assert!(
+        told["words"].as_str().is_some_and(|text| text.contains("of the step of 8.000e-07 that MASS SCALING asks"))
+    );
+    assert!(told["instead"].as_str().is_some_and(|text| text.contains("TIED CONTACT, 100, 200")), "{told}");
+    desk.urto(&["check", "coarse.i", "-m", "bars.mesh"]).with(0).says(&[words, "by joints of TIED CONTACT, set by"]);
+    let fine = advised(&desk, "fine", &deck("100, 200"), &[]);
+    assert!(about(&fine, words).is_none(), "{fine:#?}");
+    let steps = |name: &str| {
+        let found: Value = serde_json::from_str(&desk.text(&format!("{name}.json"))).expect("JSON");
+        found["steps"].as_u64().expect("steps")
+    };
+    // 40 microseconds in steps of 0.8; nothing moves, so that no element gets another step.
+    assert_eq!(steps("fine"), 50);
+    assert!(steps("coarse") > 60, "{}", steps("coarse"));
+}

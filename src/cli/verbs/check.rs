@@ -123,12 +123,8 @@ fn modelled(given: &Given, body: &Body) -> String {
             scientific(tie.moved, 4)
         );
     }
-    if body.tied.excess > 0.0 {
-        out += &format!(
-            "  joints of TIED CONTACT shorten the step to {} of that of the elements: coarse faces follow finer ones; with the side sets \
-             the other way round they may not\n",
-            scientific(body.tied.step_part(), 3)
-        );
+    if let Some([words, instead]) = advice::on_joints(mesh, model, body.tied.step_part()) {
+        out += &format!("  {words}; better {instead}\n");
     }
     for added in &body.added_mass.blocks {
         out += &format!(
@@ -215,6 +211,10 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
     let place = solver.controlling_element(comm);
     let (first, own_step) = (solver.time_step, solver.own_step);
     let set_by = solver.bound_beside_elements().map(str::to_string);
+    let of_joints = match (body.tied.step_part(), &set_by) {
+        (part, None) if part < 1.0 => format!("{part:.2} of that of its elements by joints of TIED CONTACT, "),
+        _ => String::new(),
+    };
     let set_by = set_by.unwrap_or_else(|| format!("element {} of block {}", place.element, place.block));
     if let Some(endless) = Endless::at(solver.time, first, model.termination_time) {
         let place = format!("set by {set_by}");
@@ -237,7 +237,7 @@ fn trial(given: &Given, body: &Body) -> Result<String, Failure> {
         StepEstimate::Global => format!("of the mesh as a whole; by its elements alone {}, ", scientific(own, 4)),
     };
     Ok(format!(
-        "first time step {}, {of_mesh}set by {set_by}{centre}\n{of_pronto}\
+        "first time step {}, {of_mesh}{of_joints}set by {set_by}{centre}\n{of_pronto}\
          at least {steps:.0} steps at that size; the step shrinks where elements are squeezed\n\
          {:.0} ns per element and cycle on one core: at least {} there\n\
          {by_block}about {} of memory, {:.0} bytes per element\n\

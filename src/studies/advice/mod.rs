@@ -6,6 +6,7 @@
 mod blocks;
 mod contact;
 mod foretell;
+mod joints;
 mod sampling;
 mod steps;
 mod walls;
@@ -16,6 +17,7 @@ use crate::model::Model;
 use crate::solver::{Section, Solver};
 
 pub use foretell::foretold;
+pub use joints::words as on_joints;
 
 /// What is known of a run at its end.
 pub struct Scene<'a> {
@@ -85,6 +87,7 @@ type Part = fn(&Scene, &mut dyn Communicator) -> Vec<Advice>;
 
 /// All advice. All ranks call it and get the same.
 pub fn of_scene(scene: &Scene, comm: &mut dyn Communicator) -> Vec<Advice> {
-    let parts: [Part; 5] = [blocks::advice, contact::advice, steps::advice, sampling::advice, walls::advice];
+    let parts: [Part; 6] =
+        [blocks::advice, contact::advice, steps::advice, joints::advice, sampling::advice, walls::advice];
     parts.iter().flat_map(|part| part(scene, comm)).collect()
 }
