@@ -285,8 +285,11 @@ impl Solver {
     /// The reason to stop with the cause that came before it.
     fn because(&self, stop: Stop) -> Stop {
         let own = matches!(stop, Stop::Contact { .. }).then_some(symptoms::contact::gain::CODE);
+        // What the moves of nodes did to elements stops a run at its first state.
+        let is_moved = |found: &&Finding| self.step == 0 && found.code == overlap_moved::SYMPTOM.code;
+        let moved = self.watch.findings.iter().find(is_moved);
         // Of those seen in one look the first in the list.
-        match self.watch.causes.first().copied().filter(|first| Some(first.code) != own) {
+        match moved.or(self.watch.causes.first()).copied().filter(|first| Some(first.code) != own) {
             Some(first) => Stop::After { first: Box::new(first), stop: Box::new(stop) },
             None => stop,
         }

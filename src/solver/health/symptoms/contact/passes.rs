@@ -6,8 +6,9 @@ use crate::solver::health::place::worst_nodes;
 use crate::solver::health::symptoms::{Symptom, When};
 use crate::solver::health::watch::Exam;
 
-/// Fewer steps with contact than these say nothing yet, and fewer than the second nothing at the end of a run.
-const ENOUGH: [u64; 2] = [100, 10];
+/// Fewer steps with contact than these say nothing yet, since what strikes settles less at first than later; and fewer than the second nothing at the end
+/// of a run.
+const ENOUGH: [u64; 2] = [1000, 10];
 
 pub const SYMPTOM: Symptom = Symptom {
     code: 9,
