@@ -4,7 +4,7 @@ use crate::support::bodies::nodes_of;
 use crate::support::meshes::recipe;
 use crate::support::run::{Run, model, run, run_on};
 use crate::support::{between, close};
-use urto::mesh::Mesh;
+use urto::mesh::{Block, Mesh, Shape};
 use urto::solver::Body;
 
 /// Radius of the shaft without the overlap, outer radius of the ring, and the overlap.
@@ -372,4 +372,35 @@ fn sleeve(data: &str) -> [f64; 2] {
          NO ROTATION, X, 2\nNO ROTATION, Z, 2\nMATERIAL, 1, {STEEL}\nMATERIAL, 2, {STEEL}\nEXIT\n"
     );
     outwards(&run(&deck, &mesh), &mesh, 2, true)
+}
+
+/// A hole in shells around a pin whose ridges are under the nodes at its rim, with a clearance of a tenth of the distance at which they touch: all of
+/// these nodes know that room, 0.1 of 1.0, though each is beyond the borders of both facets at its ridge. Without it a node of the far side was
+/// held by the next ridges once the pin had gone.
+#[test]
+fn nodes_over_the_ridges_of_a_pin_know_their_room() {
+    let mut mesh = recipe("TITLE\n pin\nCYLINDER, 2, 5., 2., 4, 2\nTRANSLATE, 2, 0., 0., -1.\n");
+    let (first, around) = (mesh.coordinates.len() as u32, 16);
+    let ring = |radius: f64| {
+        (0..around).map(move |i| {
+            let angle = f64::from(i) * 2.0 * std::f64::consts::PI / f64::from(around);
+            [radius * angle.cos(), radius * angle.sin(), 0.0]
+        })
+    };
+    let coordinates = mesh.coordinates.iter().copied().chain(ring(5.1)).chain(ring(6.3)).collect::<Vec<[f64; 3]>>();
+    mesh.coordinates = coordinates.into();
+    let shell = |i: u32| [i, around + i, around + (i + 1) % around, (i + 1) % around].map(|node| first + node);
+    let nodes = (0..around).flat_map(shell).collect();
+    mesh.blocks.push(Block { id: 1, shape: Shape::Quadrilateral, nodes, ..Block::default() });
+    let steel = "ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+    let deck = format!(
+        "TITLE\n pin\nTERMINATION TIME, 1.\nOUTPUT TIME, 1.\nPLOT TIME, 1.\nCONTACT MATERIAL\nSHELL THICKNESS, 1, 2.\nMATERIAL, 1, {steel}\
+         MATERIAL, 2, {steel}"
+    );
+    let rooms = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").rooms;
+    let of_rim: Vec<f64> =
+        rooms.iter().filter(|(node, _)| (first..first + around).contains(node)).map(|(_, room)| *room).collect();
+    assert_eq!(of_rim.len(), around as usize, "{rooms:?}");
+    // Exactly but for the round-off of coordinates.
+    assert!(of_rim.iter().all(|room| (room - 0.1).abs() < 1e-12), "{of_rim:?}");
 }

@@ -18,17 +18,26 @@ pub const NOTHING: f64 = 1e-9;
 /// several roundings.
 const OF_COORDINATES: f64 = 16.0 * f64::EPSILON;
 
+/// A point behind a face that faces it, or nearer to it than they touch.
+#[derive(Debug, Clone, Copy)]
+pub struct Behind {
+    pub point: u32,
+    pub contact: DetectedContact,
+    pub pairing: Pairing,
+    /// Whether the point is beside the face, and not over a bend beyond its border.
+    pub beside: bool,
+}
+
 /// Constraints of all points behind faces that face them.
 pub fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
     let behind = behind(layout, pairings, motion).into_iter();
-    let constraint = |(point, contact, pairing): (u32, DetectedContact, Pairing)| {
-        node_face::constraint(&layout.faces, pairing, point, &contact)
-    };
+    let constraint =
+        |Behind { point, contact, pairing, .. }: Behind| node_face::constraint(&layout.faces, pairing, point, &contact);
     behind.filter_map(constraint).collect()
 }
 
 /// Every point behind a face that faces it, or nearer to it than they touch, points ascending.
-pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<(u32, DetectedContact, Pairing)> {
+pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Behind> {
     let contact_nodes = ContactNodes::still(motion);
     let all = neighbourhood::point_boxes(layout, &contact_nodes);
     let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
@@ -55,12 +64,14 @@ pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<
         }
         for contact in &mut contacts {
             contact.tolerated = 0.0;
+            let (at, end) = ((point, contact.face), &contact.projection);
+            let beside = end.rounded && !check.is_over_bend(at, &near, end);
             let Some(near) = near.iter().find(|near| near.face == contact.face) else { continue };
             let rule = layout.interfaces[near.interface as usize].rule;
             let face = layout.faces.block[contact.face as usize];
             let pairing = pairings.of(rule, layout.point_block[point as usize], face);
             if contact.projection.gap < -nothing(layout, &motion, contact.face) {
-                found.push((point, *contact, pairing));
+                found.push(Behind { point, contact: *contact, pairing, beside });
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Which bodies may overlap in the mesh, and where: in what the boxes around two of them have in common.
 
-use super::behind::behind;
+use super::behind::{Behind, behind};
 use super::initial_overlap::{STUCK, bodies_of, stand_still};
 use crate::mesh::Mesh;
 use crate::model::Model;
@@ -78,7 +78,11 @@ impl BodyPairs {
         let known = behind(layout, &Pairings::new(mesh, model, body), &motion).into_iter();
         let body_of = |face: u32| self.body(layout.nodes[layout.faces.corners[face as usize][0] as usize]);
         known
-            .map(|(point, contact, _)| Known { point, other: body_of(contact.face), depth: -contact.projection.gap })
+            .map(|Behind { point, contact, .. }| Known {
+                point,
+                other: body_of(contact.face),
+                depth: -contact.projection.gap,
+            })
             .collect()
     }
 

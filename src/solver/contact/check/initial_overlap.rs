@@ -1,6 +1,6 @@
 //! Overlaps that the mesh begins with: taken out by moving nodes before the run, which gives nobody a velocity.
 
-use super::behind::{NOTHING, behind, overlaps};
+use super::behind::{Behind, NOTHING, behind, overlaps};
 use super::body_pairs::BodyPairs;
 use super::deep::{self, Inside, deep_points, measured};
 use super::engulfed::engulfed;
@@ -81,7 +81,7 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     stand_still(&mut motion, body, layout);
     let mut last = ABSENT;
-    for (point, contact, _) in behind(layout, &Pairings::new(mesh, model, body), &motion) {
+    for Behind { point, contact, beside, .. } in behind(layout, &Pairings::new(mesh, model, body), &motion) {
         let distance = layout.faces.distance(point, contact.face);
         let (size, room) = (layout.faces.size[contact.face as usize], contact.projection.gap + distance);
         if distance > 0.0 && room >= -NOTHING * size && contact.projection.gap < -STUCK * size {
@@ -92,7 +92,7 @@ fn crowded(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> (Crowded
                 (crowded.least, crowded.node) = (part, layout.nodes[point as usize]);
             }
             // What is beside a face and near its border says nothing of the room over it.
-            if contact.projection.rounded {
+            if beside {
                 continue;
             }
             let members = layout.faces.corners[contact.face as usize].into_iter().chain([point]);

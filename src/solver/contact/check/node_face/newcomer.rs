@@ -131,7 +131,12 @@ impl NodeFaceCheck<'_> {
     /// Whether a point beyond the border of a solid's face is over the surface all the same: where that hardly bends, as at the facets of a shaft, and
     /// beyond the border of the face that goes on, too; or where the facets end, as in a plane of symmetry, in the side of the body. The
     /// faces near the point are asked, which all ranks have that check it.
-    fn is_over_bend(&self, (point, face): (u32, u32), near: &[Candidate], end: &Projection) -> bool {
+    pub(in crate::solver::contact::check) fn is_over_bend(
+        &self,
+        (point, face): (u32, u32),
+        near: &[Candidate],
+        end: &Projection,
+    ) -> bool {
         let normal = |face: u32| normalized(projection::area_normal(&self.faces.end(face, self.motion)));
         let Some(own) = normal(face).filter(|own| dot(*own, end.normal) > SAME_WAY) else { return false };
         if self.faces.is_two_sided(face) {
