@@ -3,7 +3,7 @@
 use super::grown_together::GrownTogether;
 use super::motion::NodeMotion;
 use super::projection::area_normal;
-use super::sides::HiddenSides;
+use super::sides::{HiddenSide, HiddenSides};
 use super::surface::{back_nodes, face_nodes};
 use crate::common::shared::Shared;
 use crate::common::vector::{dot, subtract};
@@ -150,16 +150,9 @@ impl Faces {
         self.hidden_sides = sides;
     }
 
-    /// The sides of the body at the edges of a face that are no faces of contact, at the present state: the ends of the edge, a point there, and the area normal
-    /// of the side.
-    pub fn hidden_sides(
-        &self,
-        face: u32,
-        motion: &NodeMotion,
-    ) -> impl Iterator<Item = ([u32; 2], [f64; 3], [f64; 3])> + '_ {
-        let (points, corners) = (self.corners[face as usize], self.start(face, motion));
-        let sides = self.hidden_sides.at(face, corners);
-        sides.map(move |(edge, normal)| ([edge, (edge + 1) % 4].map(|end| points[end]), corners[edge], normal))
+    /// The sides of the body at the edges of a face that are no faces of contact, at the present state.
+    pub fn hidden_sides(&self, face: u32, motion: &NodeMotion) -> impl Iterator<Item = HiddenSide> + '_ {
+        self.hidden_sides.at(face, move || (self.corners[face as usize], self.start(face, motion)))
     }
 
     /// How often the depth of a face has become less by a factor of √2, at most [`THINNEST`].

@@ -16,6 +16,17 @@ use crate::mesh::exterior::SIDES;
 /// face. Zeros where there is none.
 type Leans = [[f64; 2]; 4];
 
+/// A side of a body that is no face of contact, where it meets one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HiddenSide {
+    /// Ends of the edge at which they meet.
+    pub ends: [u32; 2],
+    /// The position of the first of them.
+    pub at: [f64; 3],
+    /// Normal of the side with the length of its area, outwards.
+    pub area_normal: [f64; 3],
+}
+
 /// The sides at the edges of faces; empty where no face has any.
 #[derive(Debug, Clone, Default)]
 pub struct HiddenSides {
@@ -57,12 +68,20 @@ impl HiddenSides {
         HiddenSides { of_faces: chosen.iter().map(|&face| self.of_faces[face as usize]).collect() }
     }
 
-    /// The sides of a face with these corners: the edge at which each is, by its place in the face, and its area normal.
-    pub fn at(&self, face: u32, corners: [[f64; 3]; 4]) -> impl Iterator<Item = (usize, [f64; 3])> + '_ {
-        let leans = self.of_faces.get(face as usize).into_iter().flatten().enumerate();
-        leans.filter(|(_, lean)| **lean != [0.0; 2]).filter_map(move |(edge, [away, up])| {
-            let [across, normal] = frame(&corners, edge)?;
-            Some((edge, add(scaled(across, *away), scaled(normal, *up))))
+    /// The sides of a face, whose points and their positions are asked for only where it may have some.
+    pub fn at(
+        &self,
+        face: u32,
+        corners: impl FnOnce() -> ([u32; 4], [[f64; 3]; 4]),
+    ) -> impl Iterator<Item = HiddenSide> + '_ {
+        let known = self.of_faces.get(face as usize).map(|leans| (leans, corners()));
+        known.into_iter().flat_map(|(leans, (points, corners))| {
+            let leans = leans.iter().enumerate().filter(|(_, lean)| **lean != [0.0; 2]);
+            leans.filter_map(move |(edge, [away, up])| {
+                let [across, normal] = frame(&corners, edge)?;
+                let area_normal = add(scaled(across, *away), scaled(normal, *up));
+                Some(HiddenSide { ends: [edge, (edge + 1) % 4].map(|end| points[end]), at: corners[edge], area_normal })
+            })
         })
     }
 }
@@ -87,11 +106,14 @@ mod tests {
     use super::*;
     use crate::mesh::Shape;
 
-    fn sides(elements: &Connectivity, positions: &[[f64; 3]], faces: &[u32]) -> Vec<(u32, usize, [f64; 3])> {
+    fn sides(elements: &Connectivity, positions: &[[f64; 3]], faces: &[u32]) -> Vec<(u32, [u32; 2], [f64; 3])> {
         let exterior: Vec<u32> = crate::mesh::exterior::exterior(elements.shaped(), positions.len(), |_| true);
         let hidden = HiddenSides::of(faces, &exterior, (elements, positions));
         let corners = |face: u32| face_nodes(elements, face).map(|node| positions[node as usize]);
-        let of = |place: u32| hidden.at(place, corners(faces[place as usize])).map(move |(edge, n)| (place, edge, n));
+        let of = |place: u32| {
+            let of_face = move || (face_nodes(elements, faces[place as usize]), corners(faces[place as usize]));
+            hidden.at(place, of_face).map(move |side| (place, side.ends, side.area_normal))
+        };
         (0..faces.len() as u32).flat_map(of).collect()
     }
 

@@ -5,6 +5,7 @@ use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::geometry::sides::HiddenSide;
 use crate::solver::contact::search::locate::Candidate;
 
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
@@ -262,7 +263,7 @@ impl NodeFaceCheck<'_> {
     /// Whether a point whose foot is beyond the border of a face by `beyond` is there in a side of the body that touches nothing itself.
     fn is_in_hidden_side(&self, (point, face): (u32, u32), start: &Projection, beyond: [f64; 3]) -> bool {
         let corners = self.faces.corners[face as usize];
-        let is_level = |(ends, at, area_normal): ([u32; 2], [f64; 3], [f64; 3])| {
+        let is_level = |HiddenSide { ends, at, area_normal }: HiddenSide| {
             let mut shares = corners.iter().zip(&start.weights).filter(|(_, weight)| **weight > projection::TIE);
             let square = dot(area_normal, area_normal);
             let (length, gap) = (square.sqrt(), dot(subtract(self.motion.start(point), at), area_normal));
@@ -278,7 +279,7 @@ impl NodeFaceCheck<'_> {
     /// Whether the body of a point, with its own sides that touch nothing, does not look at such a side of another.
     fn looks_past(&self, point: u32, side: [f64; 3]) -> bool {
         let own = self.faces.around(point).iter().flat_map(|&face| self.faces.hidden_sides(face, self.motion));
-        let own = own.filter(|(ends, ..)| ends.contains(&point)).map(|(_, _, area_normal)| area_normal);
+        let own = own.filter(|side| side.ends.contains(&point)).map(|side| side.area_normal);
         let normal = own.fold(self.faces.point_normal(point, self.motion), add);
         let square = dot(normal, normal) * dot(side, side);
         dot(normal, side) > FACING * square.sqrt()
@@ -311,7 +312,7 @@ impl NodeFaceCheck<'_> {
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
     /// however far behind the face's plane. So it is in front of a side that touches nothing itself.
     fn in_front_of_another(&self, point: u32, face: u32) -> bool {
-        let is_outside = |(_, at, area_normal): ([u32; 2], [f64; 3], [f64; 3])| {
+        let is_outside = |HiddenSide { at, area_normal, .. }: HiddenSide| {
             let length = dot(area_normal, area_normal).sqrt();
             dot(subtract(self.motion.start(point), at), area_normal) > CLEARLY * length.sqrt() * length
         };
