@@ -121,9 +121,12 @@ impl Model {
         }
         let held = self.no_displacements.iter().map(|held| (held.of, held.direction));
         let driven = self.prescribed_motions.iter().map(|driven| (driven.of, driven.direction));
-        let mut free = [true, true, self.analysis == Analysis::Solid];
-        // Bodies of revolution move together along their axis alone.
-        free[0] = matches!(self.analysis, Analysis::Solid | Analysis::PlaneStrain);
+        let mut free = match self.analysis {
+            Analysis::Solid => [true; 3],
+            Analysis::PlaneStrain => [true, true, false],
+            // Bodies of revolution move together along their axis alone.
+            Analysis::Axisymmetric | Analysis::AxisymmetricCompatible => [false, true, false],
+        };
         held.chain(driven).filter(|(of, _)| *of == Unknown::Position).for_each(|(_, axis)| free[axis.axis()] = false);
         free
     }

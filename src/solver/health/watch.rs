@@ -96,6 +96,8 @@ pub struct Exam<'a> {
     pub supplied: f64,
     /// Whether it has grown so much of late that what it will be compared with is yet to come.
     pub begins: bool,
+    /// Whether this look is the last one of the run, at its end or where it cannot go on.
+    pub ends: bool,
 }
 
 /// Supplied energy that has grown by this factor within one or two intervals is that of a beginning: of loads that rise, of fits
@@ -170,7 +172,7 @@ impl Watch {
             self.interval_end = solver.time;
         }
         let begins = self.base() > BEGINS * self.supplied_before[0] && !ends;
-        let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base(), begins };
+        let exam = Exam { solver, facts: &self.facts, totals, supplied: self.base(), begins, ends };
         for symptom in SYMPTOMS.iter().filter(|symptom| symptom.when.is_due(due, solver.step)) {
             for evidence in (symptom.measure)(&exam, comm) {
                 let mut found = Finding::new(symptom, solver, evidence);
@@ -300,7 +302,8 @@ impl Solver {
         let facts = &self.watch.facts;
         let share = totals.contact_gain / self.watch.base();
         if share > facts.contact_limit {
-            let exam = Exam { solver: self, facts, totals: *totals, supplied: self.watch.base(), begins: false };
+            let exam =
+                Exam { solver: self, facts, totals: *totals, supplied: self.watch.base(), begins: false, ends: true };
             let mut evidence = Evidence { share, amount: totals.contact_gain, ..Evidence::default() };
             symptoms::contact::gain::place(&exam, &mut evidence, comm);
             return Err(Stop::Contact { evidence: Box::new(evidence), limit: facts.contact_limit });

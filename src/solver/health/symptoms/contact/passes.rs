@@ -18,7 +18,7 @@ pub const SYMPTOM: Symptom = Symptom {
     measure: |exam, _| {
         let contact = exam.solver.domain.contact.as_ref();
         let tally = contact.and_then(|contact| contact.report()).map(|report| report.tally);
-        let least = ENOUGH[usize::from(exam.solver.is_at_end())];
+        let least = ENOUGH[usize::from(exam.ends)];
         let enough = tally.filter(|tally| tally.steps >= least);
         let evidence = enough.map(|tally| Evidence {
             share: tally.capped as f64 / tally.steps as f64,
