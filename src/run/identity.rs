@@ -16,7 +16,7 @@ use crate::solver::{Body, state_names};
 /// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated;
 /// since 4 for how many steps contact has not settled; since 6 its identity tells of equations of state, layers, sections
 /// and exclusions.
-const FORMAT: &str = "6";
+const FORMAT: &str = "7";
 
 /// How names of lines begin that tell what only a start asks for.
 const START: &str = "START ";

@@ -5,6 +5,7 @@ use urto::deck::Source;
 use urto::mesh::Mesh;
 use urto::model::{Model, examine};
 use urto::output::{Collector, FieldList, Schedule, block_energies};
+use urto::solver::contact::Tally;
 use urto::solver::{Body, Request, Solver, Stop, Totals};
 
 /// A finished run.
@@ -23,6 +24,8 @@ pub struct Run {
     pub searches: u64,
     /// Pairs of points and faces that the last search found.
     pub pairs: usize,
+    /// What the passes of contact took.
+    pub tally: Tally,
 }
 
 /// A plot state.
@@ -138,8 +141,8 @@ pub fn run_on(ranks: usize, deck: &str, mesh: &Mesh) -> Run {
         Ok::<_, ()>(steps(&mut solver, &model, mesh, comm))
     });
     let Ok(mut results) = results else { panic!("a rank failed") };
-    let Record { states, lines, initial_energy, stop, searches, pairs } = results.swap_remove(0);
-    Run { model, states, lines, initial_energy, stop, searches, pairs }
+    let Record { states, lines, initial_energy, stop, searches, pairs, tally } = results.swap_remove(0);
+    Run { model, states, lines, initial_energy, stop, searches, pairs, tally }
 }
 
 struct Record {
@@ -149,6 +152,7 @@ struct Record {
     stop: Option<Stop>,
     searches: u64,
     pairs: usize,
+    tally: Tally,
 }
 
 /// The program's own step loop (`urto::run`) without its files, and without the shorter steps at its end: it ends with the state
@@ -165,6 +169,7 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
         stop: None,
         searches: 0,
         pairs: 0,
+        tally: Tally::default(),
     };
     loop {
         if let Err(stop) = solver.prepare(Request::Continue, comm) {
@@ -182,7 +187,7 @@ fn steps(solver: &mut Solver, model: &Model, mesh: &Mesh, comm: &mut dyn Communi
         }
         if last {
             if let Some(report) = solver.domain.contact.as_ref().and_then(|contact| contact.report()) {
-                (record.searches, record.pairs) = (report.searches, report.pairs);
+                (record.searches, record.pairs, record.tally) = (report.searches, report.pairs, report.tally);
             }
             return record;
         }

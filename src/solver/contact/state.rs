@@ -17,9 +17,9 @@ use crate::solver::erosion::Erosion;
 use crate::solver::nodes::Nodes;
 use std::sync::Arc;
 
-/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, and what
-/// it carries.
-const TOUCH: usize = 5 + WIDTH;
+/// Columns of a touch: node, place among the touches of the node, element and side of the face, tolerated overlap, whether
+/// it yields, and what it carries.
+const TOUCH: usize = 6 + WIDTH;
 /// Columns of a pair of edges: the nodes of both, sense, tolerated overlap, and what it carries.
 const PAIR: usize = 6 + WIDTH;
 /// Columns of a thinner face: element and side of the face, factors of √2.
@@ -204,13 +204,13 @@ impl Contact {
     fn visit_touches(&self, archive: &mut dyn Archive, now: &History) -> Vec<(u32, [FaceContact; 3])> {
         let mut rows = Vec::new();
         for (point, pasts) in &now.points {
-            for (slot, FaceContact { face, tolerated, carried }) in
+            for (slot, FaceContact { face, tolerated, yields, carried }) in
                 pasts.iter().enumerate().filter(|(_, past)| past.face != NONE)
             {
                 let node = f64::from(self.layout.nodes[*point as usize]);
                 rows.extend([node, slot as f64]);
                 rows.extend(self.face_key(*face));
-                rows.push(*tolerated);
+                rows.extend([*tolerated, f64::from(u8::from(*yields))]);
                 rows.extend(carried.to_array());
             }
         }
@@ -221,7 +221,7 @@ impl Contact {
         let faces = self.faces_by_key();
         let mut points: Vec<(u32, [FaceContact; 3])> = Vec::new();
         // Rows are sorted by their nodes.
-        for &[node, slot, element, side, tolerated, ref carried @ ..] in rows.as_chunks::<TOUCH>().0 {
+        for &[node, slot, element, side, tolerated, yields, ref carried @ ..] in rows.as_chunks::<TOUCH>().0 {
             let point = self.layout.point(node as u32);
             if points.last().is_none_or(|(last, _)| *last != point) {
                 points.push((point, NO_CONTACT));
@@ -229,7 +229,12 @@ impl Contact {
             let face = faces.binary_search_by(|(key, _)| compare_rows(key, &[element, side]));
             let pasts = points.last_mut().and_then(|(_, pasts)| pasts.get_mut(slot as usize));
             if let (Ok(face), Some(past)) = (face, pasts) {
-                *past = FaceContact { face: faces[face].1, tolerated, carried: Carried::from_array(*carried) };
+                *past = FaceContact {
+                    face: faces[face].1,
+                    tolerated,
+                    yields: yields != 0.0,
+                    carried: Carried::from_array(*carried),
+                };
             }
         }
         points

@@ -64,6 +64,7 @@ impl PlaneNode {
             gap,
             growth: 0.0,
             persists: self.carried != Carried::NOTHING,
+            yields: false,
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),

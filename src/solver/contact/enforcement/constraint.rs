@@ -26,6 +26,8 @@ pub struct Constraint {
     pub growth: f64,
     /// Whether it was there in the step before; else its members meet anew.
     pub persists: bool,
+    /// Whether it leaves its nodes to another constraint in this step, see `node_pairs`.
+    pub yields: bool,
     /// Length that the gap is small against.
     pub size: f64,
     /// Weight of this constraint where points share their mass among several: the slave share of the partition.
@@ -150,6 +152,8 @@ pub struct ConstraintState {
     pub own: bool,
     /// Whether it pushed or overlapped at any time in this step: else nothing would be another without it.
     pub touched: bool,
+    /// Whether it yields in the next step, see `node_pairs`.
+    pub yields: bool,
     /// Whether its friction was ever as large as it can be: else a larger coefficient would change nothing.
     pub slid: bool,
 }

@@ -76,6 +76,8 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
+    /// The first constraint of each point, while partners are looked for.
+    pub(super) first_of_node: Vec<u32>,
     /// Deepest penetration before the step between members that nothing can move or of rigid bodies that are pinned, or what is missing of the room
     /// of a node between faces that nothing can move, as a part of the face's size, with a member; and on any rank. 0 where it is small.
     pub held: (f64, u32),
@@ -167,6 +169,8 @@ impl Enforcer {
         self.iterates.end(constraints, &mut self.states);
         if outcome.is_some() {
             self.settle(constraints, motion, times, ledger, others);
+            let travel = outcome.map_or(0.0, |outcome| outcome.travel);
+            self.find_yielding(constraints, times.drift, |size| limits.left(size, travel));
         } else {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
                 c.scale_along_ray(state, [0.0; 3], 0.0, times.drift);
@@ -246,6 +250,11 @@ impl Enforcer {
         add(motion.velocity(point as u32), scaled(self.responses[point].velocity_change, state.ray))
     }
 
+    /// Whether a constraint yields in the next step.
+    pub fn yields(&self, constraint: usize) -> bool {
+        self.states[constraint].yields
+    }
+
     /// What is known of each constraint in the course of the iterations.
     pub fn states(&mut self) -> &mut Vec<ConstraintState> {
         &mut self.states
@@ -290,12 +299,16 @@ impl Enforcer {
                 state.target = state.target.without_store(state.before);
             }
             // Where all members are held there is nothing to move.
-            if inverse > HELD * isotropic {
-                state.strength = c.share.max(LEAST_SHARE) / inverse;
+            let is_movable = inverse > HELD * isotropic;
+            if is_movable {
                 state.closing = drift * (state.free - state.target.with(granted));
             } else {
-                (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
                 self.note_held(sunk, DEEP);
+            }
+            if is_movable && !c.yields {
+                state.strength = c.share.max(LEAST_SHARE) / inverse;
+            } else {
+                (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
             }
             if c.friction.is_some() {
                 (state.slip, state.slip_before) = (tangential(free, c.normal), tangential(before, c.normal));

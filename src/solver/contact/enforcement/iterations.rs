@@ -43,6 +43,11 @@ impl Limits {
         residual <= tolerance && moved <= (SETTLED * tolerance).min(UNSETTLED) * travel
     }
 
+    /// How far iterations that have settled may still move a constraint of this size, a length; see [`Limits::are_met`].
+    pub(super) fn left(&self, size: f64, travel: f64) -> f64 {
+        (self.tolerance * size).min((SETTLED * self.tolerance).min(UNSETTLED) * travel)
+    }
+
     /// Whether so many iterations are enough, though the last of them has moved constraints so far, see [`Limits::are_met`].
     fn are_reached(&self, iterations: u32, [residual, moved, travel]: [f64; 3]) -> bool {
         let has_nearly_settled = residual <= self.tolerance && moved <= NEARLY_SETTLED * travel;

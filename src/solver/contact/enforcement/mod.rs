@@ -9,6 +9,7 @@ pub mod iterates;
 pub mod iterations;
 pub mod joints;
 pub mod mobility;
+mod node_pairs;
 pub mod other_ranks;
 mod pinned;
 pub mod pinned_bodies;

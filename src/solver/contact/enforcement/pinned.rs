@@ -54,6 +54,7 @@ mod tests {
             gap: 0.0,
             growth: 0.0,
             persists: true,
+            yields: false,
             size: 2.0,
             share: 1.0,
             friction: Friction { at_rest: 0.0, high_speed: 0.0, decay: 0.0 },

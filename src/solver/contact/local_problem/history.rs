@@ -74,6 +74,9 @@ impl LocalProblem {
             Origin::Face(_, place) => {
                 let past = &mut self.history.own(c.members[0] as usize)[place as usize];
                 past.carried = c.carried;
+                // What has a thickness touches around its borders, along normals of its own for each of two contacts.
+                let is_of_solids = past.face != NONE && self.faces.distance(c.members[0], past.face) == 0.0;
+                past.yields = is_of_solids && self.enforcer.yields(constraint);
             }
             Origin::Edges(first, second) => {
                 let pair = [first, second].map(|edge| place(&self.numbering.edges, edge));

@@ -373,7 +373,9 @@ impl LocalProblem {
                 let contact = &DetectedContact { tolerated: remaining * before_growth, ..*contact };
                 if let Some(mut constraint) = node_face::constraint(faces, pairing, point, contact) {
                     constraint.growth = (contact.tolerated - before_growth) / drift;
-                    constraint.carried = carried_before(faces, &before, contacts, contact);
+                    let past = past_of(faces, &before, contacts, contact);
+                    (constraint.carried, constraint.yields) =
+                        past.map_or((Carried::NOTHING, false), |past| (past.carried, past.yields));
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
@@ -444,15 +446,15 @@ fn place(list: &[u32], number: u32) -> u32 {
     list.binary_search(&number).map_or(ABSENT, |place| place as u32)
 }
 
-/// What a touch carries from the last step. A point that has slid on to the next face takes it along.
-fn carried_before(
+/// What a touch was in the last step. A point that has slid on to the next face takes it along.
+fn past_of<'a>(
     faces: &Faces,
-    before: &[FaceContact; MAX_FACES],
+    before: &'a [FaceContact; MAX_FACES],
     contacts: &[DetectedContact],
     contact: &DetectedContact,
-) -> Carried {
+) -> Option<&'a FaceContact> {
     let same = before.iter().find(|past| past.face == contact.face);
     let left = |past: &&FaceContact| past.face != NONE && contacts.iter().all(|contact| contact.face != past.face);
     let beside = || before.iter().filter(left).find(|past| faces.adjacent(past.face, contact.face));
-    same.or_else(beside).map_or(Carried::NOTHING, |past| past.carried)
+    same.or_else(beside)
 }

@@ -190,6 +190,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
         gap: 0.0,
         growth: 0.0,
         persists: true,
+        yields: false,
         carried: Carried { penetration: 0.0, normal_force, tangential_force },
         origin,
     };
@@ -211,6 +212,7 @@ mod tests {
                 gap: 0.0,
                 growth: 0.0,
                 persists: true,
+                yields: false,
                 size: 0.01,
                 share: 0.5,
                 friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },

@@ -12,8 +12,8 @@ use std::ops::Range;
 /// Numbers that tell what a point touches.
 const PASTS: usize = PAST * MAX_FACES;
 
-/// Numbers of one of them: the face, the tolerated overlap, and what is carried.
-const PAST: usize = 2 + WIDTH;
+/// Numbers of one of them: the face, the tolerated overlap, whether it yields, and what is carried.
+const PAST: usize = 3 + WIDTH;
 
 /// Numbers of a pair of edges: the second edge, the sense, the tolerated overlap, and what is carried.
 const PAIR: usize = 3 + WIDTH;
@@ -68,9 +68,9 @@ pub fn share_planes(
 fn pack_past(past: FaceContact) -> [f64; PAST] {
     let [penetration, normal_force, x, y, z] = past.carried.to_array();
     // The mark of no face is beyond all faces and exact in a double.
-    [f64::from(past.face), past.tolerated, penetration, normal_force, x, y, z]
+    [f64::from(past.face), past.tolerated, f64::from(u8::from(past.yields)), penetration, normal_force, x, y, z]
 }
 
-fn unpack_past([face, tolerated, carried @ ..]: [f64; PAST]) -> FaceContact {
-    FaceContact { face: face as u32, tolerated, carried: Carried::from_array(carried) }
+fn unpack_past([face, tolerated, yields, carried @ ..]: [f64; PAST]) -> FaceContact {
+    FaceContact { face: face as u32, tolerated, yields: yields != 0.0, carried: Carried::from_array(carried) }
 }

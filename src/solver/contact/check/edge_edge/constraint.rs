@@ -65,6 +65,7 @@ impl EdgeCheck<'_> {
             gap,
             growth: 0.0,
             persists: now.carried != Carried::NOTHING,
+            yields: false,
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,

@@ -61,13 +61,15 @@ pub struct FaceContact {
     pub face: u32,
     /// Overlap that is tolerated because it was not made by motion: a gap, a length of at most 0.
     pub tolerated: f64,
+    /// Whether it leaves the two nodes that it joins to the contact the other way; see `enforcement::node_pairs`.
+    pub yields: bool,
     /// What the contact carries.
     pub carried: Carried,
 }
 
 /// Of a node that touches nothing.
 pub const NO_CONTACT: [FaceContact; MAX_FACES] =
-    [FaceContact { face: NONE, tolerated: 0.0, carried: Carried::NOTHING }; MAX_FACES];
+    [FaceContact { face: NONE, tolerated: 0.0, yields: false, carried: Carried::NOTHING }; MAX_FACES];
 
 /// A node on a face, as the check has found it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,8 +117,7 @@ fn faces_of(near: &[Candidate]) -> impl Iterator<Item = u32> + '_ {
 
 impl NodeFaceCheck<'_> {
     /// Fills `contacts` with the faces that `point` touches, chosen and in order. `near` are the faces whose boxes over
-    /// this step meet the point's; `past` the faces touched before. Where blocks say what holds, a face is met only by points one of
-    /// whose own faces looks at it; the nodes of a side set do not bring all the faces of their body.
+    /// this step meet the point's; `past` the faces touched before.
     #[inline(always)]
     pub fn point(
         &self,
@@ -133,7 +134,8 @@ impl NodeFaceCheck<'_> {
         for &Candidate { face, interface } in near {
             // Faces around those that hold the point have had their turn.
             if contacts[..held].iter().all(|contact| contact.face != face && !self.faces.adjacent(contact.face, face)) {
-                let found = self.newcomer((point, face), near, self.rules[interface as usize] == Rule::Blocks);
+                let edges_hold = self.edges_hold && self.rules[interface as usize] == Rule::Blocks;
+                let found = self.newcomer((point, face), near, edges_hold);
                 contacts.extend(found.filter(|_| !self.is_behind_flank(point, face, near)));
             }
         }
@@ -386,6 +388,7 @@ pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, contact: &Detecte
         gap: contact.projection.gap - contact.tolerated,
         growth: 0.0,
         persists: contact.time < 0.0,
+        yields: false,
         size: faces.size[face],
         share,
         friction: pairing.friction,

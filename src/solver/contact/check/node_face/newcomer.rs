@@ -22,13 +22,13 @@ const SEAM: f64 = 1e-4;
 const LEVEL_WITH_SIDE: f64 = 0.1;
 
 impl NodeFaceCheck<'_> {
-    /// A point that this face, one of those `near` it, has not seen before.
+    /// A point that this face, one of those `near` it, has not seen before. `edges_hold` says whether edges have a say where blocks meet.
     #[inline(always)]
     pub(super) fn newcomer(
         &self,
         (point, face): (u32, u32),
         near: &[Candidate],
-        strict: bool,
+        edges_hold: bool,
     ) -> Option<DetectedContact> {
         if self.is_in_front(point, face) {
             return None;
@@ -47,13 +47,13 @@ impl NodeFaceCheck<'_> {
         }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        let comes = || !strict || (self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights));
+        let comes = || self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights);
         if distance == 0.0 && start.gap >= 0.0 {
             if !may_have_come() {
                 return None;
             }
             let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
-            if strict && self.edges_hold && self.is_held_by_edges(point, face, time) {
+            if edges_hold && self.is_held_by_edges(point, face, time) {
                 return None;
             }
             return comes().then(|| contact(time, 0.0));
@@ -278,9 +278,7 @@ impl NodeFaceCheck<'_> {
 
     /// Whether the body of a point, with its own sides that touch nothing, does not look at such a side of another.
     fn looks_past(&self, point: u32, side: [f64; 3]) -> bool {
-        let own = self.faces.around(point).iter().flat_map(|&face| self.faces.hidden_sides(face, self.motion));
-        let own = own.filter(|side| side.ends.contains(&point)).map(|side| side.area_normal);
-        let normal = own.fold(self.faces.point_normal(point, self.motion), add);
+        let normal = self.hidden_sides_around(point).fold(self.faces.point_normal(point, self.motion), add);
         let square = dot(normal, normal) * dot(side, side);
         dot(normal, side) > FACING * square.sqrt()
     }
@@ -335,11 +333,20 @@ impl NodeFaceCheck<'_> {
 
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
     /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
-    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way.
+    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way. Sides of its body that are in no side
+    /// set count as well; the nodes of a node set bring no faces at all.
     fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
+        let looks = |side: [f64; 3]| dot(side, *normal) < FACING * dot(side, side).sqrt();
         self.faces.around(point).is_empty()
             || self.most_opposed(point, normal) < FACING
             || self.faces.is_on_surface(point)
+            || self.hidden_sides_around(point).any(looks)
+    }
+
+    /// Normals, with the lengths of their areas, of the sides of its body at a point that touch nothing.
+    fn hidden_sides_around(&self, point: u32) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let sides = self.faces.around(point).iter().flat_map(|&face| self.faces.hidden_sides(face, self.motion));
+        sides.filter(move |side| side.ends.contains(&point)).map(|side| side.area_normal)
     }
 
     /// Smallest cosine between a normal and those of the faces around a point.

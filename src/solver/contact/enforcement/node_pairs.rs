@@ -1,0 +1,89 @@
+//! Nodes that lie on nodes: two contacts join the same two nodes, one each way, and nearly say the same.
+//!
+//! Where meshes match, node a is held by a face of node b and node b by a face of node a, with nearly all of the weight. In the middle of
+//! flat faces both agree, and share the force. At the rim of one of them, where velocities change from node to node, they do not: the one closes
+//! its gap with a force that leaves the other open, and iterations that give each its share of the masses hand the force over by no more than
+//! the small disagreement in each of them, in hundreds. One of two is enough. The one that ends a step with the larger gap *yields*: it takes no
+//! force in the next step. Should the other be gone by then, nothing holds the nodes for that one step.
+
+use super::constraint::{Constraint, Origin};
+use super::enforcer::Enforcer;
+use crate::common::vector::dot;
+
+/// A foot that has at least this part of its weight at one corner is on that node. Where it has less, iterations settle by themselves.
+const ON_NODE: f64 = 0.9;
+
+/// Two contacts disagree from this part of what settled iterations may leave on: a quarter of what they would not settle with, as it grows from step to
+/// step.
+const DISAGREE: f64 = 0.5;
+
+/// From so much less on they agree again, and share their force.
+const AGREE: f64 = 0.25;
+
+/// Cosine of the angle between the normals of two contacts that say the same. At the ridges of round bodies one of them alone would push its node
+/// aside.
+const OPPOSITE: f64 = -0.999;
+
+/// No constraint.
+const NONE: u32 = u32::MAX;
+
+/// The other member of a constraint of a node that lies on a node.
+fn node_below(c: &Constraint) -> Option<u32> {
+    let is_face = matches!(c.origin, Origin::Face(..));
+    let corner = (1..c.count).find(|&i| c.weights[i] <= -ON_NODE).filter(|_| is_face);
+    corner.map(|i| c.members[i])
+}
+
+impl Enforcer {
+    /// Finds which of the constraints yield in the next step, once all forces are known. `left` is how far iterations that have settled may
+    /// still move a constraint of a size, both lengths. All ranks that own a member of one of two constraints have both, with the same bits, and
+    /// decide alike.
+    pub(super) fn find_yielding(&mut self, constraints: &[Constraint], drift: f64, left: impl Fn(f64) -> f64) {
+        self.first_of_node.resize(self.responses.len(), NONE);
+        for (i, c) in constraints.iter().enumerate().rev().filter(|(_, c)| matches!(c.origin, Origin::Face(..))) {
+            self.first_of_node[c.members[0] as usize] = i as u32;
+        }
+        for i in 0..constraints.len() {
+            let partner = self.partner(constraints, i).filter(|_| self.states[i].own);
+            let yields = partner.is_some_and(|j| self.yields_to(constraints, [i, j], drift, &left));
+            self.states[i].yields = yields;
+        }
+        constraints.iter().for_each(|c| self.first_of_node[c.members[0] as usize] = NONE);
+    }
+
+    /// The constraint of the node below back onto the node of a constraint, if the two have only each other.
+    fn partner(&self, constraints: &[Constraint], i: usize) -> Option<usize> {
+        let j = self.backwards(constraints, i)?;
+        (self.backwards(constraints, j)? == i).then_some(j)
+    }
+
+    /// The first constraint of the node on which the node of the `i`-th lies, back onto that and the other way.
+    fn backwards(&self, constraints: &[Constraint], i: usize) -> Option<usize> {
+        let c = &constraints[i];
+        let below = node_below(c)?;
+        let first = *self.first_of_node.get(below as usize)? as usize;
+        let of_node = constraints.get(first..)?.iter().take_while(|other| other.members[0] == below);
+        let is_back =
+            |other: &Constraint| node_below(other) == Some(c.members[0]) && dot(other.normal, c.normal) < OPPOSITE;
+        of_node.zip(first..).find(|(other, _)| is_back(other)).map(|(_, j)| j)
+    }
+
+    /// Whether the first of two constraints of the same nodes yields to the second.
+    fn yields_to(&self, constraints: &[Constraint], pair: [usize; 2], drift: f64, left: impl Fn(f64) -> f64) -> bool {
+        if pair.iter().all(|&i| constraints[i].carried.normal_force == 0.0) {
+            return false;
+        }
+        let [own, other] = pair.map(|i| {
+            let c = &constraints[i];
+            self.states[i].closing + drift * dot(c.velocity_change(&self.responses), c.normal)
+        });
+        let left = DISAGREE * pair.iter().fold(f64::INFINITY, |least, &i| least.min(left(constraints[i].size)));
+        let apart = (own - other).abs();
+        if apart > left || apart < AGREE * left {
+            return own > other && apart > left;
+        }
+        // In between as before, but not both.
+        let [has_yielded, has_other] = pair.map(|i| self.states[i].strength <= 0.0);
+        has_yielded && !has_other
+    }
+}
