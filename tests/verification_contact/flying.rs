@@ -49,6 +49,23 @@ fn a_cube_that_flies_searches_no_more_than_at_rest() {
     assert!(fast.searches == 1 && fast.pairs < 386 * 4, "{} {}", fast.searches, fast.pairs);
 }
 
+/// Two cubes far from each other have as many candidates when one flies and the other rests as when each flies at half of the speed the
+/// other way: the boxes of a search are seen from between them.
+#[test]
+fn a_cube_that_flies_and_one_that_rests_share_the_way() {
+    let mesh = recipe(
+        "TITLE\n cubes\nBOX, 1, 0., 0., 0., 0.004, 0.004, 0.004, 8, 8, 8\n\
+         BOX, 2, 0.03, 0.00013, 0.00013, 0.004, 0.004, 0.004, 8, 8, 8\n",
+    );
+    let flown = |one: f64, other: f64| run(&deck(&[[one, 0.0, 0.0], [other, 0.0, 0.0]], 6e-6), &mesh);
+    let both = flown(500.0, -500.0);
+    for half in [flown(1000.0, 0.0), flown(0.0, -1000.0)] {
+        assert!(both.pairs > 0 && half.last().step == both.last().step && half.searches == both.searches);
+        let part = half.pairs as f64 / both.pairs as f64;
+        between("one cube flies", "candidates over those where both do", part, 0.99, 1.01);
+    }
+}
+
 fn collision(v: [f64; 3]) -> (String, Mesh) {
     (deck(&[[v[0] + 100.0, v[1], v[2]], v], 8e-6), cubes())
 }

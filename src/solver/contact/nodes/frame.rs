@@ -8,9 +8,13 @@
 use crate::comm::{Communicator, ExactSum};
 use crate::solver::nodes::{add, dot, scaled, subtract};
 
-/// The frame is taken where it leaves less than this part of the sum of all speeds: where half of the nodes rest, one half has to
-/// pay whatever the frame is.
+/// A frame that flies along with most nodes is taken where it leaves less than this part of the sum of all speeds.
 const WORTH: f64 = 0.5;
+
+/// Else that of the mean of all nodes is taken where the mean has more than this part of the squares of all speeds. Where one of two
+/// bodies rests that is the part of the nodes that fly: of bodies of the same size each goes half of the way. Boxes grow with their way on all sides, so that
+/// two halves bring fewer candidates than one whole.
+const BETWEEN: f64 = 0.4;
 
 /// How the frame moves, and how far it has gone since the last search.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,28 +27,23 @@ impl Frame {
     /// A frame that begins its way now, for nodes with these velocities, each of which one rank tells. All ranks call it and learn the
     /// same.
     pub fn of(velocities: impl Iterator<Item = [f64; 3]> + Clone, comm: &mut dyn Communicator) -> Frame {
-        let [x, y, z, count, speeds] =
-            sums(velocities.clone().map(|v| [v[0], v[1], v[2], 1.0, dot(v, v).sqrt()]), comm);
-        // Nodes that go apart on all sides, or rest, or are lost, have nothing in common. Written so that NaN has neither.
-        let along = dot([x, y, z], [x, y, z]).sqrt();
-        let in_common = speeds.is_finite() && along > WORTH * speeds;
-        if !in_common {
-            return Frame::default();
-        }
-        // Those that go along with the mean tell how they fly, without those that do not.
+        let of_all = velocities.clone().map(|v| [v[0], v[1], v[2], 1.0, dot(v, v).sqrt(), dot(v, v)]);
+        let [x, y, z, count, speeds, squares] = sums(of_all, comm);
         let mean = scaled([x, y, z], 1.0 / count);
-        let go_along = |v: &[f64; 3]| {
-            let apart = subtract(*v, mean);
-            dot(apart, apart) < dot(*v, *v)
-        };
-        let [x, y, z, count] = sums(velocities.clone().filter(go_along).map(|v| [v[0], v[1], v[2], 1.0]), comm);
-        let velocity = scaled([x, y, z], 1.0 / count);
-        let speed_left = |v| {
-            let left = subtract(v, velocity);
-            [dot(left, left).sqrt()]
-        };
-        let [left] = sums(velocities.map(speed_left), comm);
-        if left < WORTH * speeds { Frame { velocity, gone: [0.0; 3] } } else { Frame::default() }
+        // Nodes that go apart on all sides, or rest, or are lost, have nothing in common. Written so that NaN has neither.
+        if speeds.is_finite() && count * dot(mean, mean).sqrt() > WORTH * speeds {
+            let velocity = of_most(velocities.clone(), mean, comm);
+            let speed_left = |v| {
+                let left = subtract(v, velocity);
+                [dot(left, left).sqrt()]
+            };
+            let [left] = sums(velocities.map(speed_left), comm);
+            if left < WORTH * speeds {
+                return Frame { velocity, gone: [0.0; 3] };
+            }
+        }
+        let between = count * dot(mean, mean) > BETWEEN * squares;
+        if between { Frame { velocity: mean, gone: [0.0; 3] } } else { Frame::default() }
     }
 
     /// Goes on for a time.
@@ -61,6 +60,16 @@ impl Frame {
     pub fn path(&self, time: f64) -> [f64; 3] {
         scaled(self.velocity, time)
     }
+}
+
+/// Mean velocity of those that go along with the mean of all: they tell how most fly, without those that do not.
+fn of_most(velocities: impl Iterator<Item = [f64; 3]>, mean: [f64; 3], comm: &mut dyn Communicator) -> [f64; 3] {
+    let go_along = |v: &[f64; 3]| {
+        let apart = subtract(*v, mean);
+        dot(apart, apart) < dot(*v, *v)
+    };
+    let [x, y, z, count] = sums(velocities.filter(go_along).map(|v| [v[0], v[1], v[2], 1.0]), comm);
+    scaled([x, y, z], 1.0 / count)
 }
 
 /// Sums over all ranks, the same on any number of them.
@@ -104,6 +113,14 @@ mod tests {
     }
 
     #[test]
+    fn it_flies_between_two_bodies_of_which_one_rests() {
+        let fast = [2000.0, 0.0, 0.0];
+        assert_eq!(velocity(&[(5, fast), (5, [0.0; 3])]), [1000.0, 0.0, 0.0]);
+        assert_eq!(velocity(&[(5, [0.0; 3]), (5, fast)]), [1000.0, 0.0, 0.0]);
+        assert_eq!(velocity(&[(9, fast), (11, [0.0; 3])]), [900.0, 0.0, 0.0]);
+    }
+
+    #[test]
     fn it_rests_where_flying_along_gains_little() {
         let fast = [2000.0, 0.0, 0.0];
         for groups in [
@@ -111,7 +128,7 @@ mod tests {
             &[(10, [0.0; 3])],
             // A shot at a plate, as large as the plate at most.
             &[(1, fast), (9, [0.0; 3])],
-            &[(5, fast), (5, [0.0; 3])],
+            &[(1, fast), (2, [0.0; 3])],
             // What goes apart.
             &[(5, fast), (5, [-2000.0, 0.0, 0.0])],
             // What is lost.
