@@ -13,11 +13,8 @@ use crate::common::vector::dot;
 /// A foot that has at least this part of its weight at one corner is on that node. Where it has less, iterations settle by themselves.
 const ON_NODE: f64 = 0.9;
 
-/// Two contacts disagree from this part of what settled iterations may leave on: a quarter of what they would not settle with, as it grows from step to
-/// step.
-const DISAGREE: f64 = 0.5;
-
-/// From so much less on they agree again, and share their force.
+/// Two contacts that are farther apart than what settled iterations may leave disagree: half of what iterations would not settle with, as it grows from
+/// step to step. From this part of it down they agree again, and share their force.
 const AGREE: f64 = 0.25;
 
 /// Cosine of the angle between the normals of two contacts that say the same. At the ridges of round bodies one of them alone would push its node
@@ -77,7 +74,7 @@ impl Enforcer {
             let c = &constraints[i];
             self.states[i].closing + drift * dot(c.velocity_change(&self.responses), c.normal)
         });
-        let left = DISAGREE * pair.iter().fold(f64::INFINITY, |least, &i| least.min(left(constraints[i].size)));
+        let left = pair.iter().fold(f64::INFINITY, |least, &i| least.min(left(constraints[i].size)));
         let apart = (own - other).abs();
         if apart > left || apart < AGREE * left {
             return own > other && apart > left;
