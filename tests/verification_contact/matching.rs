@@ -1,6 +1,7 @@
 //! Bodies whose meshes match: nodes lie on nodes, so that two contacts join the same two nodes.
 
 use crate::support::between;
+use crate::support::bodies::nodes_of;
 use crate::support::meshes::recipe;
 use crate::support::run::{run, run_on};
 use urto::mesh::Mesh;
@@ -19,7 +20,7 @@ fn blocks(aside: f64) -> Mesh {
 fn deck(lines: &str) -> String {
     let steel = "ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND";
     format!(
-        "TITLE\n BLOCK ON BLOCK\nTERMINATION TIME, 24.E-6\nOUTPUT TIME, 1.E-6\nPLOT TIME, 24.E-6\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\n\
+        "TITLE\n BLOCK ON BLOCK\nTERMINATION TIME, 24.E-6\nOUTPUT TIME, 1.E-6\nPLOT TIME, 4.E-6\nPLOT NODAL, VELOCITY, CONTACT\nCONTACT MATERIAL\n\
          INITIAL VELOCITY MATERIAL, 2, 0., 0., -{SPEED:?}\nMATERIAL, 1, {steel}\nMATERIAL, 2, {steel}\n{lines}\nEXIT\n"
     )
 }
@@ -36,6 +37,14 @@ fn nodes_on_nodes_settle_in_a_few_passes() {
         // The first step of the impact has no step before it that would say which of two contacts yields.
         assert!(tally.steps > 10 && tally.capped <= 1, "{tally:?}");
         assert!(tally.iterations < 7 * tally.steps, "{tally:?}");
+        // What yields is on its face all the same.
+        let (pressed, lower) = (fallen.at(20e-6), |node: &usize| mesh.coordinates[*node][2] == 0.0405);
+        let on_face = nodes_of(&mesh, 2).into_iter().filter(lower).map(|node| pressed.nodal("CONTSTAT")[node]);
+        assert!(
+            on_face.clone().count() == 81 && on_face.clone().all(|status| status == 2.0),
+            "{:?}",
+            on_face.collect::<Vec<_>>()
+        );
         // A settled pass moves nothing by more than a five-hundredth of a step's motion, in each of some 17 steps.
         let settled = run(&deck("CONTACT PASSES, 1000, 1.E-9"), &mesh);
         let axes = ["VELX", "VELY", "VELZ"];

@@ -117,16 +117,11 @@ impl LocalProblem {
                     result.details.status = Status::Loaded;
                 }
             }
+            let on_face = self.on_face(c);
             let Details { gap, status, face, plane_force } = &mut self.results.own(c.members[0] as usize).details;
             *gap = gap.min(c.gap);
             match c.origin {
-                Origin::Face(_, place) if *status != Status::OnFace => {
-                    let contacts = self.history.get(c.members[0] as usize);
-                    let touched = contacts.and_then(|contacts| contacts.get(place as usize)).map_or(NONE, |of| of.face);
-                    if touched != NONE {
-                        (*status, *face) = (Status::OnFace, self.faces.number[touched as usize]);
-                    }
-                }
+                Origin::Face(..) if *status != Status::OnFace => (*status, *face) = on_face.unwrap_or((*status, *face)),
                 Origin::Plane(_) => {
                     let Carried { normal_force, tangential_force, .. } = c.carried;
                     (0..3).for_each(|i| plane_force[i] += normal_force * c.normal[i] + tangential_force[i])
@@ -134,6 +129,22 @@ impl LocalProblem {
                 Origin::Face(..) | Origin::Edges(..) => (),
             }
         }
+        // What yields has no force of its own, but it is on its face as much as the node that pushes it.
+        for c in self.constraints.iter().filter(|c| c.yields) {
+            let point = c.members[0] as usize;
+            let (on_face, is_loaded) = (self.on_face(c), self.results[point].details.status == Status::Loaded);
+            if let Some((status, face)) = on_face.filter(|_| is_loaded) {
+                let details = &mut self.results.own(point).details;
+                *details = Details { gap: details.gap.min(c.gap), status, face, ..*details };
+            }
+        }
         self.loaded.sort_unstable();
+    }
+
+    /// What is told of a node that touches the face of a constraint; `None` where that is of no face.
+    fn on_face(&self, c: &Constraint) -> Option<(Status, u32)> {
+        let Origin::Face(_, place) = c.origin else { return None };
+        let touched = self.history.get(c.members[0] as usize)?.get(place as usize)?.face;
+        (touched != NONE).then(|| (Status::OnFace, self.faces.number[touched as usize]))
     }
 }
