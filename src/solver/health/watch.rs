@@ -6,7 +6,7 @@ use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
 use crate::mesh::{Mesh, counts_from_one};
-use crate::model::{Jump, Model, Pulse};
+use crate::model::{Hourglass, Jump, Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
@@ -33,6 +33,8 @@ pub struct Facts {
     pub flight_energy: f64,
     /// Part of the whole damping by which hourglass modes of fluids are resisted.
     pub damping: f64,
+    /// Whether hourglass modes have a viscosity.
+    pub viscous_modes: bool,
     /// Time at which the run ends.
     pub termination_time: f64,
     /// Part of the largest energy supplied at which a gain of contact ends the run.
@@ -131,6 +133,7 @@ impl Watch {
             stored_energy: energy::stored_energy(body, model),
             flight_energy,
             damping: of_fluids(model.hourglass),
+            viscous_modes: matches!(model.hourglass, Hourglass::FlanaganBelytschko { viscosity, .. } if viscosity > 0.0),
             termination_time: model.termination_time,
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,

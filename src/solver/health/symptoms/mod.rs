@@ -10,7 +10,7 @@ mod dead_at_start;
 mod debris;
 mod given_back;
 pub mod hourglass;
-mod imbalance;
+pub mod imbalance;
 mod jump;
 mod runaway;
 mod short_pulse;
