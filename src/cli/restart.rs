@@ -44,15 +44,16 @@ pub fn find(
     if !differ.is_empty() {
         return Err(Failure::input(format_args!(
             "error: {} is the state of another problem\n{}\n\
-             help: times, outputs, loads and constraints may be changed when a run goes on, and the numbers of materials; \
-             mesh, laws, densities and contact may not",
+             help: times, outputs, loads and constraints may be changed when a run goes on, the numbers of materials, and of contact \
+             all but what may touch: friction, partitions, passes, CONTACT OVERLAP and the like; mesh, laws, densities, CONTACT MATERIAL, \
+             CONTACT NODE SET, CONTACT EXCLUSION and the side sets of CONTACT SURFACE and RIGID SURFACE may not",
             path.display(),
             told(&differ)
         )));
     }
     something_left(&path, &restart, model.termination_time)?;
     same_run(&path, &restart, base)?;
-    let idle = without_effect(&restart, &given.mesh, model);
+    let idle = without_effect(&restart, &given.mesh, model, body);
     Ok(Some((path, restart.snapshot, idle)))
 }
 

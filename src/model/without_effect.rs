@@ -40,6 +40,8 @@ pub(in crate::model) fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagno
     estimate_beside_viscosity(problem, mesh, found);
     contact_not_there(problem, found);
     thickness_of_no_contact(problem, mesh, found);
+    blocks_of_no_contact(problem, mesh, found);
+    side_sets_before_blocks(problem, mesh, found);
 }
 
 /// That nothing follows from a command, and why; `lacks` is a sentence.
@@ -150,6 +152,64 @@ fn thickness_of_no_contact(problem: &Problem, mesh: &Mesh, found: &mut Diagnosti
     }
 }
 
+/// CONTACT DATA and CONTACT EXCLUSION about blocks that neither CONTACT MATERIAL names nor CONTACT NODE SET has nodes of. Without such sets the
+/// deck alone tells.
+fn blocks_of_no_contact(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let contact = &problem.model.contact;
+    if contact.materials.is_none() || contact.node_sets.is_empty() {
+        return;
+    }
+    let mut touching: Vec<u32> = contact.node_sets.iter().flat_map(|(set, _)| mesh.distinct_nodes(*set)).collect();
+    touching.sort_unstable();
+    let touches = |id: i64| {
+        let nodes = mesh.block_index(id).map_or(&[][..], |index| &mesh.blocks[index].nodes);
+        contact.names(id) || nodes.iter().any(|node| touching.binary_search(node).is_ok())
+    };
+    for card in ["CONTACT DATA", "CONTACT EXCLUSION"].into_iter().flat_map(|name| problem.deck.cards_of(name)) {
+        for field in ["first", "second"] {
+            let Some(block) = card.maybe_integer(field).filter(|block| !touches(*block)) else { continue };
+            if field == "second" && Some(block) == card.maybe_integer("first") {
+                continue;
+            }
+            found.push(
+                nothing_follows(card, &format!("block {block} touches nothing"))
+                    .at(card.place(field), "neither CONTACT MATERIAL nor CONTACT NODE SET lets it touch")
+                    .help(format!("CONTACT MATERIAL, {block} does; CONTACT SURFACE has friction of its own")),
+            );
+        }
+    }
+}
+
+/// Side sets of CONTACT SURFACE on blocks that CONTACT MATERIAL lets touch too: what is said of the sets holds between them.
+fn side_sets_before_blocks(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
+    let contact = &problem.model.contact;
+    if contact.materials.is_none() || contact.surfaces.is_empty() {
+        return;
+    }
+    let block_of: Vec<i64> = mesh.elements().map(|(block, _)| mesh.blocks[block].id).collect();
+    let blocks = |set: i64| {
+        let sides = mesh.side_set(set).map_or(&[][..], |set| &set.sides);
+        let of_sides = sides.iter().filter_map(|(element, _)| block_of.get(*element as usize).copied());
+        of_sides.filter(|block| contact.names(*block)).collect::<std::collections::BTreeSet<i64>>()
+    };
+    for pair in &contact.surfaces {
+        let [first, second] = pair.side_sets;
+        let (masters, others) = (blocks(first), blocks(second));
+        if masters.is_empty() || others.is_empty() {
+            continue;
+        }
+        let apart = masters.iter().flat_map(|a| others.iter().map(move |b| (*a, *b)));
+        let apart = apart.filter(|(a, b)| a != b).find(|(a, b)| contact.keeps_apart(*a, *b));
+        let but = apart.map_or(String::new(), |(a, b)| {
+            format!("; they touch, though CONTACT EXCLUSION keeps blocks {a} and {b} from touching elsewhere")
+        });
+        found.push(Diagnostic::note(format!(
+            "CONTACT MATERIAL names the blocks of side sets {first} and {second}, too: between these sets the friction and partition of \
+             CONTACT SURFACE hold, not those of CONTACT DATA{but}"
+        )));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::deck::Source;
@@ -248,5 +308,42 @@ mod tests {
         let plane = "RIGID SURFACE, 1, 0., 0., -1., 0., 0., 1.";
         is_silent(SHEET, &format!("{shell}{plane}\nCONTACT PASSES, 5\nCONTACT THICKNESS, 1, 0.5"));
         says(SHEET, &format!("{shell}{plane}\nCONTACT EDGES, OFF"), "CONTACT EDGES", "there is no CONTACT MATERIAL");
+    }
+
+    /// Two boxes, one on the other; nodes and sides between them are sets.
+    const BOXES: &str = "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nBOX, 2, 0., 0., 1., 1., 1., 1., 1, 1, 1\n\
+                         NODE SET FACE, 7, 1, TOP\nSIDE SET FACE, 100, 1, TOP\nSIDE SET FACE, 200, 2, BOTTOM";
+    const LAW: &str = "MATERIAL, 2, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n";
+
+    #[test]
+    fn blocks_touch_by_the_nodes_of_sets() {
+        let data = "CONTACT MATERIAL, 2\nCONTACT DATA, 1, 2, 0.2";
+        says(BOXES, &format!("{LAW}{data}"), "CONTACT DATA", "block 1 touches nothing");
+        is_silent(BOXES, &format!("{LAW}{data}\nCONTACT NODE SET, 7"));
+        let other = format!("{LAW}CONTACT MATERIAL, 1\nCONTACT NODE SET, 7\nCONTACT EXCLUSION, 1, 2");
+        says(BOXES, &other, "CONTACT EXCLUSION", "block 2 touches nothing");
+    }
+
+    #[test]
+    fn side_sets_on_blocks_that_touch_are_told() {
+        let notes = |lines: &str| {
+            let mesh = make(BOXES, "recipe", 1).unwrap_or_else(|found| panic!("{}", found.render(false)));
+            let deck = format!(
+                "TERMINATION TIME, 1.\nINITIAL VELOCITY MATERIAL, 1, 1.\n{lines}\n{LAW}\
+                 MATERIAL, 1, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\nEXIT\n"
+            );
+            match examine(Source::new("t.i", &deck), Some(&mesh)) {
+                Ok(problem) => problem.diagnostics.notes().map(|note| note.message.clone()).collect::<String>(),
+                Err(found) => panic!("{}", found.render(false)),
+            }
+        };
+        let sets = "CONTACT SURFACE, 100, 200, 0.3";
+        assert_eq!(notes(sets), "");
+        assert_eq!(notes(&format!("{sets}\nCONTACT MATERIAL, 2")), "");
+        let both = notes(&format!("{sets}\nCONTACT MATERIAL, 1, 2\nCONTACT DATA, 1, 2, 0.1"));
+        assert!(both.contains("side sets 100 and 200") && both.contains("CONTACT SURFACE hold"), "{both}");
+        assert!(!both.contains("CONTACT EXCLUSION"), "{both}");
+        let apart = notes(&format!("{sets}\nCONTACT MATERIAL\nCONTACT EXCLUSION, 2, 1"));
+        assert!(apart.contains("though CONTACT EXCLUSION keeps blocks 1 and 2"), "{apart}");
     }
 }

@@ -8,7 +8,11 @@
 use crate::exodus::Restart;
 use crate::material::{EquationOfState, Law};
 use crate::mesh::{Block, Mesh, Shape};
-use crate::model::{Analysis, ContactMaterials, Hourglass, MassScaling, Model, Precision, Spin, StepEstimate};
+use crate::model::{
+    Analysis, ContactMaterials, ContactOverlap, Hourglass, MassScaling, Model, Precision, Spin, StepEstimate,
+};
+use crate::output::print::scientific;
+use crate::solver::contact::PressFit;
 use crate::solver::elements::{beam, shell};
 use crate::solver::{Body, state_names};
 
@@ -20,6 +24,9 @@ const FORMAT: &str = "7";
 
 /// How names of lines begin that tell what only a start asks for.
 const START: &str = "START ";
+
+/// The line of what becomes of overlaps. It may change, but for what [`press_fit`] refuses.
+const OVERLAP: &str = "CONTACT OVERLAP";
 
 /// Differences told one by one.
 const TOLD: usize = 5;
@@ -123,7 +130,17 @@ fn of_contact(model: &Model) -> Vec<Line> {
     lines.push(("CONTACT NODE SET".into(), some(balls.collect())));
     let planes = model.rigid_surfaces.iter().map(|p| format!("{} at {:?} along {:?}", p.side_set, p.point, p.normal));
     lines.push(("RIGID SURFACE".into(), some(planes.collect())));
+    lines.push((OVERLAP.into(), overlap_in_words(model.contact.control.overlap)));
     lines
+}
+
+fn overlap_in_words(overlap: ContactOverlap) -> String {
+    match overlap {
+        ContactOverlap::Refuse | ContactOverlap::Remove => "REMOVE".to_string(),
+        ContactOverlap::Keep => "KEEP".to_string(),
+        ContactOverlap::Stress(None) => "STRESS".to_string(),
+        ContactOverlap::Stress(Some(time)) => format!("STRESS {time}"),
+    }
 }
 
 /// Pairs of blocks that do not touch, in one order however the deck names them.
@@ -162,12 +179,13 @@ fn of_start(model: &Model, mesh: &Mesh) -> Vec<Line> {
 
 /// What a deck asks otherwise than the one before did and only a start heeds, a sentence each; what it does not ask for any
 /// more is not missed.
-pub fn without_effect(restart: &Restart, mesh: &Mesh, model: &Model) -> Vec<String> {
+pub fn without_effect(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Vec<String> {
     let (then, now) = (lines(&restart.identity), lines(&identity(model, mesh)));
     let of_start = now.iter().filter_map(|(name, asked)| Some((name, name.strip_prefix(START)?, asked)));
     let changed = of_start.filter(|(name, _, asked)| value(&then, name) != **asked);
     let mut told: Vec<String> = changed.map(|(_, what, _)| format!("{what} has no effect after a restart")).collect();
     told.dedup();
+    told.extend(idle_fit(restart, mesh, model, body));
     told
 }
 
@@ -191,6 +209,7 @@ pub fn differences(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -
     let now = identity(model, mesh);
     let mut found = meshes(&restart.mesh, mesh);
     found.extend(texts(&restart.identity, &now));
+    found.extend(unfinished_fit(restart, mesh, model, body));
     let dead = restart.snapshot.lists.iter().find(|list| list.name == "DEAD").map_or(0, |list| list.values.len());
     if dead > 0 && model.deaths.is_empty() && model.deletions.is_empty() {
         found.push(format!("{dead} elements had been taken away, the deck has neither DEATH nor DELETE MATERIAL now"));
@@ -217,7 +236,7 @@ fn texts(then: &str, now: &str) -> Vec<String> {
     let mut names: Vec<&String> = then.iter().chain(&now).map(|(name, _)| name).collect();
     names.sort();
     names.dedup();
-    let may_differ = |name: &&String| name.starts_with(START);
+    let may_differ = |name: &&String| name.starts_with(START) || *name == OVERLAP;
     let differ = names.into_iter().filter(|name| !may_differ(name) && value(&then, name) != value(&now, name));
     differ.map(|name| format!("{name}: it was {}, it is {}", value(&then, name), value(&now, name))).collect()
 }
@@ -257,8 +276,47 @@ fn masses(restart: &Restart, mesh: &Mesh, body: &Body) -> Option<String> {
     let differ = then.iter().zip(&body.node_mass).position(|(then, now)| *then != 0.0 && then != now)?;
     let node = mesh.node_ids[differ];
     Some(format!(
-        "node {node} had another mass: CONTACT DATA takes overlaps out of the mesh in another way now, or masses are added in another way"
+        "node {node} had another mass: CONTACT OVERLAP takes overlaps out of the mesh in another way now, or masses are added in another way"
     ))
+}
+
+/// When the press fit of the run that wrote a state ends, and when that of the deck does.
+fn fits(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> [Option<f64>; 2] {
+    let then = value(&lines(&restart.identity), OVERLAP);
+    let said = then.strip_prefix("STRESS").map(|time| time.trim().parse::<f64>().ok());
+    let then = said.map(|said| PressFit::duration_of(said, mesh, model, body));
+    [then, PressFit::of(mesh, model, body).map(|fit| fit.duration)]
+}
+
+/// A press fit, or overlaps that were kept, of which the deck wants nothing to be left at a time that is past.
+fn unfinished_fit(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Option<String> {
+    let time = restart.snapshot.time();
+    let [then, now] = fits(restart, mesh, model, body);
+    let now = now.filter(|now| *now <= time)?;
+    let is_kept = value(&lines(&restart.identity), OVERLAP) == "KEEP" && body.overlap.kept.nodes > 0;
+    let was = match then {
+        Some(then) if then > time => format!("it was to end at {}", scientific(then, 6)),
+        None if is_kept => "what overlaps was kept until then".to_string(),
+        _ => return None,
+    };
+    Some(format!(
+        "CONTACT OVERLAP, STRESS: its time, {}, is past at {}, and bodies still overlap, as {was}: a time that is still to come ends the fit",
+        scientific(now, 6),
+        scientific(time, 6)
+    ))
+}
+
+/// That a press fit which the deck asks for anew finds nothing to press.
+fn idle_fit(restart: &Restart, mesh: &Mesh, model: &Model, body: &Body) -> Option<String> {
+    let time = restart.snapshot.time();
+    let why = match (value(&lines(&restart.identity), OVERLAP).as_str(), fits(restart, mesh, model, body)) {
+        (_, [_, None]) => return None,
+        (_, [Some(then), Some(now)]) if then <= time && now > time => "the fit had ended before",
+        ("REMOVE", _) => "overlaps had been taken out of the mesh at the start, or there were none",
+        ("KEEP", _) if body.overlap.kept.nodes == 0 => "nothing overlaps in the mesh",
+        _ => return None,
+    };
+    Some(format!("CONTACT OVERLAP, STRESS has no effect after a restart: {why}"))
 }
 
 /// The differences as a list of lines, not all when there are many.

@@ -2,7 +2,7 @@
 
 use super::constraints::StepTimes;
 use super::elements::{PassOutcome, Sink};
-use super::{Domain, Section, Solver, loads};
+use super::{Axis, Domain, Section, Solver, loads};
 use crate::comm::Communicator;
 
 impl Solver {
@@ -77,7 +77,8 @@ impl Solver {
     pub(super) fn external_forces(&mut self, comm: &mut dyn Communicator) {
         self.clock.start();
         let step = StepTimes { time: self.time, kick: self.kick, drift: self.time_step };
-        let Domain { nodes, loads, contact, constraints, rigid, ties, .. } = &mut self.domain;
+        let Domain { nodes, loads, contact, constraints, axis, rigid, ties, .. } = &mut self.domain;
+        axis.iter_mut().for_each(Axis::begin);
         rigid.iter_mut().for_each(|rigid| rigid.tangents(nodes));
         loads.iter_mut().for_each(|load| load.apply(nodes, &self.functions, &step));
         self.clock.stop(Section::Assembly);
@@ -90,6 +91,7 @@ impl Solver {
         for constraint in constraints.iter_mut() {
             constraint.apply(nodes, &self.functions, &step);
         }
+        axis.iter_mut().for_each(|axis| axis.hold(nodes, &step));
         if let Some(ties) = ties {
             ties.follow(nodes, comm);
         }
@@ -108,6 +110,9 @@ impl Solver {
                     c.reaction -= *force - before;
                     *force = before;
                 }
+            }
+            axis.iter_mut().for_each(|axis| axis.hold(nodes, &step));
+            if let Some(ties) = ties {
                 ties.follow(nodes, comm);
             }
             self.clock.stop(Section::Contact);
@@ -119,11 +124,12 @@ impl Solver {
     pub(super) fn book_work(&mut self, after: bool) {
         self.clock.start();
         let half_step = 0.5 * self.kick;
-        let Domain { nodes, loads, contact, constraints, pressure_faces, rigid, .. } = &mut self.domain;
+        let Domain { nodes, loads, contact, constraints, axis, pressure_faces, rigid, .. } = &mut self.domain;
         rigid.iter_mut().for_each(|rigid| rigid.book(half_step, after));
         loads::all(pressure_faces, loads).for_each(|load| load.book(nodes, half_step));
         contact.iter_mut().for_each(|contact| contact.book(nodes, half_step));
         constraints.iter_mut().for_each(|constraint| constraint.book(nodes, half_step));
+        axis.iter_mut().for_each(|axis| axis.book(nodes, half_step));
         self.clock.stop(Section::Integration);
     }
 }

@@ -37,7 +37,7 @@ use crate::lanes::{Force, InstructionSet};
 use crate::mesh::Mesh;
 use crate::model::{Function, Model, MotionKind, StepEstimate, TimeStepControl};
 use crate::partition::Share;
-use domain::{body, constraints};
+use domain::{Axis, body, constraints};
 use elements::{PassOutcome, PassSettings, Steps};
 use health::Watch;
 use time_step::{GlobalStep, REACHED};

@@ -1,6 +1,6 @@
 //! What the present, prepared state says to whoever looks at it.
 
-use super::{RigidBodies, Solver, Totals, nodes, totals};
+use super::{Axis, RigidBodies, Solver, Totals, nodes, totals};
 use crate::comm::Communicator;
 
 impl Solver {
@@ -69,6 +69,9 @@ impl Solver {
         let mut reactions = vec![[0.0; 3]; self.domain.nodes.len()];
         for constraint in &self.domain.constraints {
             reactions[constraint.node as usize][constraint.axis] += constraint.reaction;
+        }
+        for (node, force) in self.domain.axis.iter().flat_map(Axis::reactions) {
+            reactions[node as usize][0] += force;
         }
         for (file, axis, force) in self.domain.rigid.iter().flat_map(RigidBodies::reactions) {
             let here = self.domain.nodes.file[..self.domain.nodes.places].iter().position(|&node| node == file);

@@ -38,7 +38,7 @@ pub struct Totals {
     pub eroded: f64,
     /// Work of loads and prescribed motions.
     pub external: f64,
-    /// Work of normal contact forces: they stop nodal masses dead, which takes energy out.
+    /// Work of normal contact forces and of the axis of bodies of revolution: they stop nodal masses dead, which takes energy out.
     pub contact: f64,
     /// Energy that contact has made: given beyond what it had taken before. It is a part of `contact` and `friction`.
     pub contact_gain: f64,
@@ -54,7 +54,7 @@ pub struct Totals {
 
 impl Totals {
     /// Number of sums.
-    const COUNT: usize = 13;
+    const COUNT: usize = 14;
 
     fn from_array(s: [f64; Self::COUNT]) -> Totals {
         Totals {
@@ -64,7 +64,7 @@ impl Totals {
             bulk_viscosity: s[3],
             friction: s[4],
             external: s[5],
-            contact: s[6],
+            contact: s[6] + s[13],
             contact_gain: 0.0,
             press_fit: 0.0,
             momentum: [s[7], s[8], s[9]],
@@ -137,9 +137,11 @@ pub fn totals(domain: &mut Domain, [kick, last]: [f64; 2], comm: &mut dyn Commun
     add_work(domain, &mut sums);
     add_eroded(domain, &mut sums);
     ExactSum::merge_ranks(&mut sums, comm);
-    let mut totals = Totals::from_array(sums.map(|sum| sum.value()));
+    let sums = sums.map(|sum| sum.value());
+    let mut totals = Totals::from_array(sums);
     if let Some(contact) = &mut domain.contact {
-        contact.note_work(totals.contact - totals.friction);
+        // The axis only takes: what it took is none of what contact may give.
+        contact.note_work(sums[6] - totals.friction);
         totals.contact_gain = contact.gain();
         totals.press_fit = contact.growth_work();
     }
@@ -205,12 +207,19 @@ fn add_elements(domain: &Domain, longer: f64, sums: &mut [ExactSum; Totals::COUN
 }
 
 fn add_work(domain: &mut Domain, sums: &mut [ExactSum; Totals::COUNT]) {
-    let Domain { nodes, pressure_faces, loads, constraints, element_file, element_canonical, .. } = domain;
+    let Domain { nodes, pressure_faces, loads, constraints, axis, element_file, element_canonical, .. } = domain;
     let places = Places { nodes, elements: [element_file, element_canonical] };
     for load in loads::all(pressure_faces, loads) {
         load.accounts(&places, &mut |account| {
             if account.own {
                 sums[5].add(*account.work);
+            }
+        });
+    }
+    if let Some(axis) = axis {
+        axis.accounts(&places, &mut |account| {
+            if account.own {
+                sums[13].add(*account.work);
             }
         });
     }

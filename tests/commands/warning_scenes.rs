@@ -80,6 +80,15 @@ pub fn overlapping(depth: f64) -> Desk {
     desk(&deck, &format!("BOX, 1, 0., 0., 0., 1., 1., 1., 2, 2, 2\nBOX, 2, 0.3, 0.3, {upper}, 0.4, 0.4, 1., 2, 2, 2\n"))
 }
 
+/// The same of blocks that the deck holds both: none of their nodes can be moved.
+fn held_overlap() -> Desk {
+    let desk = overlapping(0.01);
+    let held = ["X", "Y", "Z"].map(|axis| format!("NO DISPLACEMENT, {axis}, 1\n")).concat();
+    desk.put("case.i", &desk.text("case.i").replace("CONTACT MATERIAL\n", &format!("CONTACT MATERIAL\n{held}")));
+    desk.put("case.mesh", &format!("{}NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 1, 2\n", desk.text("case.mesh")));
+    desk
+}
+
 /// A sheet that begins going through another, with no node of either in the other.
 pub fn crossed(commands: &str) -> Desk {
     let deck = format!(
@@ -184,7 +193,7 @@ fn struck_at_the_speed_of_sound() -> Desk {
 }
 
 /// Every warning that a scene of some elements provokes.
-pub fn scenes() -> [Scene; 14] {
+pub fn scenes() -> [Scene; 15] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -211,6 +220,11 @@ pub fn scenes() -> [Scene; 14] {
             overlapping(0.75),
             "nodes begin deep inside elements",
             &["nodes of contact surfaces begin deep inside", "on element"],
+        ),
+        scene(
+            held_overlap(),
+            "overlaps that could not be taken out",
+            &["10 nodes stay behind faces", "the deepest by 1.0000e-2: node", "at ("],
         ),
         scene(
             crossed(""),

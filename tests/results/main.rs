@@ -8,6 +8,7 @@ mod pieces;
 mod restart;
 mod restart_files;
 mod restart_of_eroded;
+mod restart_of_fits;
 mod restart_of_others;
 mod rigid_blocks;
 mod vanished;

@@ -420,7 +420,10 @@ fn states_of_other_problems_are_refused() {
         desk.put("case.i", &deck.replace(then, now));
         let message = refused(&desk, &["--restart", "case.rsout"]);
         assert!(message.contains(words) && message.contains("the state of another problem"), "{now}: {message}");
-        assert!(message.contains("help: times, outputs"), "{message}");
+        assert!(
+            message.contains("help: times, outputs") && message.contains("of contact all but what may touch"),
+            "{message}"
+        );
     }
     desk.put("case.i", &deck);
     let meshes = [

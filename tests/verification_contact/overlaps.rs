@@ -1,9 +1,10 @@
 //! What bodies overlap in the mesh at the start of a run: what is moved, and what is told.
 
+use crate::support::close;
 use crate::support::meshes::recipe;
-use crate::support::run::model;
-use urto::solver::Body;
+use crate::support::run::{model, run, run_on};
 use urto::solver::contact::Overlap;
+use urto::solver::{Body, of_overlaps};
 
 /// Overlaps of a recipe with two blocks and CONTACT MATERIAL, with more commands.
 fn overlap_of(shapes: &str, commands: &str) -> Overlap {
@@ -214,4 +215,44 @@ fn fine_bodies_inside_bodies_are_refused() {
     // The end of a pin that is no deeper than half an element is known, and with it the nodes of the block in the pin.
     let overlap = overlap_of(&pin(3.0, 40, 0.8), "CONTACT OVERLAP, STRESS\n");
     assert_eq!((overlap.deep.nodes, overlap.engulfed.count), (0, 0), "{overlap:?}");
+}
+
+/// Rigid bodies are not moved out of each other. What stays is told and held: two that overlap by 0.1, of masses 1 and 2, of which the
+/// first flies at 1 into the second, go on together at a third, as with CONTACT OVERLAP, KEEP; they went through each other.
+#[test]
+fn rigid_bodies_that_overlap_stay_and_touch() {
+    let mesh = recipe(
+        "TITLE\n rigid\nBOX, 1, 0., 0., 0., 4., 4., 4., 2, 2, 2\nBOX, 2, -2., -2., 3.9, 8., 8., 2., 5, 5, 2\n\
+         BOX, 3, 20., 0., 0., 1., 1., 1., 1, 1, 1\n",
+    );
+    let steel = "ELASTIC, 7.85E-3\nYOUNGS MODULUS = 210.E3\nPOISSONS RATIO = 0.3\nEND\n";
+    for treatment in ["REMOVE", "KEEP"] {
+        let deck = format!(
+            "TITLE\n rigid\nTERMINATION TIME, 0.02\nOUTPUT TIME, 0.01\nPLOT TIME, 0.02\nPLOT NODAL, VELOCITY\nCONTACT MATERIAL\n\
+             CONTACT OVERLAP, {treatment}\nINITIAL VELOCITY MATERIAL, 1, 0., 0., 1.\nRIGID BODY, 1\nRIGID BODY, 2\n\
+             MATERIAL, 1, {steel}MATERIAL, 2, {steel}MATERIAL, 3, {steel}"
+        );
+        let speeds = |run: &crate::support::run::Run| {
+            [0, 1].map(|block: usize| run.end().nodal("VELZ")[mesh.blocks[block].nodes[0] as usize])
+        };
+        let together = run(&deck, &mesh);
+        for speed in speeds(&together) {
+            close("overlap", &format!("{treatment}: speed of both"), speed, 1.0 / 3.0, 1e-9);
+        }
+        assert_eq!(speeds(&run_on(3, &deck, &mesh).whole()), speeds(&together), "{treatment}");
+        let body = Body::new(&mesh, &model(&deck, &mesh)).expect("materials");
+        let told: String = of_overlaps(&mesh, &body).iter().map(|found| found.words()).collect();
+        let is_told = told.contains("nodes stay behind faces") && told.contains("the deepest by 1.0000e-1");
+        assert_eq!(is_told, treatment == "REMOVE", "{told}");
+    }
+}
+
+/// The same of a body that is driven into one that the deck holds: neither can be moved, and what is 0.3 deep is told.
+#[test]
+fn what_the_deck_holds_stays_and_is_told() {
+    let shapes = "BOX, 1, 0., 0., 0., 10., 10., 4., 5, 5, 2\nBOX, 2, 1., 1., 3.7, 8., 8., 4., 5, 5, 2\n\
+                  NODE SET BLOCK, 1, 1\nNODE SET BLOCK, 1, 2\n";
+    let overlap = overlap_of(shapes, "CONTACT OVERLAP, REMOVE\nNO DISPLACEMENT, Z, 1\n");
+    assert_eq!(overlap.nodes, 0, "{overlap:?}");
+    assert!(overlap.stuck.nodes >= 36 && (overlap.stuck.deepest - 0.3).abs() < 1e-9, "{overlap:?}");
 }

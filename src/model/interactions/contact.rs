@@ -191,7 +191,9 @@ fn beside_contact(card: &Card, draft: &mut Draft) {
     let blocks =
         |card: &Card| -> Vec<i64> { card.items("block").iter().filter_map(|item| item.value.integer()).collect() };
     let named: Vec<Vec<i64>> = draft.deck.cards_of("CONTACT MATERIAL").map(blocks).collect();
-    if named.is_empty() || draft.deck.cards_of("CONTACT MATERIAL").any(names_all) {
+    // Whose nodes are in sets that touch, the mesh tells.
+    let any_sets = draft.deck.cards_of("CONTACT NODE SET").next().is_some();
+    if named.is_empty() || any_sets || draft.deck.cards_of("CONTACT MATERIAL").any(names_all) {
         return;
     }
     let named = named.concat();

@@ -26,7 +26,7 @@ pub fn tables(model: &Model, overlap: Overlap) -> String {
         table(
             "OVERLAPS THAT CONTACT OVERLAP LETS STAY OR PUSHES APART",
             "NODES BEHIND FACES    DEEPEST",
-            kept(overlap.kept),
+            kept(if overlap.kept.nodes > 0 { overlap.kept } else { overlap.stuck }),
         ),
         table("OVERLAPS LEFT IN THE MESH", "NODES INSIDE ELEMENTS    DEEPEST", left(overlap.deep)),
         table(

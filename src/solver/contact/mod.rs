@@ -37,7 +37,6 @@ use geometry::paths::PathRange;
 use local_problem::{History, LocalProblem, StepInput};
 use nodes::ContactNodes;
 use observations::arcs::{self, Arcs};
-use press_fit::PressFit;
 use ranks::remote::Remote;
 use search::locate::Reach;
 use search::surroundings::Surroundings;
@@ -56,6 +55,7 @@ pub use check::unheld;
 pub use enforcement::iterations::LOOSER;
 pub use observations::report::{Report, Tally, Work};
 pub use observations::seen::{Looser, Seen};
+pub use press_fit::PressFit;
 pub(in crate::solver) use surface::construction::{Surfaces, surfaces};
 
 /// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.

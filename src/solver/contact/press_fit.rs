@@ -25,7 +25,12 @@ impl PressFit {
     /// The press fit that the deck asks for, if any.
     pub fn of(mesh: &Mesh, model: &Model, body: &Body) -> Option<PressFit> {
         let ContactOverlap::Stress(duration) = model.contact.control.overlap else { return None };
-        Some(PressFit { duration: duration.unwrap_or_else(|| TRANSITS * transit(mesh, model, body)) })
+        Some(PressFit { duration: PressFit::duration_of(duration, mesh, model, body) })
+    }
+
+    /// Time until which a press fit lasts, by what a deck says of it.
+    pub fn duration_of(said: Option<f64>, mesh: &Mesh, model: &Model, body: &Body) -> f64 {
+        said.unwrap_or_else(|| TRANSITS * transit(mesh, model, body))
     }
 
     /// Factor on the tolerated overlap over this step; 1 once nothing is tolerated any more.

@@ -1,5 +1,6 @@
 //! One rank's part of the problem: its nodes, element blocks, loads and constraints, and how it sums with others.
 
+mod axis;
 pub(super) mod body;
 pub(super) mod constraints;
 mod exchange;
@@ -10,6 +11,7 @@ pub mod nodes;
 mod rotations;
 pub(super) mod trial;
 
+pub(super) use axis::Axis;
 pub use body::{Body, Cut, NoMaterial, centroid};
 pub use rotations::Rotations;
 
@@ -65,6 +67,8 @@ pub struct Domain {
     pub ties: Option<Ties>,
     /// Constraints.
     pub constraints: Vec<Constraint>,
+    /// The axis that nodes may come to, of bodies of revolution.
+    pub(in crate::solver) axis: Option<Axis>,
     /// External work of loads and constraints that a run had before it was continued and has no more; kept on one rank.
     pub carried_work: Vec<f64>,
     /// Contact and rigid surfaces, when there are any.
@@ -164,6 +168,7 @@ impl Domain {
             rigid: None,
             ties: Ties::new(body, &local),
             constraints: Vec::new(),
+            axis: None,
             carried_work: Vec::new(),
             contact: None,
             erosion: None,
@@ -205,6 +210,7 @@ impl Domain {
     /// Forgets the forces of constraints and planes, when those of the elements are of no use.
     pub fn forget_reactions(&mut self) {
         self.constraints.iter_mut().for_each(|constraint| constraint.reaction = 0.0);
+        self.axis.iter_mut().for_each(Axis::begin);
         self.contact.iter_mut().for_each(Contact::forget);
         self.rigid.iter_mut().for_each(RigidBodies::forget);
     }
@@ -237,29 +243,13 @@ impl Domain {
             }
         }
         if model.analysis.about_axis() {
-            self.hold_axis(&mut taken);
+            axis::hold_on_it(&self.nodes, &mut taken, &mut self.constraints);
+            // What is tied goes where its surface goes.
+            let is_free =
+                |node: u32| taken[node as usize][0] == ABSENT && !body.tied.follows(self.nodes.file[node as usize]);
+            self.axis = Some(Axis::new(&self.nodes, is_free));
         }
         taken
-    }
-
-    /// Holds nodes on the axis of a body of revolution on it.
-    fn hold_axis(&mut self, taken: &mut [[u32; 3]]) {
-        for node in 0..self.nodes.len() as u32 {
-            let taken = &mut taken[node as usize][0];
-            // Nodes that are not of the mesh stand in for elements that are gone, at rest.
-            let of_mesh = self.nodes.file[node as usize] != ABSENT;
-            if of_mesh && *taken == ABSENT && self.nodes.position(node)[0] == 0.0 {
-                *taken = self.constraints.len() as u32;
-                self.constraints.push(Constraint {
-                    node,
-                    axis: 0,
-                    motion: None,
-                    begins: true,
-                    reaction: 0.0,
-                    work: 0.0,
-                });
-            }
-        }
     }
 
     fn set_initial_velocities(&mut self, mesh: &Mesh, model: &Model, local: &[u32]) {

@@ -1,6 +1,6 @@
 //! What a look at the run has found: numbers, places, and when. Words are made from these, so that they survive a restart.
 
-use super::symptoms::{SYMPTOMS, Symptom, hourglass};
+use super::symptoms::{SYMPTOMS, Symptom, hourglass, imbalance};
 use crate::solver::Solver;
 
 /// Places that a finding names at most.
@@ -89,6 +89,9 @@ impl Finding {
 
     /// What the analyst can try.
     pub fn advice(&self) -> &'static str {
+        if self.code == imbalance::SYMPTOM.code {
+            return imbalance::advice(&self.evidence);
+        }
         self.symptom().advice
     }
 

@@ -1,12 +1,12 @@
 //! Looking, and remembering what was found.
 
 use super::finding::{Evidence, Finding, ROW, Spot};
-use super::symptoms::contact::{overlap_deep, overlap_moved};
+use super::symptoms::contact::{overlap_deep, overlap_moved, overlap_stuck};
 use super::symptoms::{SYMPTOMS, When};
 use super::{energy, symptoms};
 use crate::comm::Communicator;
 use crate::mesh::{Mesh, counts_from_one};
-use crate::model::{Jump, Model, Pulse};
+use crate::model::{Hourglass, Jump, Model, Pulse};
 use crate::partition::Share;
 use crate::restart::Archive;
 use crate::solver::contact::Overlap;
@@ -33,14 +33,17 @@ pub struct Facts {
     pub flight_energy: f64,
     /// Part of the whole damping by which hourglass modes of fluids are resisted.
     pub damping: f64,
+    /// Whether hourglass modes have a viscosity.
+    pub viscous_modes: bool,
     /// Time at which the run ends.
     pub termination_time: f64,
     /// Part of the largest energy supplied at which a gain of contact ends the run.
     pub contact_limit: f64,
     /// Overlaps of the mesh.
     pub overlap: Overlap,
-    /// The node that was moved farthest out of them, and the one that is left deepest inside an element.
-    pub overlap_spots: [Option<Spot>; 2],
+    /// The node that was moved farthest out of them, and the one that is left deepest inside an element,
+    /// and the deepest of those that could not be moved.
+    pub overlap_spots: [Option<Spot>; 3],
     /// Edges that begin going through faces, and elements that begin inside other bodies, which contact does not see.
     pub unheld: [Option<Told>; 2],
     /// How many tied nodes are held although they follow others, and the first of them.
@@ -130,10 +133,11 @@ impl Watch {
             stored_energy: energy::stored_energy(body, model),
             flight_energy,
             damping: of_fluids(model.hourglass),
+            viscous_modes: matches!(model.hourglass, Hourglass::FlanaganBelytschko { viscosity, .. } if viscosity > 0.0),
             termination_time: model.termination_time,
             contact_limit: model.contact.control.energy_limit,
             overlap: body.overlap,
-            overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body)],
+            overlap_spots: [farthest_moved(mesh, body), left_deepest(mesh, body), stuck_deepest(mesh, body)],
             unheld: [&body.overlap.pierced, &body.overlap.engulfed].map(|unheld| Told::of(unheld, mesh)),
             tied_held: tied_held(mesh, body),
             pulse: model.shortest_pulse(),
@@ -316,7 +320,8 @@ impl Solver {
 pub fn of_overlaps(mesh: &Mesh, body: &Body) -> Vec<Finding> {
     let moved = (overlap_moved::SYMPTOM.code, overlap_moved::evidence(&body.overlap), farthest_moved(mesh, body));
     let deep = (overlap_deep::SYMPTOM.code, overlap_deep::evidence(&body.overlap), left_deepest(mesh, body));
-    let found = [moved, deep].into_iter().filter(|(_, evidence, _)| evidence.count > 0);
+    let stuck = (overlap_stuck::SYMPTOM.code, overlap_stuck::evidence(&body.overlap), stuck_deepest(mesh, body));
+    let found = [moved, deep, stuck].into_iter().filter(|(_, evidence, _)| evidence.count > 0);
     let finding = |(code, mut evidence, spot): (u32, Evidence, Option<Spot>)| {
         evidence.spots[0] = spot;
         Finding { code, step: 0, time: 0.0, evidence, worst: evidence.share }
@@ -362,6 +367,16 @@ fn left_deepest(mesh: &Mesh, body: &Body) -> Option<Spot> {
     (left.nodes > 0).then(|| Spot {
         node: mesh.node_ids.get(left.node as usize).copied(),
         element: mesh.element_ids.get(left.element as usize).copied(),
+        at: mesh.coordinates.get(left.node as usize).copied().unwrap_or_default(),
+    })
+}
+
+/// The deepest of what could not be moved out, though it is not deep.
+fn stuck_deepest(mesh: &Mesh, body: &Body) -> Option<Spot> {
+    let left = body.overlap.stuck;
+    (left.nodes > 0).then(|| Spot {
+        node: mesh.node_ids.get(left.node as usize).copied(),
+        element: None,
         at: mesh.coordinates.get(left.node as usize).copied().unwrap_or_default(),
     })
 }

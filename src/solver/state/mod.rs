@@ -94,6 +94,7 @@ impl Domain {
             pressure_faces,
             loads,
             constraints,
+            axis,
             carried_work,
             contact,
             erosion,
@@ -117,6 +118,10 @@ impl Domain {
         archive.heap("CARRIEDW", carried_work);
         let places = Places { nodes, elements: [element_file, element_canonical] };
         carried_work.extend(works::of_constraints(archive, constraints, &places));
+        // What it has done to nodes that are held since is external work from then on.
+        if let Some(axis) = axis {
+            carried_work.extend(works::of_axis(archive, axis, &places));
+        }
         for entry in LOADS {
             let mut all = loads::all(pressure_faces, loads);
             let found = all.find(|load| load.entry().works == entry.works);

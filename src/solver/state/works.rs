@@ -4,6 +4,7 @@
 //! not there any more stays in the balance as a number of its own.
 
 use crate::restart::{Archive, compare_rows, sort_rows};
+use crate::solver::Axis;
 use crate::solver::constraints::Constraint;
 use crate::solver::loads::{Account, Key, Load, Places};
 use std::collections::BTreeMap;
@@ -21,6 +22,11 @@ pub(super) fn of_constraints(archive: &mut dyn Archive, constraints: &mut [Const
             take(Account { key: [places.node(*node), *axis as f64, 0.0, 0.0], own: places.owns(*node), work });
         }
     })
+}
+
+/// The same of the axis of bodies of revolution, by node.
+pub(super) fn of_axis(archive: &mut dyn Archive, axis: &mut Axis, places: &Places) -> Vec<f64> {
+    visit(archive, "AXISW", Key::Node(0), places, &mut |take| axis.accounts(places, take))
 }
 
 /// The works of a kind of load that there is none of here; see [`of_load`].

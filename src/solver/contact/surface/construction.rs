@@ -74,7 +74,7 @@ impl Contact {
             carried: None,
             search: kind(model.contact.control.search).make(),
             decomposition: model.contact.control.decomposition,
-            reach: reach(model, &layout),
+            reach: reach(model, body, &layout),
             planes: model.rigid_surfaces.clone(),
             mean_size: mean_size(&layout),
             plane_nodes: plane_points(&plane_node_sets, model, body, &layout),
@@ -195,13 +195,14 @@ fn mean_size(layout: &Layout) -> f64 {
     if sizes.is_empty() { 1.0 } else { sizes.iter().sum::<f64>() / sizes.len() as f64 }
 }
 
-fn reach(model: &Model, layout: &Layout) -> Reach {
+fn reach(model: &Model, body: &Body, layout: &Layout) -> Reach {
     let control = &model.contact.control;
     let mean = mean_size(layout);
     // A reach of one step at least: the search must hold for the step it is made for.
     let least = if control.reach > 0.0 { control.margin * mean } else { 0.0 };
     // Overlaps that stay are known while points are behind their faces, as deep as half an element.
-    let stay = matches!(control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_));
+    let stay =
+        matches!(control.overlap, ContactOverlap::Keep | ContactOverlap::Stress(_)) || body.overlap.stuck.nodes > 0;
     Reach { steps: control.reach.max(1.0), least, depth: if stay { 1.0 } else { node_face::KEEP } }
 }
 

@@ -15,7 +15,9 @@ pub const SYMPTOM: Symptom = Symptom {
         }
         let initial = exam.solver.initial_energy;
         let (gap, scale) = (exam.totals.gap(initial), exam.totals.scale(initial).max(exam.supplied));
-        vec![Evidence { share: gap.abs() / scale, amount: gap, of: scale, ..Evidence::default() }]
+        // Kept with the finding: whether the work of a viscosity of hourglass modes may be what is missing.
+        let count = u64::from(exam.facts.viscous_modes);
+        vec![Evidence { share: gap.abs() / scale, amount: gap, of: scale, count, ..Evidence::default() }]
     },
     place: nowhere,
     label: |_| "energy balance does not close".into(),
@@ -28,6 +30,18 @@ pub const SYMPTOM: Symptom = Symptom {
             percent(share)
         )
     },
-    advice: "the time step is too large for what happens within it, such as a strong shock in a gas or a law that changes \
-             within one step: try a TIME STEP SCALE of 0.5, and see whether the balance closes better",
+    advice: ADVICE,
 };
+
+const ADVICE: &str = "the time step is too large for what happens within it, such as a strong shock in a gas or a law that changes \
+             within one step: try a TIME STEP SCALE of 0.5, and see whether the balance closes better";
+
+/// Where HOURGLASS STIFFENING has a viscosity.
+const ADVICE_ON_VISCOSITY: &str = "the viscosity of HOURGLASS STIFFENING is booked with the velocities before the step: where it stops modes within \
+                                   a few steps, the balance is off by up to half of HGE; leave the viscosity out, or choose HOURGLASS CONTROL, \
+                                   ASSUMED STRAIN, and see whether the balance closes; else try a TIME STEP SCALE of 0.5";
+
+/// What can be tried where this was found.
+pub fn advice(evidence: &Evidence) -> &'static str {
+    if evidence.count > 0 { ADVICE_ON_VISCOSITY } else { ADVICE }
+}

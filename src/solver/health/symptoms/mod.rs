@@ -10,12 +10,14 @@ mod dead_at_start;
 mod debris;
 mod given_back;
 pub mod hourglass;
-mod imbalance;
+pub mod imbalance;
 mod jump;
 mod runaway;
 mod short_pulse;
 
-use contact::{body_inside, edges_through, gain, held, overlap_deep, overlap_moved, passes, sunk, tied_held};
+use contact::{
+    body_inside, edges_through, gain, held, overlap_deep, overlap_moved, overlap_stuck, passes, sunk, tied_held,
+};
 
 use super::finding::Evidence;
 use super::watch::Exam;
@@ -44,10 +46,11 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 22] = [
+pub static SYMPTOMS: [Symptom; 23] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
+    overlap_stuck::SYMPTOM,
     gain::SYMPTOM,
     held::SYMPTOM,
     hourglass::SYMPTOM,

@@ -6,6 +6,7 @@ pub mod gain;
 pub mod held;
 pub mod overlap_deep;
 pub mod overlap_moved;
+pub mod overlap_stuck;
 pub mod passes;
 pub mod sunk;
 pub mod tied_held;
