@@ -203,3 +203,27 @@ fn a_side_that_is_in_no_set_strikes_with_its_rim() {
     // Alone it would go on at -5; if it sticks to the plate it has a third of that.
     assert!(after[2] > -5.0 / 3.0 - 0.2, "{after:?}");
 }
+
+/// Where the side around a corner is not known, nothing is ruled out: at a mitre, where it is of another element, a frame of which only the walls are a set falls
+/// flat on a plate, and at the end that a block of its body leaves bare as it is deleted a bar strikes a wall. Both are thrown back, as by CONTACT MATERIAL.
+#[test]
+fn sides_that_are_not_known_hold() {
+    let held = "NO DISPLACEMENT, X, 1\nNO DISPLACEMENT, Y, 1\n";
+    let side = |points: &str| format!("QUADRILATERAL, 1, 8, 2\n{points}\nEND\n");
+    let frame =
+        ["0, 0\n8, 0\n6, 2\n2, 2", "8, 0\n8, 8\n6, 6\n6, 2", "8, 8\n0, 8\n2, 6\n6, 6", "0, 8\n0, 0\n2, 2\n2, 6"]
+            .map(side);
+    let mitred = format!(
+        "{}TRANSLATE, 1, 0., 0.05\nMERGE\nRECTANGLE, 2, -4., -3., 16., 3., 24, 4\nNODE SET FACE, 1, 2, FRONT\nSIDE SET FACE, 200, 2, BACK\n\
+         SIDE SET PLANE, 101, X, 0.\nSIDE SET PLANE, 101, X, 8.\n",
+        frame.concat()
+    );
+    let after = by_side_sets(&mitred, &format!("PLANE STRAIN\n{held}CONTACT SURFACE, 101, 200\n"), &[0.0, -5.0], 0.3);
+    assert!(after[1] > 1.0, "{after:?}");
+    let bar = "BOX, 1, 0., 0., 0., 4., 4., 2., 4, 4, 2\nBOX, 3, 4., 0., 0., 1., 4., 2., 1, 4, 2\nBOX, 2, 5.5, -1.3, -1.3, 2., 6., 4., 2, 6, 4\n\
+               MERGE, 1, 3\nSIDE SET FACE, 200, 2, LEFT\nNODE SET FACE, 1, 2, RIGHT\nSIDE SET BLOCK, 101, 1\nSIDE SET BLOCK, 101, 3\n";
+    let third = "MATERIAL, 3, ELASTIC, 0.001\nYOUNGS MODULUS = 200.\nPOISSONS RATIO = 0.3\nEND\nINITIAL VELOCITY MATERIAL, 3, 5., 0., 0.\n";
+    let lines = format!("{held}NO DISPLACEMENT, Z, 1\n{third}DELETE MATERIAL, 3, 0.02\nCONTACT SURFACE, 101, 200\n");
+    let after = by_side_sets(bar, &lines, &[5.0, 0.0, 0.0], 0.6);
+    assert!(after[0] < -1.0, "{after:?}");
+}

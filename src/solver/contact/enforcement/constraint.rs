@@ -26,7 +26,7 @@ pub struct Constraint {
     pub growth: f64,
     /// Whether it was there in the step before; else its members meet anew.
     pub persists: bool,
-    /// Whether it leaves its nodes to another constraint in this step, see `node_pairs`.
+    /// Whether it leaves its nodes to another constraint at first, see `node_pairs`.
     pub yields: bool,
     /// Length that the gap is small against.
     pub size: f64,

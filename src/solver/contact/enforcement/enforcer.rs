@@ -299,15 +299,14 @@ impl Enforcer {
                 state.target = state.target.without_store(state.before);
             }
             // Where all members are held there is nothing to move.
-            let is_movable = inverse > HELD * isotropic;
-            if is_movable {
+            if inverse > HELD * isotropic {
+                state.strength = c.share.max(LEAST_SHARE) / inverse;
                 state.closing = drift * (state.free - state.target.with(granted));
             } else {
+                (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
                 self.note_held(sunk, DEEP);
             }
-            if is_movable && !c.yields {
-                state.strength = c.share.max(LEAST_SHARE) / inverse;
-            } else {
+            if c.yields {
                 (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
             }
             if c.friction.is_some() {

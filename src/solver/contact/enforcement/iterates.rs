@@ -21,6 +21,8 @@ pub struct Iterate {
     pub touched: bool,
     /// Whether this rank has made it.
     pub own: bool,
+    /// Whether it leaves its nodes to another one at first, see `node_pairs`.
+    pub yields: bool,
     /// Unit normal.
     pub normal: [f64; 3],
     /// Normal force with which the next iteration begins.
@@ -71,7 +73,7 @@ impl Iterates {
         let has_friction = constraints.iter().any(|c| c.friction.is_some());
         for (c, state) in constraints.iter().zip(states) {
             let normal_force = c.carried.normal_force;
-            let active = state.strength > 0.0 && (normal_force > 0.0 || state.closing < 0.0);
+            let active = state.strength > 0.0 && !c.yields && (normal_force > 0.0 || state.closing < 0.0);
             self.normal.push(Iterate {
                 weights: c.weights,
                 members: c.members,
@@ -80,6 +82,7 @@ impl Iterates {
                 // What nothing can move overlaps all the same.
                 touched: active || state.strength <= 0.0 && c.gap < 0.0,
                 own: state.own,
+                yields: c.yields,
                 normal: c.normal,
                 normal_force,
                 last: normal_force,

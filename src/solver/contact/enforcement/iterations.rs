@@ -21,6 +21,9 @@ const NEARLY_SETTLED: f64 = 0.02;
 /// After so many steps in a row in which they have not settled iterations may go on.
 const MANY_IN_A_ROW: u64 = 32;
 
+/// Where fewer iterations may be made nothing yields.
+const FEW: u32 = 8;
+
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
@@ -126,13 +129,16 @@ impl Enforcer {
         let (mut outcome, mut momentum, mut ended) = (Outcome::default(), Momentum::new(), [false; LOOSER.len()]);
         let mut own = self.extent(constraints, times.drift);
         (own.wanted, own.held) = (f64::from(u8::from(wanted)), self.held.0);
+        own.yields = f64::from(u8::from(constraints.iter().any(|c| c.yields)));
+        // With few passes there is no time for it.
+        let mut some_yield = limits.iterations >= FEW;
         loop {
             self.scatter(motion, times, others);
-            let pace = momentum.next();
+            let pace = Pace { some_yield, ..momentum.next() };
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
             let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
-            let Largest { residual, wanted, deepest, depth, travel, moved, held } = others.largest(own);
+            let Largest { residual, wanted, yields, deepest, depth, travel, moved, held } = others.largest(own);
             self.held_anywhere = held;
             if wanted == 0.0 {
                 return None;
@@ -147,9 +153,14 @@ impl Enforcer {
             let (iterations, ran_out) =
                 (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
             outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser, ..outcome };
-            if by_looser(1.0) || limits.are_reached(iterations, [residual, moved, travel]) {
+            let is_settled = by_looser(1.0);
+            if (is_settled && !(some_yield && yields > 0.0))
+                || limits.are_reached(iterations, [residual, moved, travel])
+            {
                 return Some(outcome);
             }
+            // Where the rest has settled, or does not, what has yielded sees to it that nothing is open to it.
+            some_yield &= !is_settled && 2 * (iterations + 1) < limits.iterations;
         }
     }
 
@@ -192,11 +203,11 @@ impl Momentum {
 
     fn next(&mut self) -> Pace {
         if self.grows {
-            return Pace { ahead: 0.0, cautious: true };
+            return Pace { ahead: 0.0, cautious: true, some_yield: false };
         }
         let before = self.next;
         self.next = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
-        Pace { ahead: (before - 1.0) / self.next, cautious: false }
+        Pace { ahead: (before - 1.0) / self.next, cautious: false, some_yield: false }
     }
 
     /// Hears how far an iteration moved a constraint, the farthest of all ranks. With friction iterations need not converge: what a

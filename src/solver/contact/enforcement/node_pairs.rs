@@ -3,8 +3,9 @@
 //! Where meshes match, node a is held by a face of node b and node b by a face of node a, with nearly all of the weight. In the middle of
 //! flat faces both agree, and share the force. At the rim of one of them, where velocities change from node to node, they do not: the one closes
 //! its gap with a force that leaves the other open, and iterations that give each its share of the masses hand the force over by no more than
-//! the small disagreement in each of them, in hundreds. One of two is enough. The one that ends a step with the larger gap *yields*: it takes no
-//! force in the next step. Should the other be gone by then, nothing holds the nodes for that one step.
+//! the small disagreement in each of them, in hundreds. One of two is enough. The one that ends a step with the larger gap *yields*: in the next
+//! step it takes no force until the rest has settled, or half of the iterations are used up. Then it sees to it that nothing is open to it: the other
+//! may be gone, or may no longer be the deeper one.
 
 use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
@@ -32,7 +33,7 @@ fn node_below(c: &Constraint) -> Option<u32> {
 }
 
 impl Enforcer {
-    /// Finds which of the constraints yield in the next step, once all forces are known. `left` is how far iterations that have settled may
+    /// Finds which of the constraints yield at first in the next step, once all forces are known. `left` is how far iterations that have settled may
     /// still move a constraint of a size, both lengths. All ranks that own a member of one of two constraints have both, with the same bits, and
     /// decide alike.
     pub(super) fn find_yielding(&mut self, constraints: &[Constraint], drift: f64, left: impl Fn(f64) -> f64) {
@@ -80,7 +81,7 @@ impl Enforcer {
             return own > other && apart > left;
         }
         // In between as before, but not both.
-        let [has_yielded, has_other] = pair.map(|i| self.states[i].strength <= 0.0);
+        let [has_yielded, has_other] = pair.map(|i| constraints[i].yields);
         has_yielded && !has_other
     }
 }

@@ -17,6 +17,8 @@ pub(super) struct Pace {
     pub(super) ahead: f64,
     /// Whether friction goes only half of its way.
     pub(super) cautious: bool,
+    /// Whether what yields does so.
+    pub(super) some_yield: bool,
 }
 
 /// How far a sweep moved its constraints.
@@ -111,7 +113,8 @@ unsafe fn correct_avx2(iterates: &mut Iterates, responses: &[Response], how: (Ti
 fn correct_each(iterates: &mut Iterates, responses: &[Response], (times, pace): (Times, Pace)) -> Moved {
     let mut farthest = Moved::default();
     let Iterates { normal, friction } = iterates;
-    for (i, own) in normal.iter_mut().enumerate().filter(|(_, own)| own.strength > 0.0) {
+    let takes_part = |own: &Iterate| own.strength > 0.0 && !(own.yields && pace.some_yield);
+    for (i, own) in normal.iter_mut().enumerate().filter(|(_, own)| takes_part(own)) {
         let friction = friction.get_mut(i).filter(|own| own.friction.is_some());
         let moved = match own.count {
             FACE => correct_one::<MEMBERS>(own, friction, responses, times, pace),
@@ -182,7 +185,7 @@ impl FrictionIterate {
         (normal_force, shares): (f64, &[f64]),
         change: [f64; 3],
         times: Times,
-        Pace { ahead, cautious }: Pace,
+        Pace { ahead, cautious, .. }: Pace,
     ) -> f64 {
         let sliding = shares.iter().zip(&self.softness).fold(0.0, |sum, (share, softness)| sum + share * softness);
         let tried = self.tangential_force;

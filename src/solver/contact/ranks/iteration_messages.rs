@@ -129,7 +129,7 @@ impl OtherRanks for IterationExchange<'_> {
 }
 
 /// Numbers of a constraint on its way.
-const COPY: usize = 4 * MEMBERS + 21;
+const COPY: usize = 4 * MEMBERS + 22;
 
 /// A row of numbers that is written or read from its beginning to its end.
 struct Row {
@@ -161,6 +161,7 @@ fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f6
     row.put(state.slip);
     row.put([at_rest, high_speed, decay]);
     row.put([c.count as f64, c.size, c.share, c.carried.normal_force, state.closing, state.strength]);
+    row.put([f64::from(u8::from(c.yields))]);
     row.put(c.origin.to_array());
     state.softness.into_iter().for_each(|of_member| row.put(of_member));
     row.numbers
@@ -176,6 +177,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
     let slip = row.take();
     let [at_rest, high_speed, decay] = row.take();
     let [count, size, share, normal_force, closing, strength] = row.take();
+    let [yields] = row.take();
     let origin = Origin::from_array(row.take());
     let softness = std::array::from_fn(|_| row.take());
     let constraint = Constraint {
@@ -186,11 +188,11 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
         share,
         count: count as usize,
         friction: Friction { at_rest, high_speed, decay },
+        yields: yields != 0.0,
         // Only its own rank asks for these.
         gap: 0.0,
         growth: 0.0,
         persists: true,
-        yields: false,
         carried: Carried { penetration: 0.0, normal_force, tangential_force },
         origin,
     };
@@ -212,7 +214,7 @@ mod tests {
                 gap: 0.0,
                 growth: 0.0,
                 persists: true,
-                yields: false,
+                yields: true,
                 size: 0.01,
                 share: 0.5,
                 friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },

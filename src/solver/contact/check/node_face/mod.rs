@@ -5,12 +5,13 @@
 //! come first, or as good as first; of these the face that the point's body faces most, then the lower number (Heinstein et al. 1993;
 //! Attaway et al. 1996, figures 3 and 4).
 
+mod facing;
 mod newcomer;
 mod persistent;
 mod ridge;
 mod way_out;
 
-pub(super) use newcomer::FACING;
+pub(super) use facing::FACING;
 
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::enforcement::carried::Carried;

@@ -1,8 +1,9 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
 use super::super::FLUSH;
+use super::facing::FACING;
 use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
-use crate::common::vector::{add, cross, dot, normalized, scaled, subtract};
+use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::geometry::sides::HiddenSide;
@@ -10,9 +11,6 @@ use crate::solver::contact::search::locate::Candidate;
 
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
-
-/// Cosine between the normals of two faces that look at each other, at most.
-pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
 
 /// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
 /// each other's planes must not be taken for a seam.
@@ -276,13 +274,6 @@ impl NodeFaceCheck<'_> {
         self.faces.hidden_sides(face, self.motion).any(is_level)
     }
 
-    /// Whether the body of a point, with its own sides that touch nothing, does not look at such a side of another.
-    fn looks_past(&self, point: u32, side: [f64; 3]) -> bool {
-        let normal = self.hidden_sides_around(point).fold(self.faces.point_normal(point, self.motion), add);
-        let square = dot(normal, normal) * dot(side, side);
-        dot(normal, side) > FACING * square.sqrt()
-    }
-
     /// Part of the step after which a point comes as near to a face as they touch, or through it where it came by a gap between
     /// faces pushed outwards.
     fn first_touch(&self, point: u32, face: u32) -> Option<f64> {
@@ -329,33 +320,6 @@ impl NodeFaceCheck<'_> {
         let all = below.chain((face + 1..self.faces.len() as u32).take_while(same));
         // The other side of a surface lies at the same place.
         all.filter(move |_| !self.faces.is_two_sided(face))
-    }
-
-    /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
-    /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
-    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way. Sides of its body that are in no side
-    /// set count as well; the nodes of a node set bring no faces at all.
-    fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
-        let looks = |side: [f64; 3]| dot(side, *normal) < FACING * dot(side, side).sqrt();
-        self.faces.around(point).is_empty()
-            || self.most_opposed(point, normal) < FACING
-            || self.faces.is_on_surface(point)
-            || self.hidden_sides_around(point).any(looks)
-    }
-
-    /// Normals, with the lengths of their areas, of the sides of its body at a point that touch nothing.
-    fn hidden_sides_around(&self, point: u32) -> impl Iterator<Item = [f64; 3]> + '_ {
-        let sides = self.faces.around(point).iter().flat_map(|&face| self.faces.hidden_sides(face, self.motion));
-        sides.filter(move |side| side.ends.contains(&point)).map(|side| side.area_normal)
-    }
-
-    /// Smallest cosine between a normal and those of the faces around a point.
-    fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
-        let cosine = |&face: &u32| {
-            let own = projection::area_normal(&self.faces.start(face, self.motion));
-            dot(own, *normal) / dot(own, own).sqrt()
-        };
-        self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
     }
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam

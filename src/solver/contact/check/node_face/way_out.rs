@@ -1,6 +1,6 @@
 //! Which way is out of an element for a point that begins in it.
 
-use super::newcomer::FACING;
+use super::facing::FACING;
 use super::{NodeFaceCheck, is_near};
 use crate::solver::contact::search::locate::Candidate;
 
