@@ -24,6 +24,9 @@ const MANY_IN_A_ROW: u64 = 32;
 /// Where fewer iterations may be made nothing yields.
 const FEW: u32 = 8;
 
+/// What yields takes no force in the first of so many parts of the iterations: what has not settled by then will hardly do so for its sake.
+const QUIET: u32 = 4;
+
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
@@ -160,7 +163,7 @@ impl Enforcer {
                 return Some(outcome);
             }
             // Where the rest has settled, or does not, what has yielded sees to it that nothing is open to it.
-            some_yield &= !is_settled && 2 * (iterations + 1) < limits.iterations;
+            some_yield &= !is_settled && QUIET * (iterations + 1) < limits.iterations;
         }
     }
 

@@ -4,7 +4,7 @@
 //! flat faces both agree, and share the force. At the rim of one of them, where velocities change from node to node, they do not: the one closes
 //! its gap with a force that leaves the other open, and iterations that give each its share of the masses hand the force over by no more than
 //! the small disagreement in each of them, in hundreds. One of two is enough. The one that ends a step with the larger gap *yields*: in the next
-//! step it takes no force until the rest has settled, or half of the iterations are used up. Then it sees to it that nothing is open to it: the other
+//! step it takes no force until the rest has settled, or a quarter of the iterations is used up. Then it sees to it that nothing is open to it: the other
 //! may be gone, or may no longer be the deeper one.
 
 use super::constraint::{Constraint, Origin};
