@@ -76,7 +76,8 @@ pub struct Enforcer {
     /// Points of the constraints, ascending.
     members: Vec<u32>,
     is_member: Vec<bool>,
-    /// The first constraint of each point, while partners are looked for.
+    /// Constraints of nodes that lie on nodes, and the first of these at each point while partners are looked for.
+    pub(super) on_nodes: Vec<u32>,
     pub(super) first_of_node: Vec<u32>,
     /// Deepest penetration before the step between members that nothing can move or of rigid bodies that are pinned, or what is missing of the room
     /// of a node between faces that nothing can move, as a part of the face's size, with a member; and on any rank. 0 where it is small.

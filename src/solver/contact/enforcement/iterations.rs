@@ -46,12 +46,12 @@ impl Limits {
     /// tolerance so many times looser. `travel` is the farthest motion of a contact in the step.
     fn are_met(&self, looser: f64, [residual, moved, travel]: [f64; 3]) -> bool {
         let tolerance = looser * self.tolerance;
-        residual <= tolerance && moved <= (SETTLED * tolerance).min(UNSETTLED) * travel
+        residual <= tolerance && moved <= part_of_travel(tolerance) * travel
     }
 
     /// How far iterations that have settled may still move a constraint of this size, a length; see [`Limits::are_met`].
     pub(super) fn left(&self, size: f64, travel: f64) -> f64 {
-        (self.tolerance * size).min((SETTLED * self.tolerance).min(UNSETTLED) * travel)
+        (self.tolerance * size).min(part_of_travel(self.tolerance) * travel)
     }
 
     /// Whether so many iterations are enough, though the last of them has moved constraints so far, see [`Limits::are_met`].
@@ -71,6 +71,11 @@ impl Limits {
     pub fn are_kept_by(&self, outcome: &Outcome) -> bool {
         !outcome.ran_out && outcome.iterations <= self.iterations
     }
+}
+
+/// How far iterations that have settled to a tolerance may still move a constraint, as a part of the farthest motion of a contact in the step.
+fn part_of_travel(tolerance: f64) -> f64 {
+    (SETTLED * tolerance).min(UNSETTLED)
 }
 
 /// What became of a step's constraints.
@@ -137,7 +142,7 @@ impl Enforcer {
         let mut some_yield = limits.iterations >= FEW;
         loop {
             self.scatter(motion, times, others);
-            let pace = Pace { some_yield, ..momentum.next() };
+            let pace = momentum.next(some_yield);
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
             let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
@@ -204,13 +209,13 @@ impl Momentum {
         Momentum { next: 1.0, first: None, grows: false }
     }
 
-    fn next(&mut self) -> Pace {
+    fn next(&mut self, some_yield: bool) -> Pace {
         if self.grows {
-            return Pace { ahead: 0.0, cautious: true, some_yield: false };
+            return Pace { ahead: 0.0, cautious: true, some_yield };
         }
         let before = self.next;
         self.next = 0.5 * (1.0 + (1.0 + 4.0 * before * before).sqrt());
-        Pace { ahead: (before - 1.0) / self.next, cautious: false, some_yield: false }
+        Pace { ahead: (before - 1.0) / self.next, cautious: false, some_yield }
     }
 
     /// Hears how far an iteration moved a constraint, the farthest of all ranks. With friction iterations need not converge: what a

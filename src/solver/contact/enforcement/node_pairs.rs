@@ -37,16 +37,19 @@ impl Enforcer {
     /// still move a constraint of a size, both lengths. All ranks that own a member of one of two constraints have both, with the same bits, and
     /// decide alike.
     pub(super) fn find_yielding(&mut self, constraints: &[Constraint], drift: f64, left: impl Fn(f64) -> f64) {
+        let mut on_nodes = std::mem::take(&mut self.on_nodes);
+        on_nodes.clear();
+        on_nodes.extend((0u32..).zip(constraints).filter(|(_, c)| node_below(c).is_some()).map(|(i, _)| i));
         self.first_of_node.resize(self.responses.len(), NONE);
-        for (i, c) in constraints.iter().enumerate().rev().filter(|(_, c)| matches!(c.origin, Origin::Face(..))) {
-            self.first_of_node[c.members[0] as usize] = i as u32;
-        }
-        for i in 0..constraints.len() {
+        let node = |i: u32| constraints[i as usize].members[0] as usize;
+        on_nodes.iter().rev().for_each(|&i| self.first_of_node[node(i)] = i);
+        for i in on_nodes.iter().map(|&i| i as usize) {
             let partner = self.partner(constraints, i).filter(|_| self.states[i].own);
             let yields = partner.is_some_and(|j| self.yields_to(constraints, [i, j], drift, &left));
             self.states[i].yields = yields;
         }
-        constraints.iter().for_each(|c| self.first_of_node[c.members[0] as usize] = NONE);
+        on_nodes.iter().for_each(|&i| self.first_of_node[node(i)] = NONE);
+        self.on_nodes = on_nodes;
     }
 
     /// The constraint of the node below back onto the node of a constraint, if the two have only each other.

@@ -3,6 +3,7 @@
 use super::NodeFaceCheck;
 use crate::common::vector::{add, dot};
 use crate::solver::contact::geometry::projection;
+use crate::solver::contact::search::locate::Rule;
 
 /// Cosine between the normals of two faces that look at each other, at most.
 pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
@@ -10,15 +11,15 @@ pub(in crate::solver::contact::check) const FACING: f64 = -0.02;
 impl NodeFaceCheck<'_> {
     /// Whether one of the faces around a point looks at the face that it meets. At a convex corner this is necessary: a
     /// plane that touches nothing but the corner has its normal in the cone of the corner's own, turned round. Corners
-    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way. Sides of its body that are in no side
-    /// set count as well, and where the body goes on in a way that is not known nothing is ruled out; the nodes of a node set bring no faces at all.
-    pub(super) fn faced(&self, point: u32, normal: &[f64; 3]) -> bool {
+    /// of bodies with flush sides cross the other's sides by round-off; those sides look the same way. Where side sets
+    /// say what holds, sides of its body that are in none count as well, and where it goes on in a way that is not known nothing is ruled out; the
+    /// nodes of a node set bring no faces at all.
+    pub(super) fn faced(&self, point: u32, normal: &[f64; 3], rule: Rule) -> bool {
         let looks = |side: [f64; 3]| dot(side, *normal) < FACING * dot(side, side).sqrt();
         self.faces.around(point).is_empty()
             || self.most_opposed(point, normal) < FACING
             || self.faces.is_on_surface(point)
-            || self.hidden_sides_around(point).any(looks)
-            || !self.is_surrounded(point)
+            || rule != Rule::Blocks && (self.hidden_sides_around(point).any(looks) || !self.is_surrounded(point))
     }
 
     /// Normals, with the lengths of their areas, of the sides of its body at a point that touch nothing.

@@ -135,8 +135,7 @@ impl NodeFaceCheck<'_> {
         for &Candidate { face, interface } in near {
             // Faces around those that hold the point have had their turn.
             if contacts[..held].iter().all(|contact| contact.face != face && !self.faces.adjacent(contact.face, face)) {
-                let edges_hold = self.edges_hold && self.rules[interface as usize] == Rule::Blocks;
-                let found = self.newcomer((point, face), near, edges_hold);
+                let found = self.newcomer((point, face), near, self.rules[interface as usize]);
                 contacts.extend(found.filter(|_| !self.is_behind_flank(point, face, near)));
             }
         }

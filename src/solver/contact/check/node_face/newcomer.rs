@@ -7,7 +7,7 @@ use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::geometry::sides::HiddenSide;
-use crate::solver::contact::search::locate::Candidate;
+use crate::solver::contact::search::locate::{Candidate, Rule};
 
 /// A point is clearly in front of a face from this part of the face's size on; on flush sides round-off decides less.
 const CLEARLY: f64 = 1e-6;
@@ -20,13 +20,13 @@ const SEAM: f64 = 1e-4;
 const LEVEL_WITH_SIDE: f64 = 0.1;
 
 impl NodeFaceCheck<'_> {
-    /// A point that this face, one of those `near` it, has not seen before. `edges_hold` says whether edges have a say where blocks meet.
+    /// A point that this face, one of those `near` it, has not seen before. Edges have a say where blocks meet.
     #[inline(always)]
     pub(super) fn newcomer(
         &self,
         (point, face): (u32, u32),
         near: &[Candidate],
-        edges_hold: bool,
+        rule: Rule,
     ) -> Option<DetectedContact> {
         if self.is_in_front(point, face) {
             return None;
@@ -45,13 +45,13 @@ impl NodeFaceCheck<'_> {
         }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        let comes = || self.faced(point, &end.normal) && !self.slides_over(point, face, &end.weights);
+        let comes = || self.faced(point, &end.normal, rule) && !self.slides_over(point, face, &end.weights);
         if distance == 0.0 && start.gap >= 0.0 {
             if !may_have_come() {
                 return None;
             }
             let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
-            if edges_hold && self.is_held_by_edges(point, face, time) {
+            if rule == Rule::Blocks && self.edges_hold && self.is_held_by_edges(point, face, time) {
                 return None;
             }
             return comes().then(|| contact(time, 0.0));
@@ -347,7 +347,6 @@ mod tests {
     use crate::mesh::{Connectivity, Shape};
     use crate::solver::contact::geometry::faces::Faces;
     use crate::solver::contact::geometry::motion::NodeMotion;
-    use crate::solver::contact::search::locate::Rule;
 
     /// Directions in which the faces of two square elements push a free point that goes from one place to another in a step. The first element
     /// lies in the plane z = 0, from the y axis to x = 1; the second goes on from the y axis, raised by an angle. They touch at 0.1.
