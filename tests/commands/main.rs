@@ -1,6 +1,7 @@
 //! The program at the shell: what it takes, what it says, and what its verbs do.
 
 mod advice;
+mod check;
 mod cli;
 mod endings;
 mod input;

@@ -2,6 +2,7 @@
 
 mod looked_at;
 mod plot;
+mod plot_forces;
 mod report;
 mod view;
 

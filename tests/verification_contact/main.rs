@@ -20,6 +20,7 @@ mod sliding;
 mod solids;
 mod through;
 mod tied;
+mod tied_refusals;
 mod touching;
 
 #[path = "../support/mod.rs"]
