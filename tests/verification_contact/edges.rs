@@ -6,7 +6,7 @@ use crate::support::bodies::{mean_velocity, nodes_of};
 use crate::support::meshes::{add_node_set, recipe};
 use crate::support::penetration::{Inside, Skin, deepest, nothing_deeper};
 use crate::support::run::{Run, model, run, run_on};
-use crate::support::{at_least, between};
+use crate::support::{at_least, between, close};
 use urto::mesh::Mesh;
 use urto::solver::Body;
 
@@ -32,12 +32,12 @@ fn elastic(block: usize, density: f64, modulus: f64, poisson: f64) -> String {
 }
 
 /// A stiff brick of coarse elements stands on its long edge over a soft plate, across the lines of its mesh.
+const BRICK_ON_EDGE: &str = "TITLE\n brick on edge\nBOX, 1, -0.03, -0.03, -0.01, 0.06, 0.06, 0.01, 10, 10, 2\n\
+     BOX, 2, -0.02, -0.005, -0.005, 0.04, 0.01, 0.01, 2, 2, 2\nROTATE, 2, X, 45.\nROTATE, 2, Z, 20.\n\
+     TRANSLATE, 2, 0.001, 0.0013, 0.00708\n";
+
 fn brick_on_edge() -> Mesh {
-    recipe(
-        "TITLE\n brick on edge\nBOX, 1, -0.03, -0.03, -0.01, 0.06, 0.06, 0.01, 10, 10, 2\n\
-         BOX, 2, -0.02, -0.005, -0.005, 0.04, 0.01, 0.01, 2, 2, 2\nROTATE, 2, X, 45.\nROTATE, 2, Z, 20.\n\
-         TRANSLATE, 2, 0.001, 0.0013, 0.00708\n",
-    )
+    recipe(BRICK_ON_EDGE)
 }
 
 fn falling(edges: &str) -> String {
@@ -66,6 +66,25 @@ fn a_long_edge_does_not_sink_in_between_the_nodes() {
     let first = with.lines[0].totals.momentum[2];
     let drift = |line: &crate::support::run::Line| ((line.totals.momentum[2] - first) / first).abs();
     between(case, "drift of momentum", with.lines.iter().map(drift).fold(0.0, f64::max), 0.0, 1e-12);
+}
+
+/// How deep an edge goes between the nodes of a face does not depend on the step in which it comes. Lines were looked for in every fourth step
+/// only: the energy that the plate takes was 3 % apart between four such starts, and that of a plate of one layer 10 %.
+#[test]
+fn when_an_edge_comes_does_not_matter() {
+    // A third of the plate's stable step, 0.003 m at 1,830 m/s across its bevelled corner of one half, so that all runs take the same steps.
+    let step = 2e-7;
+    let taken = [0, 1, 2, 3].map(|later: u32| {
+        let flight = f64::from(later) * step;
+        let mesh = recipe(&format!("{BRICK_ON_EDGE}TRANSLATE, 2, 0., 0., {:?}\n", 20.0 * flight));
+        let deck = falling("ALL").replace("TERMINATION TIME, 1.E-4", &format!("TERMINATION TIME, {:?}", 1e-4 + flight));
+        let run = run(&format!("{}TIME STEP MAXIMUM, {step:?}\n", deck), &mesh);
+        run.last().totals.internal
+    });
+    for (later, taken_later) in taken.iter().enumerate() {
+        // Passes leave a hundred-thousandth of a face of a motion of some hundredths.
+        close("brick on edge", &format!("internal energy, {later} steps later"), taken_later / taken[0], 1.0, 1e-3);
+    }
 }
 
 /// A flat strip of four elements in x under a block; its nodes are driven up like a tent, the ridge along y in the middle.

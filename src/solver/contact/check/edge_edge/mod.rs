@@ -46,11 +46,12 @@ const DEEP: f64 = 0.25;
 /// and those of the face hold it; only what sinks in between them is left to the lines, so that what rests is held once.
 const SLACK: f64 = 0.005;
 
+/// Part of that scale by which an edge may come to a line between two looks for lines. Much less than the slack, so that how deep it is when
+/// the line takes it hardly depends on when the looks are.
+const UNSEEN: f64 = 0.001;
+
 /// Part of that scale within which a line looks for edges. One that comes deeper than the slack from beside may stay so deep.
 pub(super) const SUNK: f64 = 0.05;
-
-/// So many times longer than a face an edge has its nodes too far apart to be held by them on the face.
-const LONG: f64 = 2.0;
 
 /// Part of a ridge by which an edge may cross it beyond the middle of the face. Both fall towards the middle, so that an edge below it
 /// crosses neither.
@@ -98,9 +99,9 @@ pub enum EdgeVerdict {
     Apart(f64),
 }
 
-/// How far an edge may come, a length, between two looks for lines before the line no longer takes it, of the line's [`reach`].
+/// How far an edge may come, a length, between two looks for lines, of the line's [`reach`].
 pub fn unseen(reach: f64) -> f64 {
-    (SUNK - SLACK) / SUNK * reach
+    UNSEEN / SUNK * reach
 }
 
 /// The check of edges against edges.
@@ -230,16 +231,10 @@ impl EdgeCheck<'_> {
         !second.stands_out() && !first.is_of_surface(self.faces) && !self.comes_fast(pair, steps)
     }
 
-    /// Whether an edge may come to a line, within so many steps like this one, by more than the depth down to which the line takes it:
-    /// one that is much longer than the face, whose nodes do not hold it back.
+    /// Whether an edge may come to a line farther than it may unseen within so many steps like this one.
     #[inline(always)]
     fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
         let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
-        let along = subtract(self.motion.start(first.ends[0]), self.motion.start(first.ends[1]));
-        let size = second.faces.iter().map(|&face| self.faces.size[face as usize]).fold(f64::INFINITY, f64::min);
-        if dot(along, along) <= (LONG * size) * (LONG * size) {
-            return false;
-        }
         let ([a, b, c, d], [e, f, g, h]) = (first.points(self.faces), second.points(self.faces));
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for point in [a, b, c, d, e, f, g, h] {

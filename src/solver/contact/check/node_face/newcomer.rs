@@ -235,9 +235,14 @@ impl NodeFaceCheck<'_> {
         let start = ends[0];
         let is_across = |other: u32| self.is_across(face, &start.weights, other);
         let middle = |face| projection::centre(&self.faces.start(face, self.motion));
+        // What is over the other face at both ends of the step is held by that one. In the bottom of a valley a point begins over both faces and
+        // goes beyond the borders of both.
+        let leaves = |other: u32| self.projection_at_end(point, other).is_some_and(|at| at.outside > 0.0);
         let is_beyond = |other: u32| {
             dot(subtract(middle(other), middle(face)), start.normal) > 0.0
-                && self.projection_at_start(point, other).is_some_and(|at| at.gap < 0.0 && at.outside > 0.0)
+                && self
+                    .projection_at_start(point, other)
+                    .is_some_and(|at| at.gap < 0.0 && (at.outside > 0.0 || leaves(other)))
         };
         // From the border to the foot of the perpendicular beyond it.
         let nearest = projection::foot(&self.faces.start(face, self.motion), &start.weights);
