@@ -2,6 +2,7 @@
 
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
+use crate::comm::ExactSum;
 use crate::common::memory::repeated;
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
@@ -342,6 +343,22 @@ impl ElementBlock {
     pub fn end_power(&self) -> Option<usize> {
         let last = self.state_names.len().checked_sub(1)?;
         (self.state_names[last] == END_POWER).then_some(self.first_of_law(0) + last)
+    }
+
+    /// Adds internal, hourglass and viscous energy of every element to these sums, as the balance of energy needs them: with an equation
+    /// of state the work of the present forces was booked with half of the last step, and they will act with half of the kick,
+    /// which is longer by `longer`. See `solids/exact.rs`.
+    pub fn add_energies(&self, longer: f64, [internal, hourglass, viscous]: [&mut ExactSum; 3]) {
+        let rows = &self.element.entry().energies;
+        let end_power = self.end_power();
+        for group in self.groups() {
+            for i in 0..group.len() {
+                internal.add(group.value(i, rows.internal));
+                end_power.iter().for_each(|&row| internal.add(0.5 * longer * group.value(i, row)));
+                rows.hourglass.iter().for_each(|&row| hourglass.add(group.value(i, row)));
+                rows.viscous.iter().for_each(|&row| viscous.add(group.value(i, row)));
+            }
+        }
     }
 
     /// Lets one group answer a probe; nodes have displacements for velocities.
