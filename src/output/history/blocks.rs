@@ -130,7 +130,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
     let mut shares = vec![0.0; group.unknowns];
     let sample = Sample { nodes: own, corners: &corners, attributes: &[] };
     // The mass itself is known.
-    block.element.clone().weigh(&sample, 1.0, &mut shares);
+    block.element.weigh(&sample, 1.0, &mut shares);
     let mut sums = [0.0; SUMS];
     let (shares, inertias) = shares.split_at(group.corners);
     for (&node, share) in own.iter().zip(shares) {
