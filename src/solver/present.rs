@@ -18,12 +18,19 @@ impl Solver {
             Some((step, totals)) if step == self.step => totals,
             _ => {
                 self.refresh();
-                let mut totals = totals::totals(&mut self.domain, [self.kick, self.pass.time_step], comm);
+                let kick = [self.kick, self.longer()];
+                let mut totals = totals::totals(&mut self.domain, kick, comm);
                 totals.know(self.watch.supplied, self.watch.energy_floor());
                 self.last_totals = Some((self.step, totals));
                 totals
             }
         }
+    }
+
+    /// By how much the kick of the present, prepared state is longer than the step that led to it; none at the start, where no step has
+    /// booked anything. See [`ElementBlock::add_energies`](super::elements::ElementBlock::add_energies).
+    pub fn longer(&self) -> f64 {
+        if self.step == 0 { 0.0 } else { self.kick - self.pass.time_step }
     }
 
     /// Velocity of a local node at the time of the present state: the mean of those half a step before and after.

@@ -7,7 +7,6 @@
 //! differences balance exactly for constant steps. Work is booked in the same manner.
 
 use super::domain::Domain;
-use super::elements::Energies;
 use super::loads::{self, Places};
 use crate::comm::{Communicator, ExactSum};
 
@@ -125,15 +124,16 @@ impl Totals {
     }
 }
 
-/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied, after the step `last` = Δtₙ₋₁. Contact learns its work.
-pub fn totals(domain: &mut Domain, [kick, last]: [f64; 2], comm: &mut dyn Communicator) -> Totals {
+/// Sums at state n, before the kick `kick` = Δt̄ₙ is applied, which is longer than the step before it by `longer`. Contact learns its work.
+pub fn totals(domain: &mut Domain, [kick, longer]: [f64; 2], comm: &mut dyn Communicator) -> Totals {
     let mut sums: [ExactSum; Totals::COUNT] = std::array::from_fn(|_| ExactSum::new());
     add_nodes(domain, kick, &mut sums);
     if let Some(rigid) = domain.rigid.as_ref().filter(|_| comm.rank() == 0) {
         rigid.surplus_energies(kick > 0.0).for_each(|energy| sums[0].add(energy));
         rigid.works().for_each(|work| sums[5].add(work));
     }
-    add_elements(domain, kick - last, &mut sums);
+    let [_, internal, hourglass, viscous, ..] = &mut sums;
+    domain.blocks.iter().for_each(|block| block.add_energies(longer, [&mut *internal, &mut *hourglass, &mut *viscous]));
     add_work(domain, &mut sums);
     add_eroded(domain, &mut sums);
     ExactSum::merge_ranks(&mut sums, comm);
@@ -185,23 +185,6 @@ fn add_nodes(domain: &Domain, kick: f64, sums: &mut [ExactSum; Totals::COUNT]) {
         // What has been dropped with the last element of a node has no mass of either kind.
         if let Some(mass) = added(i).filter(|_| r[3] > 0.0) {
             sums[11].add(0.5 * mass * product);
-        }
-    }
-}
-
-/// Elements with an equation of state have booked the work of their present forces with half of the last step; they will act
-/// with half of the kick, which is longer by `longer`.
-fn add_elements(domain: &Domain, longer: f64, sums: &mut [ExactSum; Totals::COUNT]) {
-    for block in &domain.blocks {
-        let Energies { internal, hourglass, viscous } = &block.element.entry().energies;
-        let end_power = block.end_power();
-        for group in block.groups() {
-            for i in 0..group.len() {
-                sums[1].add(group.value(i, *internal));
-                end_power.iter().for_each(|&row| sums[1].add(0.5 * longer * group.value(i, row)));
-                hourglass.iter().for_each(|&row| sums[2].add(group.value(i, row)));
-                viscous.iter().for_each(|&row| sums[3].add(group.value(i, row)));
-            }
         }
     }
 }

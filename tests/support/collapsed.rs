@@ -1,5 +1,6 @@
 //! Meshes of hexahedra cut into wedges, pyramids and tetrahedra, which are hexahedra with coinciding corners.
 
+use std::cell::Cell;
 use urto::mesh::{HEX_SIDES, Mesh};
 
 /// Each hexahedron becomes two wedges, one above the other's diagonal seen along the third axis.
@@ -9,10 +10,21 @@ pub fn wedges(mesh: &Mesh) -> Mesh {
 
 /// Each hexahedron becomes six pyramids around its centre.
 pub fn pyramids(mesh: &Mesh) -> Mesh {
+    cut(mesh, around_centre)
+}
+
+fn around_centre(hex: [u32; 8], new_node: &mut dyn FnMut(&[u32]) -> u32) -> Vec<[u32; 8]> {
+    let apex = new_node(&hex);
+    let base = |side: [usize; 4]| side.map(|corner| hex[corner]);
+    HEX_SIDES.map(base).map(|[p, q, r, s]| [s, r, q, p, apex, apex, apex, apex]).to_vec()
+}
+
+/// Every so many hexahedra, the first one among them, one becomes six pyramids; all others stay.
+pub fn pyramids_here_and_there(mesh: &Mesh, every: usize) -> Mesh {
+    let seen = Cell::new(0);
     cut(mesh, |hex, new_node| {
-        let apex = new_node(&hex);
-        let base = |side: [usize; 4]| side.map(|corner| hex[corner]);
-        HEX_SIDES.map(base).map(|[p, q, r, s]| [s, r, q, p, apex, apex, apex, apex]).to_vec()
+        seen.set(seen.get() + 1);
+        if seen.get() % every == 1 { around_centre(hex, new_node) } else { vec![hex] }
     })
 }
 

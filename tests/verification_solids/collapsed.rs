@@ -3,17 +3,20 @@
 //! `cargo test --test verification_solids collapsed:: -- --nocapture` prints the numbers of docs/verification.md.
 
 use crate::support::bodies::{mean_velocity, nodes_of};
-use crate::support::collapsed::{pyramids, tetrahedra, wedges};
+use crate::support::collapsed::{pyramids, pyramids_here_and_there, tetrahedra, wedges};
+use crate::support::continued::{Case, assert_same};
 use crate::support::meshes::{box_of_cells, recipe};
 use crate::support::run::{run, run_on};
 use crate::support::stiffness::{end_shear, held_at_root, solve, stiffness};
 use crate::support::{between, close, steel};
-use urto::mesh::{HEX_SIDES, Mesh, SideSet};
+use urto::mesh::{Block, HEX_SIDES, Mesh, NodeSet, SideSet};
 
 type Cut = fn(&Mesh) -> Mesh;
 const CUTS: [(&str, Cut); 3] = [("wedges", wedges), ("pyramids", pyramids), ("tetrahedra", tetrahedra)];
 
 const STEEL: &str = "MATERIAL, 1, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n";
+
+const GLOBAL: &str = "TIME STEP ESTIMATE, GLOBAL\n";
 
 /// A cube of three irregular cells along each axis.
 fn irregular() -> Mesh {
@@ -205,6 +208,87 @@ fn collapsed_elements_on_several_ranks() {
         let [a, b] = runs.each_ref().map(|run| run.end().element("SIGZZ"));
         assert!(a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
         assert!(a.iter().any(|s| s.abs() > 1e6), "{name}: it struck the floor");
+    }
+}
+
+/// 64 cubes, struck on one side, alone and with a pyramid far away in a block of its own; then with a cube far away in their own block, and
+/// with a pyramid in its place. A step that all can take is prescribed: nothing joins them, and no bit of the 64 may tell
+/// which it is. (With one more element in their block corners are summed in another order, so that these are two pairs.)
+#[test]
+fn a_pyramid_changes_no_hexahedron_of_its_block() {
+    let mut cubes = box_of_cells([4, 4, 4], [0.04, 0.04, 0.04]);
+    let nodes = (0..125).filter(|&n| cubes.coordinates[n as usize][2] == 0.0).collect();
+    cubes.node_sets.push(NodeSet { id: 1, name: String::new(), nodes });
+    let with = |last: [u32; 8], own: bool| {
+        let mut mesh = cubes.clone();
+        let base = [[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]];
+        let base = |z: f64| base.map(|[x, y]| [1.0 + x, y, z]);
+        let top = if last[7] == 132 { base(0.01).to_vec() } else { vec![[1.005, 0.005, 0.01]] };
+        mesh.coordinates.extend(base(0.0).into_iter().chain(top));
+        match own {
+            true => mesh.blocks.push(Block::hexahedra_of(2, [last])),
+            false => mesh.blocks[0].nodes.extend(last),
+        }
+        mesh.node_ids = (1..=mesh.coordinates.len() as i64).collect();
+        mesh.element_ids = (1..=65).collect();
+        mesh
+    };
+    let (cube, pyramid) = ([125, 126, 127, 128, 129, 130, 131, 132], [125, 126, 127, 128, 129, 129, 129, 129]);
+    let fields = "PLOT NODAL, VELOCITY\nPLOT ELEMENT, STRESS, BULKQ, HOURGLASS, ENERGY\n";
+    for element in ["", "ELEMENT, 1, EIGHT POINTS\n", "PRECISION, SINGLE\n"] {
+        let deck = |second: &str| {
+            format!(
+                "TERMINATION TIME, 1.E-5\nPLOT TIME, 1.E-5\nTIME STEP MAXIMUM, 2.E-7\n{fields}{element}\
+                 INITIAL VELOCITY NODESET, 1, 10., 0., 100.\n{STEEL}{second}"
+            )
+        };
+        let second = STEEL.replace("MATERIAL, 1", "MATERIAL, 2");
+        let pairs = [
+            [run(&deck(""), &cubes), run(&deck(&second), &with(pyramid, true))],
+            [run(&deck(""), &with(cube, false)), run(&deck(""), &with(pyramid, false))],
+        ];
+        for [plain, beside] in &pairs {
+            let viscous = plain.end().element("BULKQ")[..64].iter().fold(0.0f64, |most, q| q.abs().max(most));
+            assert!(viscous > 1e6, "bulk viscosity acts: {viscous}");
+            let same = |name: &str, [a, b]: [&[f64]; 2]| {
+                assert!(a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits()), "{element:?}: {name}");
+            };
+            for name in ["VELX", "VELZ"] {
+                same(name, [plain, beside].map(|run| &run.end().nodal(name)[..125]));
+            }
+            for name in ["SIGXX", "SIGZZ", "TAUZX", "BULKQ", "HGENERGY", "ENERGY"] {
+                same(name, [plain, beside].map(|run| &run.end().element(name)[..64]));
+            }
+        }
+    }
+}
+
+/// Hexahedra with pyramids among them, some of which DEATH takes: shares of single elements are the same wherever these are computed, and
+/// after a restart, in whatever kind of element and with whatever bounds the step.
+#[test]
+fn pyramids_among_hexahedra_on_ranks_and_after_a_restart() {
+    let mesh = pyramids_here_and_there(&irregular(), 4);
+    for more in
+        ["", "ELEMENT, 1, EIGHT POINTS\n", "PRECISION, SINGLE\n", "MASS SCALING, ALL, STEP, 6.E-7, 1.\n", GLOBAL]
+    {
+        let deck = format!(
+            "TERMINATION TIME, 1.E-3\nPLOT NODAL, VELOCITY, MASS\nPLOT ELEMENT, STRESS, BULKQ, STATUS\n{more}\
+             DEATH, 1, PRESSURE, MAX, 1.2E9, DROP\nINITIAL VELOCITY MATERIAL, 1, 1., 2., -90.\n\
+             NO DISPLACEMENT, Z, 1\n{STEEL}"
+        );
+        let mut mesh = mesh.clone();
+        let low = (0..16).collect();
+        mesh.node_sets.push(NodeSet { id: 1, name: String::new(), nodes: low });
+        let case = Case::new(&deck, mesh);
+        let whole = case.part(1, None, 60);
+        for ranks in [2, 3] {
+            assert_same(&format!("{more:?}, {ranks} ranks"), &whole, &case.part(ranks, None, 60));
+        }
+        let begun = case.part(3, None, 25);
+        assert_same(&format!("{more:?}, restart"), &whole, &case.part(2, Some(&begun.end), 35));
+        // Behind time and step come KE, IE, HGE, BVE, FRICE and DEADE.
+        let eroded = whole.way.last().map_or(0.0, |numbers| f64::from_bits(numbers[7]));
+        assert!(eroded > 0.0, "{more:?}: elements have died");
     }
 }
 

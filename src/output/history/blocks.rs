@@ -7,7 +7,7 @@ use super::summed;
 use crate::comm::{Communicator, ExactSum};
 use crate::mesh::{Block, Mesh};
 use crate::solver::Solver;
-use crate::solver::elements::{ElementBlock, Energies, Group, Sample};
+use crate::solver::elements::{ElementBlock, Group, Sample};
 use crate::solver::nodes::{add, cross, dot, scaled, subtract};
 use crate::solver::rigid::Turning;
 use nalgebra::{Matrix3, Vector3};
@@ -90,6 +90,8 @@ pub fn block_motions(blocks: &[usize], solver: &Solver, comm: &mut dyn Communica
     for block in &solver.domain.blocks {
         let Ok(place) = blocks.binary_search(&block.index) else { continue };
         let own = &mut sums[SUMS * place..SUMS * (place + 1)];
+        let [.., internal, hourglass, viscous] = &mut *own else { continue };
+        block.add_energies(solver.longer(), [internal, hourglass, viscous]);
         for group in block.groups() {
             for i in (0..group.len()).filter(|&i| group.is_alive(i)) {
                 own.iter_mut().zip(element(solver, block, group, i)).for_each(|(sum, part)| sum.add(part));
@@ -119,7 +121,7 @@ fn surplus(turning: &Turning) -> [f64; SUMS] {
     sums
 }
 
-/// An element's part of the sums. Places are measured from the origin of the mesh.
+/// An element's part of the sums but for the last three, which its block adds as the balance of energy does. Places are measured from the origin of the mesh.
 fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f64; SUMS] {
     let nodes = &solver.domain.nodes;
     let own: Vec<u32> = (0..group.unknowns).map(|unknown| group.node(i, unknown)).collect();
@@ -128,7 +130,7 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
     let mut shares = vec![0.0; group.unknowns];
     let sample = Sample { nodes: own, corners: &corners, attributes: &[] };
     // The mass itself is known.
-    block.element.clone().weigh(&sample, 1.0, &mut shares);
+    block.element.weigh(&sample, 1.0, &mut shares);
     let mut sums = [0.0; SUMS];
     let (shares, inertias) = shares.split_at(group.corners);
     for (&node, share) in own.iter().zip(shares) {
@@ -158,11 +160,6 @@ fn element(solver: &Solver, block: &ElementBlock, group: &Group, i: usize) -> [f
             sums[13 + a] += 0.5 * inertia;
         }
         sums[19] += 0.5 * inertia * dot(before, after);
-    }
-    let Energies { internal, hourglass, viscous } = block.element.entry().energies;
-    let energies = [Some(internal), hourglass, viscous];
-    for (sum, row) in sums[20..].iter_mut().zip(energies) {
-        *sum = row.map_or(0.0, |row| group.value(i, row));
     }
     sums
 }

@@ -2,6 +2,7 @@
 
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
+use crate::comm::ExactSum;
 use crate::common::memory::repeated;
 use crate::lanes::{CHUNK, Force, Numbers, Row, SingleRow};
 use crate::material::{END_POWER, Law};
@@ -50,6 +51,9 @@ pub struct Group {
     pub mass: Vec<Row>,
     /// The same with what MASS SCALING has added; empty where it has added nothing.
     pub moving: Vec<Row>,
+    /// The least part of an even share of its mass that any node of an element has, one row per chunk; empty where no corners
+    /// coincide: it is 1 there. See [`Formulation::least_share`](super::Formulation::least_share).
+    pub least_share: Vec<Row>,
     /// What the elements store, `stride` rows per chunk: their own numbers, then those of their law. Empty where that is
     /// in single precision.
     pub state: Vec<Row>,
@@ -82,12 +86,12 @@ pub struct NewElement {
 
 impl Group {
     /// So many elements at rest, with so many corners and unknowns; `new` gives one after the other. `start` fills in the numbers that
-    /// an element stores in this precision, of which there are `stride`.
+    /// an element stores in this precision, of which there are `stride`, and gives its least share.
     pub fn new<E: Borrow<NewElement>>(
         (count, new): (usize, impl Fn(usize) -> E),
         [corners, unknowns]: [usize; 2],
         (precision, stride): (Precision, usize),
-        start: impl Fn(&NewElement, &mut [f64]),
+        start: impl Fn(&NewElement, &mut [f64]) -> f64,
     ) -> Group {
         let lanes = match precision {
             Precision::Double => CHUNK,
@@ -103,6 +107,7 @@ impl Group {
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
             mass: vec![Row::default(); chunks],
             moving: Vec::new(),
+            least_share: Vec::new(),
             state: repeated(Row::default(), store(Precision::Double)),
             single: repeated(SingleRow::default(), store(Precision::Single)),
             stride,
@@ -116,13 +121,17 @@ impl Group {
             let element: &NewElement = element.borrow();
             group.places.push(element.place);
             numbers.fill(0.0);
-            start(element, &mut numbers);
+            let least_share = start(element, &mut numbers);
             // The last one has copies in the lanes behind it.
             let end = if place + 1 == count { chunks * CHUNK } else { place + 1 };
             (place..end).for_each(|slot| group.set(slot, &element.nodes, element.mass, &numbers));
             if element.added > 0.0 {
                 added.resize(chunks * CHUNK, 0.0);
                 added[place..end].fill(element.added);
+            }
+            if least_share != 1.0 {
+                group.least_share.resize(chunks, Row([1.0; CHUNK]));
+                (place..end).for_each(|slot| group.least_share[slot / CHUNK].0[slot % CHUNK] = least_share);
             }
         }
         if !added.is_empty() {
@@ -142,6 +151,9 @@ impl Group {
         self.mass[chunk].0[lane] = mass;
         if let Some(moving) = self.moving.get_mut(chunk) {
             moving.0[lane] = mass;
+        }
+        if let Some(least_share) = self.least_share.get_mut(chunk) {
+            least_share.0[lane] = 1.0;
         }
         for row in 0..self.stride {
             self.put(slot, row, numbers.get(row).copied().unwrap_or(0.0));
@@ -318,6 +330,7 @@ impl ElementBlock {
                 for point in points[..of_points[0] * of_points[1]].chunks_exact_mut(of_points[1].max(1)) {
                     point[element.point_rows()..].copy_from_slice(&start);
                 }
+                element.least_share(new)
             },
         )
     }
@@ -342,6 +355,22 @@ impl ElementBlock {
     pub fn end_power(&self) -> Option<usize> {
         let last = self.state_names.len().checked_sub(1)?;
         (self.state_names[last] == END_POWER).then_some(self.first_of_law(0) + last)
+    }
+
+    /// Adds internal, hourglass and viscous energy of every element to these sums, as the balance of energy needs them: with an equation
+    /// of state the work of the present forces was booked with half of the last step, and they will act with half of the kick,
+    /// which is longer by `longer`. See `solids/exact.rs`.
+    pub fn add_energies(&self, longer: f64, [internal, hourglass, viscous]: [&mut ExactSum; 3]) {
+        let rows = &self.element.entry().energies;
+        let end_power = self.end_power();
+        for group in self.groups() {
+            for i in 0..group.len() {
+                internal.add(group.value(i, rows.internal));
+                end_power.iter().for_each(|&row| internal.add(0.5 * longer * group.value(i, row)));
+                rows.hourglass.iter().for_each(|&row| hourglass.add(group.value(i, row)));
+                rows.viscous.iter().for_each(|&row| viscous.add(group.value(i, row)));
+            }
+        }
     }
 
     /// Lets one group answer a probe; nodes have displacements for velocities.

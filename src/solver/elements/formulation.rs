@@ -130,9 +130,14 @@ pub trait Formulation: Sized {
     }
 
     /// Mass of an element of this density (mass/length³), and in `shares` the part of it that belongs to each corner; behind
-    /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length². Called
-    /// at least once for every element of the block on every rank, so that bounds over the block can be found here.
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64;
+    /// these, in elements with rotations, the rotary inertia of each corner over the element's mass, length².
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64;
+
+    /// The least part of an even share of its mass that any node of an element has, for kernels that bound their step by even
+    /// shares: frequencies are at most 1/√ of it above those.
+    fn least_share(&self, _: &NewElement) -> f64 {
+        1.0
+    }
 
     /// Fills in the rows of an element at rest, and says what its law may see of it. `own` is zero.
     fn start(&self, element: &NewElement, density: f64, own: &mut [f64]) -> Start;

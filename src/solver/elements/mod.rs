@@ -63,8 +63,13 @@ macro_rules! elements {
             }
 
             /// See [`Formulation::weigh`].
-            pub fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+            pub fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
                 match self { $(Element::$element(own) => own.weigh(element, density, shares),)+ }
+            }
+
+            /// See [`Formulation::least_share`].
+            pub fn least_share(&self, element: &NewElement) -> f64 {
+                match self { $(Element::$element(kind) => kind.least_share(element),)+ }
             }
 
             /// See [`Formulation::start`].

@@ -111,6 +111,8 @@ pub struct Given<V, const N: usize> {
     pub material: V,
     /// What the corners have to move: the same, and what MASS SCALING has added.
     pub moving: V,
+    /// The least part of an even share of its mass that any node of the element has: see [`Group::least_share`].
+    pub least_share: V,
     /// At each corner the mean of the [`Outcome::rate`] that its elements had in the last pass; zeros unless
     /// [`StepKernel::NEIGHBOURS`].
     pub rates: [V; N],
@@ -308,12 +310,15 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             let places = N - S::ROTATIONS;
             relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
             let material = V::load_double(&group.mass[chunk..], part);
+            // Of a group without added mass or coinciding corners nothing more is fetched.
             let moving = group.moving.get(chunk..).filter(|rows| !rows.is_empty());
             let moving = moving.map_or(material, |rows| V::load_double(rows, part));
+            let least_share = group.least_share.get(chunk..).filter(|rows| !rows.is_empty());
+            let least_share = least_share.map_or(V::splat(1.0), |rows| V::load_double(rows, part));
             let rates =
                 if S::NEIGHBOURS { gathered::<V, N>(nodes.rates, connectivity, part) } else { [V::splat(0.0); N] };
             prefetch(share(next, 2 * part, shares));
-            let outcome = kernel.step(&x, &v, state, part, Given { material, moving, rates });
+            let outcome = kernel.step(&x, &v, state, part, Given { material, moving, least_share, rates });
             prefetch(share(next, 2 * part + 1, shares));
             scatter_forces(&outcome, S::BALANCED, &mut corner_forces, part);
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.

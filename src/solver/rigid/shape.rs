@@ -117,7 +117,6 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
         }
     }
     let mut surpluses = vec![Moments::default(); mesh.blocks.len()];
-    let mut elements = body.elements.clone();
     let (mut corners, mut shares) = (Vec::new(), Vec::new());
     for &element in own {
         let block = body.element_block[element] as usize;
@@ -129,7 +128,7 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
         shares.clear();
         shares.resize(body.element_unknowns[element].len(), 0.0);
         let density = model.materials[body.block_material[block]].density;
-        let mass = elements[block].weigh(&sample, density, &mut shares);
+        let mass = body.elements[block].weigh(&sample, density, &mut shares);
         let at = |corner: &[f64; 3]| subtract(*corner, shape.centre);
         let surplus = &mut surpluses[block];
         for (corner, share) in corners.iter().zip(&shares) {
@@ -137,7 +136,7 @@ fn weighed(mut shape: BodyShape, own: &[usize], (mesh, model): (&Mesh, &Model), 
         }
         shares[corners.len()..].iter().for_each(|share| surplus.turning(-mass * share));
         let arms: Vec<[f64; 3]> = corners.iter().map(at).collect();
-        surplus.element(mesh.blocks[block].shape, &arms, mass, elements[block].touch(attributes));
+        surplus.element(mesh.blocks[block].shape, &arms, mass, body.elements[block].touch(attributes));
     }
     let owned = (0..surpluses.len()).filter(|&block| shape.blocks.contains(&mesh.blocks[block].id));
     shape.surplus_of = owned.map(|block| (block, surpluses[block].inertia())).collect();

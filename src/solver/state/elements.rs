@@ -92,6 +92,7 @@ impl Group {
             single: _,
             stride: _,
             moving: _,
+            least_share: _,
             corners: _,
             unknowns: _,
             connectivity: _,

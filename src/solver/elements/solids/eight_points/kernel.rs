@@ -22,8 +22,6 @@ pub struct Settings {
     pub time: f64,
     /// Time step Δt that led to them.
     pub time_step: f64,
-    /// Least part of an eighth of its mass that any node has of an element; 1 where no corners coincide.
-    pub least_share: f64,
     /// Elastic dilatational modulus λ + 2μ, force/length².
     pub dilatational: f64,
     /// Shear modulus μ, force/length².
@@ -105,7 +103,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         let Answer { moments, old, stiffest } = self.points(motion, middle_volume, state, part);
 
         // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity, as with one point: the assumed strain's stiffness is the same
-        let light = given.moving * V::splat(settings.least_share);
+        let light = given.moving * given.least_share;
         let operator = gradient(&x);
         let b_squared = operator.square4608();
         let measure = stiffness_measure(&operator);

@@ -11,7 +11,7 @@ mod kernel;
 use super::hexahedron::hourglass::{AssumedStrain, Either};
 use super::hexahedron::kinematics::rotation_matrix;
 use super::hexahedron::vibration::{FrameRows, Vibration};
-use super::hexahedron::{HasConstantStiffness, begin, mean_power, own_axes, weigh};
+use super::hexahedron::{HasConstantStiffness, begin, mean_power, own_axes, share_of_lightest, weigh};
 use crate::lanes::{Matrix3, Sym3};
 use crate::material::{Kernel, KernelVisitor, Law, Start};
 use crate::mesh::check::hexahedron_volume;
@@ -101,12 +101,9 @@ pub(in crate::solver::elements) static ENTRY: Entry = Entry {
     viscous_stress: Some(rows::VISCOUS_STRESS),
 };
 
-/// What holds for all such hexahedra of a block.
+/// Such hexahedra; nothing differs between blocks of them.
 #[derive(Debug, Clone)]
-pub struct EightPoints {
-    /// The least part of an eighth of its mass that any node has of an element: 1 but where corners coincide.
-    least_share: f64,
-}
+pub struct EightPoints;
 
 /// Whether a law looks at the volume of its element: a point has none of its own.
 struct SeesVolume;
@@ -132,12 +129,16 @@ impl Formulation for EightPoints {
                 ),
                 help: "leave ELEMENT out: one point takes every law".into(),
             }),
-            None => Ok(EightPoints { least_share: 1.0 }),
+            None => Ok(EightPoints),
         }
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
-        weigh(element, density, shares, &mut self.least_share)
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+        weigh(element, density, shares)
+    }
+
+    fn least_share(&self, element: &NewElement) -> f64 {
+        share_of_lightest(element)
     }
 
     fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
@@ -151,7 +152,6 @@ impl Formulation for EightPoints {
         let settings = Settings {
             time: settings.time,
             time_step: settings.time_step,
-            least_share: self.least_share,
             dilatational: moduli.dilatational(),
             mu: 0.5 * moduli.two_mu,
             poisson: moduli.poisson(),
@@ -170,7 +170,6 @@ impl Formulation for EightPoints {
             probe,
             moduli: law.moduli(),
             control: Either::AssumedStrain(AssumedStrain { factor: IN_FLOW }),
-            least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
             bounded: false,

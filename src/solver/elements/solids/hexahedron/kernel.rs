@@ -30,8 +30,6 @@ pub struct Settings {
     pub time: f64,
     /// Initial mass density.
     pub density: f64,
-    /// Least part of an eighth of its mass that any node has of an element; 1 where no corners coincide.
-    pub least_share: f64,
     /// Elastic dilatational modulus λ + 2μ, force/length².
     pub dilatational: f64,
     /// Shear modulus μ, force/length².
@@ -140,7 +138,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
 
     // (iv) stable step √(M V / 2(λ+2μ) B:B) and bulk viscosity in the new configuration; the bound holds for an eighth of
     // M at each corner, so M is what eight of the lightest make up
-    let end = End::of([&x, &v], given.moving * V::splat(settings.least_share));
+    let end = End::of([&x, &v], given.moving * given.least_share);
     let moduli = answer.moduli::<K>(&motion.strain, [settings.dilatational, settings.mu], settings.effective_moduli);
     let slowed = bulk_viscosity::<V, K>(
         (&middle, &end),

@@ -109,8 +109,6 @@ pub(in crate::solver::elements) static ENTRY: Entry = Entry {
 pub struct Hexahedron {
     /// Hourglass control.
     pub hourglass: Hourglass,
-    /// The least part of an eighth of its mass that any node has of an element: 1 but where corners coincide.
-    pub least_share: f64,
     /// Precision of state and kernel.
     pub precision: Precision,
     /// Order of the frame's spin.
@@ -119,7 +117,7 @@ pub struct Hexahedron {
 
 impl Formulation for Hexahedron {
     fn of_block(_: &Block, model: &Model) -> Result<Self, Unfit> {
-        Ok(Hexahedron { hourglass: model.hourglass, least_share: 1.0, precision: model.precision, spin: model.spin })
+        Ok(Hexahedron { hourglass: model.hourglass, precision: model.precision, spin: model.spin })
     }
 
     fn precision(&self) -> Precision {
@@ -133,8 +131,12 @@ impl Formulation for Hexahedron {
         }
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
-        weigh(element, density, shares, &mut self.least_share)
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+        weigh(element, density, shares)
+    }
+
+    fn least_share(&self, element: &NewElement) -> f64 {
+        share_of_lightest(element)
     }
 
     fn start(&self, element: &NewElement, _: f64, own: &mut [f64]) -> Start {
@@ -150,7 +152,6 @@ impl Formulation for Hexahedron {
             kick: settings.kick,
             time: settings.time,
             density,
-            least_share: self.least_share,
             dilatational: moduli.dilatational(),
             mu: 0.5 * moduli.two_mu,
             poisson: moduli.poisson(),
@@ -172,7 +173,6 @@ impl Formulation for Hexahedron {
             probe,
             moduli: law.moduli(),
             control: either(self.hourglass),
-            least_share: self.least_share,
             viscosity: settings.bulk_viscosity,
             rows: FrameRows { frame: rows::FRAME, viscous_stress: rows::VISCOUS_STRESS },
             bounded: true,
@@ -234,13 +234,17 @@ impl Formulation for Hexahedron {
     }
 }
 
-/// Mass of an element; its shares of the corners, and the least of them that any element has had.
-pub(super) fn weigh(element: &Sample, density: f64, shares: &mut [f64], least: &mut f64) -> f64 {
+/// Mass of an element; its shares of the corners.
+pub(super) fn weigh(element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
     let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
-    let own = mass_shares(nodes, corners);
-    shares.copy_from_slice(&own);
-    *least = least.min(least_share(nodes, &own));
+    shares.copy_from_slice(&mass_shares(nodes, corners));
     density * hexahedron_volume(corners)
+}
+
+/// See [`Formulation::least_share`]: 1 but where corners coincide.
+pub(super) fn share_of_lightest(element: &NewElement) -> f64 {
+    let (Ok(nodes), Ok(corners)) = (element.nodes[..].try_into(), element.corners[..].try_into()) else { return 1.0 };
+    least_share(nodes, &mass_shares(nodes, corners))
 }
 
 /// The frame of an element in its mesh, as a quaternion, and what its law begins with.

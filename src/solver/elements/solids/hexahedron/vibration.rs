@@ -24,8 +24,6 @@ pub struct Vibration {
     pub moduli: Moduli,
     /// Hourglass control.
     pub control: Either,
-    /// Least part of an eighth of its mass that any node has of an element.
-    pub least_share: f64,
     /// Bulk viscosity.
     pub viscosity: BulkViscosity,
     /// Where to look.
@@ -58,7 +56,7 @@ impl StepKernel<8> for Vibration {
         given: Given<V, 8>,
     ) -> Outcome<V, 8> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let light = given.moving * V::splat(self.least_share);
+        let light = given.moving * given.least_share;
         if matches!(self.probe, Probe::Mass) {
             // Forces are subtracted.
             let corner = zero - light * V::splat(0.125);

@@ -125,7 +125,7 @@ impl Formulation for Quadrilateral {
         }
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let (Ok(nodes), Ok(corners)) = (element.nodes.try_into(), element.corners.try_into()) else { return 0.0 };
         shares.copy_from_slice(&self.section.mass_shares(nodes, corners));
         density * self.whole(corners)

@@ -233,7 +233,7 @@ impl Formulation for Beam {
         })
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let length = length(element.corners);
         let inertia = self.inertia(length);
         let (of_mass, of_inertia) = shares.split_at_mut(2);

@@ -270,7 +270,7 @@ impl<S: Kind<C, R>, const C: usize, const R: usize, const N: usize, const W: usi
         Ok(Layered { kind: PhantomData, thickness, scale, points: points(block, model)? })
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let Ok(corners) = element.corners.try_into() else { return 0.0 };
         let thickness = self.thickness_of(element.attributes);
         let area = S::Facet::<f64>::new(corners, thickness).area();

@@ -83,7 +83,7 @@ impl Formulation for Truss {
         Ok(Truss { area })
     }
 
-    fn weigh(&mut self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
+    fn weigh(&self, element: &Sample, density: f64, shares: &mut [f64]) -> f64 {
         let along = subtract(element.corners[1], element.corners[0]);
         let area = self.area.or(element.attributes.first().copied()).unwrap_or(0.0);
         shares.fill(0.5);

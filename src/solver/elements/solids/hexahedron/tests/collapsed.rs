@@ -6,14 +6,18 @@ use crate::mesh::hexahedron::{Form, least_share, mass_shares};
 
 const SHAPES: [Form; 3] = [Form::Wedge, Form::Pyramid, Form::Tetrahedron];
 
+/// The first corner at which a node stands.
+fn first(shape: Form, node: usize) -> usize {
+    shape.corners().iter().position(|&own| own == node).unwrap()
+}
+
 /// The element's own nodes at the corners of the unit cube that its shape keeps, moved by up to `amplitude` and mapped.
 fn nodes_of(shape: Form, random: &mut Random, amplitude: f64, form: &Matrix3<f64>) -> (Vec<[f64; 3]>, Corners) {
-    let first = |node: usize| shape.corners().iter().position(|&own| own == node).unwrap();
     loop {
         let own: Vec<[f64; 3]> = (0..shape.nodes())
             .map(|node| {
                 let d = random.vector();
-                (form * Vector3::from([0, 1, 2].map(|i| CUBE[first(node)][i] + amplitude * d[i]))).into()
+                (form * Vector3::from([0, 1, 2].map(|i| CUBE[first(shape, node)][i] + amplitude * d[i]))).into()
             })
             .collect();
         let corners = shape.corners().map(|node| own[node]);
@@ -40,13 +44,8 @@ fn ratio(shape: Form, corners: &Corners, poisson: f64, hourglass: Hourglass) -> 
         0.5 * (k[(i, j)] + k[(j, i)]) / (mass[i / 3] * mass[j / 3]).sqrt()
     });
     let exact = 2.0 / scaled.symmetric_eigenvalues().max().sqrt();
-    let mut rig = Rig::single(corners, elastic(poisson), hourglass);
-    rig.block.element = Element::Hexahedron(Hexahedron {
-        hourglass,
-        least_share: least_share(&numbers, &shares),
-        precision: Precision::Double,
-        spin: Spin::default(),
-    });
+    let own: Vec<[f64; 3]> = (0..shape.nodes()).map(|node| corners[first(shape, node)]).collect();
+    let mut rig = Rig::new(&own, &[numbers], elastic(poisson), hourglass);
     exact / rig.step(0.0, |_| [0.0; 3]).stable_step
 }
 

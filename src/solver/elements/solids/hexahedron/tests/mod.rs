@@ -118,7 +118,7 @@ impl Rig {
                 NewElement { place: place as u32, ..by_hand::single(&nodes, &corners, mass) }
             })
             .collect();
-        let element = Element::Hexahedron(Hexahedron { hourglass, least_share: 1.0, precision, spin: Spin::default() });
+        let element = Element::Hexahedron(Hexahedron { hourglass, precision, spin: Spin::default() });
         Rig {
             block: by_hand::block(&element, &law, DENSITY, &elements),
             nodes: points.iter().copied().map(by_hand::at_rest).collect(),

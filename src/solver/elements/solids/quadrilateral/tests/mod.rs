@@ -190,12 +190,8 @@ fn assert_one_layer(what: &str, law: &Law, hourglass: Hourglass, corners: &Corne
     let thickness = 1.0;
     let solid: Vec<[f64; 3]> = [-0.5, 0.5].iter().flat_map(|&z| corners.map(|[x, y, _]| [x, y, z])).collect();
     let mut flat = Rig::flat(corners, law.clone(), hourglass, false);
-    let element = Element::Hexahedron(Hexahedron {
-        hourglass,
-        least_share: 1.0,
-        precision: Default::default(),
-        spin: Default::default(),
-    });
+    let element =
+        Element::Hexahedron(Hexahedron { hourglass, precision: Default::default(), spin: Default::default() });
     let nodes = [0, 1, 2, 3, 4, 5, 6, 7];
     let mut deep = Rig::new(&solid, &nodes, element, law.clone(), DENSITY * plane::area(corners) * thickness);
     let time_step = 1e-5;
