@@ -15,6 +15,7 @@ mod press_fit;
 mod rigid;
 mod rigid_driven;
 mod rims;
+mod room;
 mod shells;
 mod sliding;
 mod solids;

@@ -177,7 +177,7 @@ fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) ->
         for c in &constraints {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
-        let limits = Limits { iterations: 100, unsettled: 100, tolerance: 0.1 * NOTHING };
+        let limits = Limits { iterations: 100, unsettled: 100, tolerance: 0.1 * NOTHING, may_give_way: false };
         enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited);
         enforcer.solve(&mut constraints, &motion, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions: &mut Vec<[f64; 3]> = &mut body.positions;

@@ -65,6 +65,7 @@ impl PlaneNode {
             growth: 0.0,
             persists: self.carried != Carried::NOTHING,
             yields: false,
+            is_thick: self.reach > 0.0,
             size,
             share: 1.0,
             friction: Friction::constant(plane.friction),

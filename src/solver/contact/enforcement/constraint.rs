@@ -28,6 +28,8 @@ pub struct Constraint {
     pub persists: bool,
     /// Whether it leaves its nodes to another constraint at first, see `node_pairs`.
     pub yields: bool,
+    /// Whether its members touch at a distance, the thickness of one of them: see `giving_way`.
+    pub is_thick: bool,
     /// Length that the gap is small against.
     pub size: f64,
     /// Weight of this constraint where points share their mass among several: the slave share of the partition.
@@ -131,6 +133,8 @@ pub struct ConstraintState {
     pub strength: f64,
     /// For each member, |w| times what a unit force along the normal does to it, and to what slides.
     pub softness: [[f64; 2]; MEMBERS],
+    /// How far it gives way under a unit force where there is no room, an inverse mass; 0 without a thickness.
+    pub compliance: f64,
     /// Velocity of sliding without contact forces, length per time.
     pub slip: [f64; 3],
     /// The same over the step before.

@@ -19,6 +19,7 @@ use super::accounts::certificate::{Sums, Target, Terms, tangential};
 use super::accounts::ledger::Ledger;
 use super::carried::Carried;
 use super::constraint::{Constraint, ConstraintState, MEMBERS, Response};
+use super::giving_way;
 use super::iterates::Iterates;
 use super::iterations::{Limits, Outcome, Times};
 use super::joints::JointSums;
@@ -168,6 +169,10 @@ impl Enforcer {
             }
         }
         self.iterates.end(constraints, &mut self.states);
+        outcome = match outcome.filter(|outcome| outcome.lacks_room) {
+            Some(first) => Some(self.give_way(constraints, motion, (times, limits), first, others)),
+            None => outcome,
+        };
         if outcome.is_some() {
             self.settle(constraints, motion, times, ledger, others);
             let travel = outcome.map_or(0.0, |outcome| outcome.travel);
@@ -194,6 +199,7 @@ impl Enforcer {
             return;
         }
         self.scatter(motion, times, others);
+        self.lower_targets(constraints, times.drift);
         let granted = ledger.granted();
         let mut all = Sums::default();
         self.rays.clear();
@@ -303,6 +309,7 @@ impl Enforcer {
             if inverse > HELD * isotropic {
                 state.strength = c.share.max(LEAST_SHARE) / inverse;
                 state.closing = drift * (state.free - state.target.with(granted));
+                state.compliance = if c.is_thick { giving_way::compliance(c, &state) } else { 0.0 };
             } else {
                 (c.carried.normal_force, c.carried.tangential_force) = (0.0, [0.0; 3]);
                 self.note_held(sunk, DEEP);

@@ -37,6 +37,8 @@ pub struct Iterate {
     pub size: f64,
     /// For each member, |w| times what a unit force along the normal does to it.
     pub softness: [f64; MEMBERS],
+    /// How far it gives way under a unit force, an inverse mass; 0 where it does not.
+    pub compliance: f64,
 }
 
 /// Friction force of a constraint in the course of the iterations.
@@ -90,6 +92,7 @@ impl Iterates {
                 closing: state.closing,
                 size: c.size,
                 softness: state.softness.map(|[along, _]| along),
+                compliance: 0.0,
             });
             if has_friction {
                 self.friction.push(FrictionIterate {
@@ -102,6 +105,15 @@ impl Iterates {
                 });
             }
         }
+    }
+
+    /// The same after a first attempt, where what has a thickness gives way now; see `giving_way`.
+    pub fn begin_anew(&mut self, constraints: &[Constraint], states: &[ConstraintState]) {
+        self.begin(constraints, states);
+        for (own, state) in self.normal.iter_mut().zip(states) {
+            (own.compliance, own.touched) = (state.compliance, own.touched || state.touched);
+        }
+        self.friction.iter_mut().zip(states).for_each(|(own, state)| own.slid |= state.slid);
     }
 
     /// Whether a constraint has a gap to close.

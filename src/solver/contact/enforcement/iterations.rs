@@ -21,7 +21,7 @@ const NEARLY_SETTLED: f64 = 0.02;
 /// After so many steps in a row in which they have not settled iterations may go on.
 const MANY_IN_A_ROW: u64 = 32;
 
-/// Where fewer iterations may be made nothing yields.
+/// Where fewer iterations may be made nothing yields, nor gives way.
 const FEW: u32 = 8;
 
 /// What yields takes no force in the first of so many parts of the iterations: what has not settled by then will hardly do so for its sake.
@@ -39,6 +39,8 @@ pub struct Limits {
     pub unsettled: u32,
     /// Overlap that is left alone, as a part of the face's size; what iterations may still move follows it.
     pub tolerance: f64,
+    /// Whether what has a thickness may give way where they run out, see `giving_way`: not what is pressed for many steps.
+    pub may_give_way: bool,
 }
 
 impl Limits {
@@ -64,7 +66,11 @@ impl Limits {
     /// does not settle is left at that: in folds that close more iterations push tangled corners farther.
     pub fn after(self, unsettled_steps: u64) -> Limits {
         let goes_on = unsettled_steps >= MANY_IN_A_ROW;
-        Limits { unsettled: if goes_on { self.unsettled } else { self.iterations }, ..self }
+        Limits {
+            unsettled: if goes_on { self.unsettled } else { self.iterations },
+            may_give_way: self.may_give_way && !goes_on,
+            ..self
+        }
     }
 
     /// Whether a step has settled within the usual number of iterations.
@@ -85,6 +91,8 @@ pub struct Outcome {
     pub iterations: u32,
     /// Whether they ran out: the last of them left more than the tolerance, or moved a contact by a good part of the step's motion.
     pub ran_out: bool,
+    /// Whether they ran out by far where something has a thickness; see `giving_way`.
+    pub lacks_room: bool,
     /// How much the last iteration still moved, as a part of the face's size: about the largest overlap left.
     pub residual: f64,
     /// Deepest overlap that motion had made before the step, as a part of the face's size.
@@ -138,6 +146,7 @@ impl Enforcer {
         let mut own = self.extent(constraints, times.drift);
         (own.wanted, own.held) = (f64::from(u8::from(wanted)), self.held.0);
         own.yields = f64::from(u8::from(constraints.iter().any(|c| c.yields)));
+        own.thick = f64::from(u8::from(self.states.iter().any(|state| state.compliance > 0.0)));
         // With few passes there is no time for it.
         let mut some_yield = limits.iterations >= FEW;
         loop {
@@ -146,7 +155,7 @@ impl Enforcer {
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
             let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
             (own.residual, own.moved) = (moved.residual, moved.length);
-            let Largest { residual, wanted, yields, deepest, depth, travel, moved, held } = others.largest(own);
+            let Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held } = others.largest(own);
             self.held_anywhere = held;
             if wanted == 0.0 {
                 return None;
@@ -158,9 +167,10 @@ impl Enforcer {
                 *spared = Spared { iterations: spared.iterations + 1, moved: spared.moved + residual };
             }
             ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= by_looser(factor));
-            let (iterations, ran_out) =
-                (outcome.iterations + 1, residual > limits.tolerance || moved > UNSETTLED * travel);
-            outcome = Outcome { residual, iterations, ran_out, deepest, depth, travel, looser, ..outcome };
+            let (iterations, is_unsettled) = (outcome.iterations + 1, moved > UNSETTLED * travel);
+            let ran_out = residual > limits.tolerance || is_unsettled;
+            let lacks_room = is_unsettled && thick > 0.0 && limits.iterations >= FEW && limits.may_give_way;
+            outcome = Outcome { residual, iterations, ran_out, lacks_room, deepest, depth, travel, looser, ..outcome };
             let is_settled = by_looser(1.0);
             if (is_settled && !(some_yield && yields > 0.0))
                 || limits.are_reached(iterations, [residual, moved, travel])

@@ -5,6 +5,7 @@ pub mod carried;
 pub mod constraint;
 pub mod enforcer;
 pub mod friction;
+mod giving_way;
 pub mod iterates;
 pub mod iterations;
 pub mod joints;

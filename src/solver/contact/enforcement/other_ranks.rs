@@ -13,6 +13,8 @@ pub struct Largest {
     pub wanted: f64,
     /// 1 where a rank has a constraint that yields, else 0.
     pub yields: f64,
+    /// 1 where a rank has a constraint with a thickness, else 0.
+    pub thick: f64,
     /// Deepest penetration that motion had made before the step, as a part of the face's size.
     pub deepest: f64,
     /// The deepest one as a length, of those that are more than a ten-thousandth of the face's size; else 0.
@@ -26,18 +28,20 @@ pub struct Largest {
 }
 
 /// Number of values in [`Largest`].
-pub const LARGEST: usize = 8;
+pub const LARGEST: usize = 9;
 
 impl Largest {
     /// As numbers, for messages.
     pub fn to_array(self) -> [f64; LARGEST] {
-        let Largest { residual, wanted, yields, deepest, depth, travel, moved, held } = self;
-        [residual, wanted, yields, deepest, depth, travel, moved, held]
+        let Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held } = self;
+        [residual, wanted, yields, thick, deepest, depth, travel, moved, held]
     }
 
     /// From these numbers.
-    pub fn from_array([residual, wanted, yields, deepest, depth, travel, moved, held]: [f64; LARGEST]) -> Largest {
-        Largest { residual, wanted, yields, deepest, depth, travel, moved, held }
+    pub fn from_array(
+        [residual, wanted, yields, thick, deepest, depth, travel, moved, held]: [f64; LARGEST],
+    ) -> Largest {
+        Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held }
     }
 }
 

@@ -55,6 +55,7 @@ mod tests {
             growth: 0.0,
             persists: true,
             yields: false,
+            is_thick: false,
             size: 2.0,
             share: 1.0,
             friction: Friction { at_rest: 0.0, high_speed: 0.0, decay: 0.0 },

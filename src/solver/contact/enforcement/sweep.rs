@@ -149,8 +149,8 @@ fn correct_one<const COUNT: usize>(
         shares[i] = response[3];
     }
     let change = [change[0], change[1], change[2]];
-    let gap = own.closing + times.drift * dot(change, own.normal);
     let tried = own.normal_force;
+    let gap = own.closing + times.drift * dot(change, own.normal) + times.both * own.compliance * tried;
     if tried == 0.0 && gap >= 0.0 {
         (own.last, own.active) = (0.0, false);
         if let Some(friction) = friction {
@@ -164,7 +164,7 @@ fn correct_one<const COUNT: usize>(
         shares[i] = shares[i] / own.strength + unseen * own.weights[i].abs();
     }
     let inverse = (0..COUNT).fold(0.0, |sum, i| sum + shares[i] * own.softness[i]);
-    let normal_force = (tried - gap / (times.both * inverse)).max(0.0);
+    let normal_force = (tried - gap / (times.both * (inverse + own.compliance))).max(0.0);
     let moved = (normal_force - tried).abs() * times.both * inverse;
     let moved = match friction {
         Some(friction) => moved.max(friction.correct(own.normal, (normal_force, &shares), change, times, pace)),

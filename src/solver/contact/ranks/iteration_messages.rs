@@ -129,7 +129,7 @@ impl OtherRanks for IterationExchange<'_> {
 }
 
 /// Numbers of a constraint on its way.
-const COPY: usize = 4 * MEMBERS + 22;
+const COPY: usize = 4 * MEMBERS + 23;
 
 /// A row of numbers that is written or read from its beginning to its end.
 struct Row {
@@ -161,7 +161,7 @@ fn pack(c: &Constraint, state: &ConstraintState, members: [u32; MEMBERS]) -> [f6
     row.put(state.slip);
     row.put([at_rest, high_speed, decay]);
     row.put([c.count as f64, c.size, c.share, c.carried.normal_force, state.closing, state.strength]);
-    row.put([f64::from(u8::from(c.yields))]);
+    row.put([f64::from(u8::from(c.yields)), state.compliance]);
     row.put(c.origin.to_array());
     state.softness.into_iter().for_each(|of_member| row.put(of_member));
     row.numbers
@@ -177,7 +177,7 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
     let slip = row.take();
     let [at_rest, high_speed, decay] = row.take();
     let [count, size, share, normal_force, closing, strength] = row.take();
-    let [yields] = row.take();
+    let [yields, compliance] = row.take();
     let origin = Origin::from_array(row.take());
     let softness = std::array::from_fn(|_| row.take());
     let constraint = Constraint {
@@ -193,10 +193,11 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
         gap: 0.0,
         growth: 0.0,
         persists: true,
+        is_thick: false,
         carried: Carried { penetration: 0.0, normal_force, tangential_force },
         origin,
     };
-    (constraint, ConstraintState { strength, softness, slip, closing, ..Default::default() })
+    (constraint, ConstraintState { strength, softness, slip, closing, compliance, ..Default::default() })
 }
 
 #[cfg(test)]
@@ -215,6 +216,7 @@ mod tests {
                 growth: 0.0,
                 persists: true,
                 yields: true,
+                is_thick: false,
                 size: 0.01,
                 share: 0.5,
                 friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },
@@ -223,6 +225,7 @@ mod tests {
             };
             let state = ConstraintState {
                 strength: 6.0,
+                compliance: 0.7,
                 softness: [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0], [9.0, 10.0]],
                 slip: [0.1, 0.2, -0.3],
                 closing: -1e-3,
@@ -233,6 +236,7 @@ mod tests {
             assert_eq!(unpacked, constraint);
             assert_eq!(pack(&unpacked, &its_state, constraint.members.map(|place| place + 100)), numbers);
             assert_eq!((its_state.strength, its_state.closing, its_state.slip), (6.0, -1e-3, state.slip));
+            assert_eq!(its_state.compliance, 0.7);
             assert_eq!(its_state.softness, state.softness);
         }
     }

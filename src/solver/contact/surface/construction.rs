@@ -215,13 +215,15 @@ fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limi
             iterations: control.passes,
             unsettled: control.unsettled_passes,
             tolerance: control.tolerance,
+            may_give_way: true,
         };
     }
     let mut nodes = plane_node_sets.concat();
     nodes.sort_unstable();
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
     let iterations = if alone { 1 } else { control.passes };
-    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY }
+    // Nobody else hears what runs out here.
+    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY, may_give_way: false }
 }
 
 fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {

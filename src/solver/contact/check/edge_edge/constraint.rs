@@ -66,6 +66,7 @@ impl EdgeCheck<'_> {
             growth: 0.0,
             persists: now.carried != Carried::NOTHING,
             yields: false,
+            is_thick: self.distance(pair) > 0.0,
             size: end.shorter(),
             share: pairing.share,
             friction: pairing.friction,

@@ -389,6 +389,7 @@ pub fn constraint(faces: &Faces, pairing: Pairing, point: u32, contact: &Detecte
         growth: 0.0,
         persists: contact.time < 0.0,
         yields: false,
+        is_thick: faces.distance(point, contact.face) > 0.0,
         size: faces.size[face],
         share,
         friction: pairing.friction,

@@ -105,13 +105,14 @@ pub trait Facet<V: Lanes, const C: usize, const R: usize>: Sized {
     /// Area.
     fn area(&self) -> V;
 
-    /// Axes: e₁ along the first natural coordinate ξ, e₃ the normal. Each a vector.
+    /// Axes: e₁ and e₂ in the plane, e₃ the normal. Each a vector.
     fn axes(&self) -> &[[V; 3]; 3];
 
-    /// ∂x_a/∂ξ_α: (1,ξ), (1,η), (2,η); (2,ξ) is zero.
-    fn jacobian(&self) -> &[V; 3];
+    /// ∂x_a/∂ξ_α: (1,ξ), (1,η), (2,ξ), (2,η).
+    fn jacobian(&self) -> [V; 4];
 
-    /// ∂ξ_α/∂x_a of the element: the reference that [`Facet::turn`] wants of the start.
+    /// ∂ξ_α/∂X_b of the element in axes of which the first is along ξ: (ξ,1), (ξ,2), (η,2), since (η,1) is zero there. The reference
+    /// that [`Facet::turn`] wants of the start.
     fn reference(&self) -> [V; 3];
 
     /// Rates of strain of velocities and rotation rates of the corners.
@@ -132,15 +133,15 @@ pub trait Facet<V: Lanes, const C: usize, const R: usize>: Sized {
     /// Whether plastic flow takes as much off this resistance as off bending, not as off the membrane.
     fn bends(resistance: usize) -> bool;
 
-    /// Cosine and sine of the angle from e₁ to the material axis that was e₁ at the start, by the polar decomposition of the
+    /// Cosine and sine of the angle from e₁ to the material axis that was along ξ at the start, by the polar decomposition of the
     /// motion in the plane; and the stretch in these material axes: 11, 22, 12.
     #[inline(always)]
     fn turn(&self, reference: &[V; 3]) -> ([V; 2], [V; 3]) {
-        let [j11, j12, j22] = *self.jacobian();
+        let [j11, j12, j21, j22] = self.jacobian();
         let [r11, r12, r22] = *reference;
         // F_ab = ∂x_a/∂ξ_α ∂ξ_α/∂X_b
         let (f11, f12) = (j11 * r11, j11 * r12 + j12 * r22);
-        let (f21, f22) = (V::splat(0.0), j22 * r22);
+        let (f21, f22) = (j21 * r11, j21 * r12 + j22 * r22);
         let (a, b) = (f11 + f22, f21 - f12);
         let length = (a * a + b * b).max(V::splat(V::TINY)).sqrt();
         let (c, s) = (a / length, b / length);

@@ -7,6 +7,10 @@
 //! element by X and P, and the rotation about the normal (drill). Forces are the transpose of the rates, so that the power is the
 //! same to the last bit of rounding, and rigid motion does no work. In this form the twisted beam is passed, which plain
 //! one-point shells (Belytschko, Lin and Tsay 1984) fail; it is equivalent in purpose to Belytschko, Wong and Chiang (1992).
+//!
+//! Strains of the hourglass fields are assumed in axes, and others in other axes; so is the bound of the stable step. As in solids
+//! these are the rotation nearest to both natural coordinates, the R of J = R U (polar decomposition), which no numbering of the
+//! corners chooses: another first corner, or a look from the other side, exchanges e₁ and e₂ and turns signs, and nothing else.
 
 use super::facet::{self, Facet, Kind, Rates, Resultants, Stiffnesses};
 use crate::lanes::{Lanes, array};
@@ -35,11 +39,11 @@ type Pattern<V> = [[V; 3]; 3];
 
 /// An element as it lies.
 pub struct Geometry<V> {
-    /// Axes: e₁ along ξ, e₃ normal to the plane of ξ and η. Each a vector.
+    /// Axes: e₁ and e₂ the rotation nearest to ξ and η, e₃ normal to their plane. Each a vector.
     pub e: [[V; 3]; 3],
-    /// ∂x_a/∂ξ_α: (1,ξ), (1,η), (2,η); (2,ξ) is zero.
+    /// ∂x_a/∂ξ_α, symmetric in these axes: (1,ξ), (1,η), (2,η).
     jacobian: [V; 3],
-    /// ∂ξ_α/∂x_a: (ξ,1), (ξ,2), (η,2); (η,1) is zero.
+    /// ∂ξ_α/∂x_a, symmetric too: (ξ,1), (ξ,2), (η,2).
     inverse: [V; 3],
     /// Area.
     pub area: V,
@@ -89,6 +93,15 @@ pub fn unit<V: Lanes>(a: &[V; 3]) -> [V; 3] {
     times(a, V::splat(1.0) / length)
 }
 
+/// Derivatives along e₁ and e₂ from those along ξ and η.
+#[inline(always)]
+fn gradient<V: Lanes>(inverse: &[V; 3], xi: &[V; 3], eta: &[V; 3]) -> [[V; 3]; 2] {
+    [
+        array![i in 3 => xi[i] * inverse[0] + eta[i] * inverse[1]],
+        array![i in 3 => xi[i] * inverse[1] + eta[i] * inverse[2]],
+    ]
+}
+
 #[inline(always)]
 fn patterns<V: Lanes>(f: &Corners<V>) -> Pattern<V> {
     let quarter = V::splat(0.25);
@@ -103,12 +116,16 @@ impl<V: Lanes> Geometry<V> {
     fn of_corners(x: &Corners<V>) -> Geometry<V> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let [g1, g2, gh] = patterns(x);
-        let e1 = unit(&g1);
-        let e3 = unit(&cross(&g1, &g2));
+        let normal = cross(&g1, &g2);
+        let e3 = unit(&normal);
+        // The polar decomposition in the plane: (J₁₁ + J₂₂, J₂₁ − J₁₂) is along e₁ in any axes.
+        let e1 = unit(&plus(&g1, &cross(&g2, &e3)));
         let e = [e1, cross(&e3, &e1), e3];
         let jacobian = [dot(&g1, &e[0]), dot(&g2, &e[0]), dot(&g2, &e[1])];
-        let determinant = jacobian[0] * jacobian[2];
-        let inverse = [one / jacobian[0], zero - jacobian[1] / determinant, one / jacobian[2]];
+        // Of J without a difference, which would lose the digits of an element that is nearly a line.
+        let determinant = dot(&normal, &e[2]);
+        let over = one / determinant;
+        let inverse = [jacobian[2] * over, (zero - jacobian[1]) * over, jacobian[0] * over];
         let edges = [minus(&x[1], &x[0]), minus(&x[2], &x[1]), minus(&x[2], &x[3]), minus(&x[3], &x[0])];
         // Corner by corner, the edge that leads away times the one that comes in.
         let p = [
@@ -118,7 +135,7 @@ impl<V: Lanes> Geometry<V> {
             unit(&cross(&edges[2], &edges[3])),
         ];
         let [p_xi, p_eta, p_h] = patterns(&p);
-        let slope = [times(&p_xi, inverse[0]), plus(&times(&p_xi, inverse[1]), &times(&p_eta, inverse[2]))];
+        let slope = gradient(&inverse, &p_xi, &p_eta);
         let skew = [dot(&gh, &e[0]), dot(&gh, &e[1])];
         let hourglass =
             [times(&e[2], dot(&gh, &e[2])), array![i in 3 => p_h[i] - skew[0] * slope[0][i] - skew[1] * slope[1][i]]];
@@ -132,8 +149,7 @@ impl<V: Lanes> Geometry<V> {
     #[inline(always)]
     fn derivatives(&self, f: &Corners<V>) -> Pattern<V> {
         let [xi, eta, h] = patterns(f);
-        let d1 = times(&xi, self.inverse[0]);
-        let d2: [V; 3] = array![i in 3 => xi[i] * self.inverse[1] + eta[i] * self.inverse[2]];
+        let [d1, d2] = gradient(&self.inverse, &xi, &eta);
         let rest = array![i in 3 => h[i] - self.skew[0] * d1[i] - self.skew[1] * d2[i]];
         [d1, d2, rest]
     }
@@ -165,7 +181,8 @@ impl<V: Lanes> Geometry<V> {
         let [s12, s23, s43, s14] = self.edge_shears(v, &q);
         let quarter = V::splat(0.25);
         let (xi, eta) = (quarter * (s12 + s43), quarter * (s23 + s14));
-        let shear = [self.inverse[0] * xi, self.inverse[1] * xi + self.inverse[2] * eta];
+        let inverse = &self.inverse;
+        let shear = [inverse[0] * xi + inverse[1] * eta, inverse[1] * xi + inverse[2] * eta];
         let [big_x, big_p] = &self.hourglass;
         let spin: [V; 3] = {
             let normal = half * (dot(e2, &v1) - dot(e1, &v2));
@@ -247,7 +264,7 @@ impl<V: Lanes> Geometry<V> {
     fn add_edges(&self, shear: [V; 2], twist: [V; 2], force: &mut Corners<V>, fibre: &mut Corners<V>) {
         let quarter = V::splat(0.25);
         let xi = self.inverse[0] * shear[0] + self.inverse[1] * shear[1];
-        let eta = self.inverse[2] * shear[1];
+        let eta = self.inverse[1] * shear[0] + self.inverse[2] * shear[1];
         let weights = [xi - twist[0], eta + twist[1], xi + twist[0], eta - twist[1]];
         for edge in 0..4 {
             let [i, j] = ENDS[edge];
@@ -271,7 +288,7 @@ impl<V: Lanes> Geometry<V> {
         for i in 0..3 {
             let (t1, t2) = (t1[i] - self.skew[0] * th[i], t2[i] - self.skew[1] * th[i]);
             let xi = quarter * (self.inverse[0] * t1 + self.inverse[1] * t2);
-            let eta = quarter * (self.inverse[2] * t2);
+            let eta = quarter * (self.inverse[1] * t1 + self.inverse[2] * t2);
             let h = quarter * th[i];
             corners[0][i] = h - xi - eta;
             corners[1][i] = xi - eta - h;
@@ -287,7 +304,8 @@ impl<V: Lanes> Geometry<V> {
     fn hourglass_metric(&self) -> ([V; 3], [V; 2]) {
         let third = self.area * V::splat(1.0 / 3.0);
         let [a, b, d] = self.inverse;
-        ([third * a * a, third * (b * b + d * d), third * a * b], [third * (a * a + b * b), third * d * d])
+        let (first, second) = (third * (a * a + b * b), third * (b * b + d * d));
+        ([first, second, third * b * (a + d)], [first, second])
     }
 }
 
@@ -308,13 +326,18 @@ impl<V: Lanes> Facet<V, 4, RESISTANCES> for Geometry<V> {
     }
 
     #[inline(always)]
-    fn jacobian(&self) -> &[V; 3] {
-        &self.jacobian
+    fn jacobian(&self) -> [V; 4] {
+        let [j11, j12, j22] = self.jacobian;
+        [j11, j12, j12, j22]
     }
 
     #[inline(always)]
     fn reference(&self) -> [V; 3] {
-        self.inverse
+        let [j11, j12, j22] = self.jacobian;
+        let first = (j11 * j11 + j12 * j12).sqrt();
+        let determinant = self.area * V::splat(0.25);
+        let along = j12 * (j11 + j22) / first;
+        [V::splat(1.0) / first, V::splat(0.0) - along / determinant, first / determinant]
     }
 
     #[inline(always)]
@@ -354,18 +377,19 @@ impl<V: Lanes> Facet<V, 4, RESISTANCES> for Geometry<V> {
     #[inline(always)]
     fn rooted(&self, rates: &[V; RESISTANCES], s: &Stiffnesses<V>) -> [V; RESISTANCES] {
         let ([h11, h22, h12], gradients) = self.hourglass_metric();
-        // Cholesky's factor of the hourglass matrix [H₁₁, −ν H₁₂; −ν H₁₂, H₂₂].
-        let first = h11.sqrt();
-        let (nu, square) = (s.poisson, V::splat(s.poisson * s.poisson));
-        let mixed = V::splat(-nu) * h12 / first;
-        let second = (h22 - square * h12 * h12 / h11).max(V::splat(0.0)).sqrt();
+        // The symmetric root of the hourglass matrix A = [H₁₁, −ν H₁₂; −ν H₁₂, H₂₂], (A + √det A)/√(tr A + 2 √det A), which
+        // does not depend on which axis is the first.
+        let mixed = V::splat(-s.poisson) * h12;
+        let root = (h11 * h22 - mixed * mixed).max(V::splat(0.0)).sqrt();
+        let over = V::splat(1.0) / (h11 + h22 + (root + root)).sqrt();
+        let (first, second, mixed) = ((h11 + root) * over, (h22 + root) * over, mixed * over);
         let [m1, m2, b1, b2, t1, t2, d1, d2, d3, d4] = *rates;
         let (membrane, bending, drill) = (s.membrane.sqrt(), s.bending.sqrt(), s.drill.sqrt());
         [
             membrane * (first * m1 + mixed * m2),
-            membrane * second * m2,
+            membrane * (mixed * m1 + second * m2),
             bending * (first * b1 + mixed * b2),
-            bending * second * b2,
+            bending * (mixed * b1 + second * b2),
             (s.shear * gradients[0]).sqrt() * t1,
             (s.shear * gradients[1]).sqrt() * t2,
             drill * d1,

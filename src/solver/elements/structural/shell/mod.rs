@@ -34,7 +34,7 @@ use std::marker::PhantomData;
 
 /// Rows of a shell's state; those of its points follow.
 mod rows {
-    /// ∂ξ_α/∂X_a of the element at the start.
+    /// ∂ξ_α/∂X_b of the element at the start, in axes of which the first is along ξ.
     pub const REFERENCE: usize = 0;
     /// Thickness.
     pub const THICKNESS: usize = 3;

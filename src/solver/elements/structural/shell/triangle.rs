@@ -86,7 +86,9 @@ const SLENDER: f64 = 0.4;
 /// An element as it lies; ξ leads from the first corner to the second, η to the third.
 pub struct Geometry<V> {
     e: [[V; 3]; 3],
+    /// ∂x_a/∂ξ_α: (1,ξ), (1,η), (2,η); (2,ξ) is zero, since e₁ is along ξ.
     jacobian: [V; 3],
+    /// ∂ξ_α/∂x_a: (ξ,1), (ξ,2), (η,2); (η,1) is zero.
     inverse: [V; 3],
     area: V,
     /// Edges 12, 13, 23.
@@ -147,8 +149,9 @@ impl<V: Lanes> Facet<V, 3, RESISTANCES> for Geometry<V> {
     }
 
     #[inline(always)]
-    fn jacobian(&self) -> &[V; 3] {
-        &self.jacobian
+    fn jacobian(&self) -> [V; 4] {
+        let [j11, j12, j22] = self.jacobian;
+        [j11, j12, V::splat(0.0), j22]
     }
 
     #[inline(always)]

@@ -24,7 +24,11 @@ pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
 
 impl Rig {
     pub fn new(law: Law, points: Vec<[f64; 2]>, thickness: f64) -> Rig {
-        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        Rig::of([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]], law, points, thickness)
+    }
+
+    /// A shell with these corners, and the mass of one of area 1.
+    pub fn of(corners: [[f64; 3]; 4], law: Law, points: Vec<[f64; 2]>, thickness: f64) -> Rig {
         let element = Element::Shell(Shell { kind: PhantomData, thickness: Some(thickness), scale: 1.0, points });
         let new = by_hand::single(&[0, 1, 2, 3, 4, 5, 6, 7], &corners, DENSITY * thickness);
         let block = by_hand::block(&element, &law, DENSITY, &[new]);
