@@ -58,7 +58,8 @@ pub use observations::seen::{Looser, Seen};
 pub use press_fit::PressFit;
 pub(in crate::solver) use surface::construction::{Surfaces, surfaces};
 
-/// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly: the nodes hold the rest.
+/// Steps after which edges look for lines of faces anew. What sinks in between nodes does so slowly, as the nodes hold the rest; pairs that come
+/// fast are looked at in every step.
 const LINES_EVERY: u64 = 4;
 
 /// Contact of one rank: surfaces, rigid planes, and the account of their forces.

@@ -2,10 +2,10 @@
 //!
 //! Between solids the elements give way. The thickness at which surfaces and bars touch has no element across it: where nodes that the deck drives, or
 //! heavy bodies, leave less room for the leaves of a fold than these are thick, no forces meet all constraints. Forces against each other then
-//! grow in every iteration, hundredfold what the motion of the step asks for, and act on nodes along normals that turn from step to step: what
-//! does not cancel throws leaves through each other. And what two light nodes can meet by halves is left twice as deep as what one of them meets alone. So where the iterations have run out, by far, they are made anew, and each
-//! such constraint stays short in proportion to its force, as a spring would. These forces are the only ones that do so, and no larger than the
-//! motion asks for; and leaves that press each other share the room.
+//! grow in every iteration, to a hundredfold of what the motion of the step asks for, and act on nodes along normals that turn from step to step:
+//! what does not cancel throws leaves through each other. And a contact of two light nodes is left twice as deep as one in which a single node can
+//! move. So where the iterations have run out by far they are made anew, and each such constraint stays short in proportion to its force, as a
+//! spring would. There is one solution then, with forces no larger than the motion asks for, and leaves that press each other share the room.
 //!
 //! What gives way in a step is not won back in the next, or contact would give energy: what is pressed for long would creep. So nothing gives way once
 //! iterations have not settled for many steps; there they go on longer.

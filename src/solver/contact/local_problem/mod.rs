@@ -386,7 +386,7 @@ impl LocalProblem {
     }
 
     /// The check of every pair of edges that may cross; of new ones with a line of a face only where `lines` are due, or where an edge
-    /// would else come too deep until they are.
+    /// comes fast.
     #[inline(always)]
     fn check_edges(&mut self, pairings: &Pairings, lines: bool, met: &mut Meetings) {
         let LocalProblem { motion, faces, locator, edges, edge_reaches, least_line_reach, edge_history, .. } = self;
