@@ -2,8 +2,8 @@
 //!
 //! A point that comes anew is checked by motion: when does it come through the moving face from the front? A point
 //! that has touched before is checked where it would be at the end of the step. Of several faces those count that
-//! come first, or as good as first; of these the face that the point's body faces most, then the lower number (Heinstein et al. 1993;
-//! Attaway et al. 1996, figures 3 and 4).
+//! come first, or as good as first; of these the face that the point's body faces most, of surfaces the nearer one, then the lower number
+//! (Heinstein et al. 1993; Attaway et al. 1996, figures 3 and 4).
 
 mod facing;
 mod newcomer;
@@ -323,6 +323,13 @@ impl NodeFaceCheck<'_> {
         let times = contacts.iter().map(|contact| contact.time);
         let first = times.filter(|&time| time >= 0.0).fold(f64::INFINITY, f64::min);
         let too_near = contacts.iter().any(|contact| contact.tolerated < 0.0);
+        // In a hollow of a surface the flank that is nearer holds, and the number decides only where round-off would.
+        let deepest = contacts.iter().fold(f64::INFINITY, |deepest, contact| contact.projection.gap.min(deepest));
+        let depth = |contact: &DetectedContact| {
+            let as_deep = deepest + IN_SURFACE * self.faces.size[contact.face as usize];
+            let counts = self.faces.is_two_sided(contact.face) && contact.projection.gap > as_deep;
+            if counts { contact.projection.gap } else { deepest }
+        };
         contacts.sort_by(|a, b| {
             // What a point is over holds it rather than the border of the face beside that: of solids always, of surfaces where it is too near
             // from the beginning.
@@ -332,7 +339,8 @@ impl NodeFaceCheck<'_> {
             let by_way = from_border(a).cmp(&from_border(b)).then(a.opposition.total_cmp(&b.opposition));
             let at_once = |contact: &DetectedContact| (first..=first + AT_ONCE).contains(&contact.time);
             let time = |contact: &DetectedContact| if at_once(contact) { first } else { contact.time };
-            time(a).total_cmp(&time(b)).then(by_way).then(number(a).cmp(&number(b)))
+            let by_depth = depth(a).total_cmp(&depth(b));
+            time(a).total_cmp(&time(b)).then(by_way).then(by_depth).then(number(a).cmp(&number(b)))
         });
         let mut kept = 0;
         for i in 0..contacts.len() {

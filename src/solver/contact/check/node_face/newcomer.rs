@@ -388,6 +388,17 @@ mod tests {
     }
 
     #[test]
+    fn in_a_shallow_hollow_the_nearer_flank_holds() {
+        // Both flanks push the same way. Over the flat one, which has the lower number, and over the raised one.
+        for (x, normal) in [(0.02, [0.0, 0.0, 1.0]), (-0.02, [3_f64.to_radians().sin(), 0.0, 3_f64.to_radians().cos()])]
+        {
+            let pushes = pushes(177.0, [x, 0.4, 0.2], [x, 0.4, 0.09]);
+            // To round-off.
+            assert!(pushes.len() == 1 && dot(pushes[0], normal).abs() > 1.0 - 1e-12, "{x}: {pushes:?}");
+        }
+    }
+
+    #[test]
     fn what_comes_along_a_flank_in_a_hollow_is_held_by_the_other() {
         // From before the raised flank of an obtuse hollow, and in front of both.
         let inside = pushes(120.0, [-0.05, 0.4, 0.3], [0.06, 0.4, 0.06]);
