@@ -124,6 +124,12 @@ impl Response {
         let [x, y, z] = self.velocity_change;
         [x, y, z, self.load]
     }
+
+    /// From this vector.
+    #[inline(always)]
+    pub fn from_array([x, y, z, load]: [f64; 4]) -> Response {
+        Response { velocity_change: [x, y, z], load }
+    }
 }
 
 /// What is known of a constraint in a step beyond what it is: before the iterations, and after them.

@@ -198,7 +198,7 @@ impl Enforcer {
         if let Ledger::Unlimited = ledger {
             return;
         }
-        self.scatter(motion, times, others);
+        self.scatter(motion, times, &mut [], others);
         self.lower_targets(constraints, times.drift);
         let granted = ledger.granted();
         let mut all = Sums::default();
@@ -357,8 +357,15 @@ impl Enforcer {
         self.members.iter().for_each(|&point| self.is_member[point as usize] = false);
     }
 
-    /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move.
-    pub(super) fn scatter(&mut self, motion: &NodeMotion, times: Times, others: &mut dyn OtherRanks) {
+    /// Sums forces and loads at the points, in the order of the constraints, and finds how far they move; and, beside that, the largest
+    /// of all ranks' values.
+    pub(super) fn scatter(
+        &mut self,
+        motion: &NodeMotion,
+        times: Times,
+        largest: &mut [f64],
+        others: &mut dyn OtherRanks,
+    ) {
         sweep::scatter(self.instructions, &self.iterates, &mut self.sums);
         for &point in &self.members {
             let p = point as usize;
@@ -378,7 +385,7 @@ impl Enforcer {
             let pushing = (&self.members[..], &self.iterates);
             self.joints.answer(pushing, motion, times.kick, &mut self.responses, others);
         }
-        others.share(&mut self.responses);
+        others.share(&mut self.responses, largest);
     }
 
     /// Sums the forces that were found, in the order of the constraints.

@@ -2,8 +2,8 @@
 
 use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
-use super::other_ranks::{Largest, OtherRanks};
-use super::sweep::{self, Pace};
+use super::other_ranks::{Beginning, OtherRanks};
+use super::sweep::{self, Moved, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
 
 /// Iterations go on until they move nothing by more than so many times the tolerance, as a part of the farthest motion of a
@@ -131,8 +131,7 @@ pub(super) struct Times {
 }
 
 impl Enforcer {
-    /// Iterates with the forces of [`Enforcer::iterates`]; `None` where nobody has a gap to close. Others are asked with the first:
-    /// where somebody wants them, and that is nearly always, it costs nothing.
+    /// Iterates with the forces of [`Enforcer::iterates`]; `None` where nobody has a gap to close.
     pub(super) fn iterate(
         &mut self,
         constraints: &[Constraint],
@@ -142,24 +141,27 @@ impl Enforcer {
         wanted: bool,
         others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
-        let (mut outcome, mut momentum, mut ended) = (Outcome::default(), Momentum::new(), [false; LOOSER.len()]);
-        let mut own = self.extent(constraints, times.drift);
-        (own.wanted, own.held) = (f64::from(u8::from(wanted)), self.held.0);
-        own.yields = f64::from(u8::from(constraints.iter().any(|c| c.yields)));
-        own.thick = f64::from(u8::from(self.states.iter().any(|state| state.compliance > 0.0)));
+        let mut all = self.beginning(constraints, times.drift, wanted).to_array();
+        self.scatter(motion, times, &mut all, others);
+        let Beginning { wanted, yields, thick, deepest, depth, travel, held } = Beginning::from_array(all);
+        self.held_anywhere = held;
+        if wanted == 0.0 {
+            return None;
+        }
+        let mut outcome = Outcome { deepest, depth, travel, ..Default::default() };
+        let (mut momentum, mut ended) = (Momentum::new(), [false; LOOSER.len()]);
         // With few passes there is no time for it.
         let mut some_yield = limits.iterations >= FEW;
         loop {
-            self.scatter(motion, times, others);
             let pace = momentum.next(some_yield);
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
-            let moved = sweep::correct(*instructions, iterates, responses, (times, pace));
-            (own.residual, own.moved) = (moved.residual, moved.length);
-            let Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held } = others.largest(own);
-            self.held_anywhere = held;
-            if wanted == 0.0 {
-                return None;
+            let Moved { residual, length } = sweep::correct(*instructions, iterates, responses, (times, pace));
+            let mut farthest = [residual, length];
+            // Others tell whether this iteration was the last beside what only a further one needs: one wait instead of two.
+            if others.are_there() {
+                self.scatter(motion, times, &mut farthest, others);
             }
+            let [residual, moved] = farthest;
             momentum.watch(moved);
             let mut looser = outcome.looser;
             let by_looser = |factor: f64| limits.are_met(factor, [residual, moved, travel]);
@@ -170,7 +172,7 @@ impl Enforcer {
             let (iterations, is_unsettled) = (outcome.iterations + 1, moved > UNSETTLED * travel);
             let ran_out = residual > limits.tolerance || is_unsettled;
             let lacks_room = is_unsettled && thick > 0.0 && limits.iterations >= FEW && limits.may_give_way;
-            outcome = Outcome { residual, iterations, ran_out, lacks_room, deepest, depth, travel, looser, ..outcome };
+            outcome = Outcome { residual, iterations, ran_out, lacks_room, looser, ..outcome };
             let is_settled = by_looser(1.0);
             if (is_settled && !(some_yield && yields > 0.0))
                 || limits.are_reached(iterations, [residual, moved, travel])
@@ -179,20 +181,31 @@ impl Enforcer {
             }
             // Where the rest has settled, or does not, what has yielded sees to it that nothing is open to it.
             some_yield &= !is_settled && QUIET * (iterations + 1) < limits.iterations;
+            if !others.are_there() {
+                self.scatter(motion, times, &mut [], others);
+            }
         }
     }
 
-    /// Deepest penetration that motion has made, and the farthest that a contact of this rank would move.
-    fn extent(&self, constraints: &[Constraint], drift: f64) -> Largest {
+    /// What this rank knows before the first iteration.
+    fn beginning(&self, constraints: &[Constraint], drift: f64, wanted: bool) -> Beginning {
+        let flag = |holds: bool| f64::from(u8::from(holds));
+        let of_all = Beginning {
+            wanted: flag(wanted),
+            yields: flag(constraints.iter().any(|c| c.yields)),
+            thick: flag(self.states.iter().any(|state| state.compliance > 0.0)),
+            held: self.held.0,
+            ..Default::default()
+        };
         let known = self.states.iter().zip(&self.iterates.normal);
         let own = constraints.iter().zip(known).filter(|(_, (state, _))| state.own && state.strength > 0.0);
-        own.fold(Largest::default(), |all, (c, (state, iterate))| {
+        own.fold(of_all, |all, (c, (state, iterate))| {
             let penetration = c.carried.penetration;
             // A node above a plane is no contact until it reaches it.
             let is_contact = iterate.active || !matches!(c.origin, Origin::Plane(_));
             let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
             let depth = if penetration > NOTICED * c.size { penetration } else { 0.0 };
-            Largest {
+            Beginning {
                 deepest: (penetration / c.size).max(all.deepest),
                 depth: depth.max(all.depth),
                 travel: travel.max(all.travel),

@@ -4,11 +4,9 @@ use super::accounts::certificate::Sums;
 use super::constraint::{Constraint, ConstraintState, Response};
 use crate::comm::{Communicator, ExactSum, gather_for_all};
 
-/// Of what all ranks learn the largest value in an iteration.
+/// Of what all ranks learn the largest value before the first iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Largest {
-    /// Farthest that the iteration moved a constraint, as a part of the face's size.
-    pub residual: f64,
+pub struct Beginning {
     /// 1 where a rank has a gap to close, else 0.
     pub wanted: f64,
     /// 1 where a rank has a constraint that yields, else 0.
@@ -21,27 +19,20 @@ pub struct Largest {
     pub depth: f64,
     /// Farthest that a contact would move along its normal in the step without contact forces, a length; not of nodes above planes.
     pub travel: f64,
-    /// Farthest that the iteration moved a constraint, a length.
-    pub moved: f64,
     /// Deepest penetration between members that nothing can move, as a part of the face's size.
     pub held: f64,
 }
 
-/// Number of values in [`Largest`].
-pub const LARGEST: usize = 9;
-
-impl Largest {
+impl Beginning {
     /// As numbers, for messages.
-    pub fn to_array(self) -> [f64; LARGEST] {
-        let Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held } = self;
-        [residual, wanted, yields, thick, deepest, depth, travel, moved, held]
+    pub fn to_array(self) -> [f64; 7] {
+        let Beginning { wanted, yields, thick, deepest, depth, travel, held } = self;
+        [wanted, yields, thick, deepest, depth, travel, held]
     }
 
     /// From these numbers.
-    pub fn from_array(
-        [residual, wanted, yields, thick, deepest, depth, travel, moved, held]: [f64; LARGEST],
-    ) -> Largest {
-        Largest { residual, wanted, yields, thick, deepest, depth, travel, moved, held }
+    pub fn from_array([wanted, yields, thick, deepest, depth, travel, held]: [f64; 7]) -> Beginning {
+        Beginning { wanted, yields, thick, deepest, depth, travel, held }
     }
 }
 
@@ -50,10 +41,9 @@ pub trait OtherRanks {
     /// Appends the constraints of others that act on points which this rank answers for, and sends them those that act on
     /// theirs.
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>);
-    /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there.
-    fn share(&mut self, responses: &mut [Response]);
-    /// The largest of all ranks' values, each by itself.
-    fn largest(&mut self, own: Largest) -> Largest;
+    /// Brings what others know of points that are theirs: how far forces move them, and what constraints weigh there. Beside that, since
+    /// whoever waits for one can wait for both: the largest of all ranks' values, each by itself.
+    fn share(&mut self, responses: &mut [Response], largest: &mut [f64]);
     /// Replaces sums by those over all ranks.
     fn sum(&mut self, sums: &mut Sums);
     /// The same of any sums.
@@ -70,17 +60,22 @@ pub fn gather_numbers(own: &[f64], comm: &mut dyn Communicator) -> Vec<f64> {
     bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()
 }
 
+/// Replaces values by the largest of all ranks, each by itself. All ranks call it, with as many values, and nobody is asked where there are none.
+pub fn find_largest(values: &mut [f64], comm: &mut dyn Communicator) {
+    if !values.is_empty() {
+        values.iter_mut().for_each(|value| *value = -*value);
+        comm.all_min(values);
+        values.iter_mut().for_each(|value| *value = -*value);
+    }
+}
+
 /// There are no others.
 pub struct NoOtherRanks;
 
 impl OtherRanks for NoOtherRanks {
     fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<ConstraintState>) {}
 
-    fn share(&mut self, _: &mut [Response]) {}
-
-    fn largest(&mut self, own: Largest) -> Largest {
-        own
-    }
+    fn share(&mut self, _: &mut [Response], _: &mut [f64]) {}
 
     fn sum(&mut self, _: &mut Sums) {}
 
@@ -101,12 +96,8 @@ pub struct Elsewhere<'a>(pub &'a mut dyn Communicator);
 impl OtherRanks for Elsewhere<'_> {
     fn copy(&mut self, _: &mut Vec<Constraint>, _: &mut Vec<ConstraintState>) {}
 
-    fn share(&mut self, _: &mut [Response]) {}
-
-    fn largest(&mut self, own: Largest) -> Largest {
-        let mut least = own.to_array().map(|value| -value);
-        self.0.all_min(&mut least);
-        Largest::from_array(least.map(|value| -value))
+    fn share(&mut self, _: &mut [Response], largest: &mut [f64]) {
+        find_largest(largest, self.0);
     }
 
     fn sum(&mut self, sums: &mut Sums) {

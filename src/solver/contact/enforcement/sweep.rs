@@ -75,11 +75,8 @@ fn scatter_one<const COUNT: usize>(own: &Iterate, force: [f64; 4], sums: &mut [R
 fn scatter_to(own: &Iterate, member: usize, force: [f64; 4], sums: &mut [Response]) {
     let w = own.weights[member];
     let (sum, w) = (&mut sums[own.members[member] as usize], [w, w, w, w.abs()]);
-    let [x, y, z, load] = {
-        let before = sum.to_array();
-        array!(i in 4 => before[i] + force[i] * w[i])
-    };
-    *sum = Response { velocity_change: [x, y, z], load };
+    let before = sum.to_array();
+    *sum = Response::from_array(array!(i in 4 => before[i] + force[i] * w[i]));
 }
 
 /// Corrects every constraint that something can move by the responses of its members to all forces, at a pace.

@@ -7,7 +7,7 @@ use crate::model::Friction;
 use crate::solver::contact::enforcement::accounts::certificate::Sums;
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::enforcement::constraint::{Constraint, ConstraintState, MEMBERS, Origin, Response};
-use crate::solver::contact::enforcement::other_ranks::{Largest, OtherRanks, gather_numbers};
+use crate::solver::contact::enforcement::other_ranks::{OtherRanks, find_largest, gather_numbers};
 use crate::solver::contact::local_problem::Numbering;
 
 /// What owner ranks tell each other in a step.
@@ -91,24 +91,11 @@ impl OtherRanks for IterationExchange<'_> {
         }
     }
 
-    fn share(&mut self, responses: &mut [Response]) {
-        self.iteration_messages.shares.exchange(
-            responses,
-            |responses, point| {
-                let Response { velocity_change: [x, y, z], load } = responses[point as usize];
-                [x, y, z, load]
-            },
-            |responses, point, [x, y, z, load]| {
-                responses[point as usize] = Response { velocity_change: [x, y, z], load }
-            },
-            self.comm,
-        );
-    }
-
-    fn largest(&mut self, own: Largest) -> Largest {
-        let mut least = own.to_array().map(|value| -value);
-        self.comm.all_min(&mut least);
-        Largest::from_array(least.map(|value| -value))
+    fn share(&mut self, responses: &mut [Response], largest: &mut [f64]) {
+        let shares = &mut self.iteration_messages.shares;
+        shares.send(|point| responses[point as usize].to_array(), self.comm);
+        find_largest(largest, self.comm);
+        shares.receive(|point, values| responses[point as usize] = Response::from_array(values), self.comm);
     }
 
     fn sum(&mut self, sums: &mut Sums) {
