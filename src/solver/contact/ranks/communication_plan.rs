@@ -5,7 +5,7 @@ use super::regional::Regional;
 use crate::comm::Communicator;
 use crate::partition::dynamic::Parcels;
 use crate::solver::contact::check::planes::PlaneNode;
-use crate::solver::contact::local_problem::{LocalProblem, Numbering};
+use crate::solver::contact::local_problem::Numbering;
 use crate::solver::contact::search::neighbourhood::SearchResult;
 use crate::solver::contact::surface::layout::{Layout, inverse};
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,15 +15,13 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct CommunicationPlan {
     /// Points that this rank owns, and on which constraints may act.
     pub here: NumberSet,
-    /// Points that go to each rank, and that come from each.
-    pub send: BTreeMap<u32, BTreeSet<u32>>,
+    /// Points that may have to come from each rank.
     pub receive: BTreeMap<u32, BTreeSet<u32>>,
     /// Ranks with constraints that act on points of both.
     pub partners: BTreeSet<u32>,
-    /// Candidate faces, and owner ranks of ends of candidate edges.
+    /// Candidate faces.
     faces: NumberSet,
-    end_owners: BTreeMap<u32, u32>,
-    /// Ranks that must know points of another: the owner rank of the point, the rank that must know it, and the point.
+    /// What ranks must know: the rank, a point, and the owner rank of this, which may be the same.
     deliveries: Vec<(u32, u32, u32)>,
 }
 
@@ -64,8 +62,10 @@ impl CommunicationPlan {
             ..Default::default()
         };
         let face_places = inverse(regional.faces.ids.iter().copied(), faces);
+        let mut ranks = Vec::new();
         for (i, &point) in found.slave_nodes.iter().enumerate() {
             plan.here.choose(point);
+            ranks.clear();
             for near in &found.candidates[found.first[i] as usize..found.first[i + 1] as usize] {
                 let is_new = plan.faces.choose(near.face);
                 let Some(&owner_ranks) = regional.face_owners.get(face_places[near.face as usize] as usize) else {
@@ -73,88 +73,83 @@ impl CommunicationPlan {
                 };
                 let corners = layout.faces.corners[near.face as usize];
                 if owner_ranks != [me; 4] {
-                    plan.agree(corners.into_iter().zip(owner_ranks).chain([(point, me)]), me);
+                    note(&mut ranks, owner_ranks);
+                    if is_new {
+                        let mut of_face = vec![me];
+                        note(&mut of_face, owner_ranks);
+                        plan.tell(corners.into_iter().zip(owner_ranks), &of_face);
+                    }
                 } else if is_new {
                     corners.iter().for_each(|&corner| _ = plan.here.choose(corner));
                 }
             }
+            plan.tell([(point, me)].into_iter(), &ranks);
         }
-        for pair in &found.pairs {
-            let ends = pair.iter().filter_map(|edge| {
-                let place = regional.edges.ids.binary_search(edge).ok()?;
-                Some(layout.edges[*edge as usize].points(&layout.faces).into_iter().zip(regional.edge_owners[place]))
-            });
-            let members = ends.flatten();
-            if members.clone().all(|(_, owner_rank)| owner_rank == me) {
-                members.for_each(|(end, _)| _ = plan.here.choose(end));
-            } else {
-                plan.end_owners.extend(members.clone());
-                plan.agree(members, me);
-            }
-        }
+        plan.agree_on_edges(me, layout, found, regional);
         plan.deliver(comm);
+        plan.partners.remove(&me);
         plan
     }
 
-    /// Tells all owner ranks what they must tell others of, and hears it from them.
+    /// Tells ranks of which points they must hear, or tell others, and hears it from them.
     fn deliver(&mut self, comm: &mut dyn Communicator) {
         let me = comm.rank() as u32;
         self.deliveries.sort_unstable();
         self.deliveries.dedup();
-        let mut parcels = Parcels::new(&*comm, 2);
-        for (from, to, point) in self.deliveries.drain(..) {
-            parcels.add(from, point, &[0.0, f64::from(to)]);
-            parcels.add(to, point, &[1.0, f64::from(from)]);
+        let mut parcels = Parcels::new(&*comm, 1);
+        for (to, point, owner_rank) in self.deliveries.drain(..) {
+            parcels.add(to, point, &[f64::from(owner_rank)]);
         }
         let records = parcels.exchange(comm);
         for (sender, range) in records.senders.clone() {
-            if sender as u32 != me {
-                self.partners.insert(sender as u32);
-            }
+            self.partners.insert(sender as u32);
             for i in range {
-                let (point, v) = (records.ids[i], records.values(i));
-                let list = if v[0] == 0.0 { &mut self.send } else { &mut self.receive };
-                list.entry(v[1] as u32).or_default().insert(point);
-                if v[0] == 0.0 {
+                let (point, owner_rank) = (records.ids[i], records.values(i)[0] as u32);
+                if owner_rank == me {
                     self.here.choose(point);
+                } else {
+                    self.receive.entry(owner_rank).or_default().insert(point);
                 }
             }
         }
     }
 
-    /// The owner rank of each point of a local problem that constraints may act on, `me` for all others; by places in the local
-    /// problem.
-    pub fn owner_ranks(&self, me: u32, layout: &Layout, regional: &Regional, problem: &LocalProblem) -> Vec<u32> {
-        let mut owner_ranks = vec![me; problem.numbering.points.len() + problem.numbering.ghosts.len()];
-        let mut note = |point: u32, owner_rank: u32| {
-            if let Some(of) = owner_ranks.get_mut(problem.place(point) as usize) {
-                *of = owner_rank;
+    /// Those of edges that may cross: the owner ranks of all ends of two know all of them.
+    fn agree_on_edges(&mut self, me: u32, layout: &Layout, found: &SearchResult, regional: &Regional) {
+        let ends = |edge: u32| layout.edges[edge as usize].points(&layout.faces);
+        let mut ranks_of_edges: Vec<Vec<u32>> = vec![Vec::new(); regional.edges.ids.len()];
+        for pair in &found.pairs {
+            let places = pair.map(|edge| regional.edges.ids.binary_search(&edge).ok());
+            let owner_ranks = || places.iter().flatten().flat_map(|&place| regional.edge_owners[place]);
+            if owner_ranks().all(|owner_rank| owner_rank == me) {
+                let known = places.iter().flatten().flat_map(|&place| ends(regional.edges.ids[place]));
+                known.for_each(|end| _ = self.here.choose(end));
+                continue;
             }
-        };
-        for (face, face_owners) in regional.faces.ids.iter().zip(&regional.face_owners) {
-            if self.faces.0[*face as usize] && *face_owners != [me; 4] {
-                let corners = layout.faces.corners[*face as usize];
-                corners.iter().zip(face_owners).for_each(|(&corner, &owner_rank)| note(corner, owner_rank));
+            for &place in places.iter().flatten() {
+                note(&mut ranks_of_edges[place], owner_ranks().chain([me]));
             }
         }
-        self.end_owners.iter().for_each(|(&point, &owner_rank)| note(point, owner_rank));
-        owner_ranks
+        for (place, ranks) in ranks_of_edges.iter().enumerate() {
+            self.tell(ends(regional.edges.ids[place]).into_iter().zip(regional.edge_owners[place]), ranks);
+        }
     }
 
-    /// The owner ranks of all members of a constraint know all of them.
-    fn agree(&mut self, members: impl Iterator<Item = (u32, u32)> + Clone, me: u32) {
-        let mut ranks: Vec<u32> = members.clone().map(|(_, owner_rank)| owner_rank).chain([me]).collect();
-        ranks.sort_unstable();
-        ranks.dedup();
-        for (point, owner_rank) in members {
-            if owner_rank == me {
-                self.here.choose(point);
-            }
-            for &rank in ranks.iter().filter(|&&rank| rank != owner_rank) {
-                self.deliveries.push((owner_rank, rank, point));
-            }
+    /// Lets ranks know of points with these owner ranks, and have them as partners.
+    fn tell(&mut self, points: impl Iterator<Item = (u32, u32)>, ranks: &[u32]) {
+        for (point, owner_rank) in points {
+            self.deliveries.extend(ranks.iter().map(|&rank| (rank, point, owner_rank)));
         }
-        self.partners.extend(ranks.into_iter().filter(|&rank| rank != me));
+        self.partners.extend(ranks);
+    }
+}
+
+/// Adds those of some ranks that are not yet in a short list.
+fn note(list: &mut Vec<u32>, ranks: impl IntoIterator<Item = u32>) {
+    for rank in ranks {
+        if !list.contains(&rank) {
+            list.push(rank);
+        }
     }
 }
 

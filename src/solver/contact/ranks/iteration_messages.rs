@@ -1,7 +1,7 @@
 //! Messages in the iterations: what owner ranks tell each other of constraints that act on points of both.
 
 use super::communication_plan::CommunicationPlan;
-use super::traffic::{MessagePattern, VariableMessages};
+use super::traffic::{Lists, MessagePattern, VariableMessages};
 use crate::comm::{Communicator, ExactSum};
 use crate::model::Friction;
 use crate::solver::contact::enforcement::accounts::certificate::Sums;
@@ -14,39 +14,77 @@ use crate::solver::contact::local_problem::Numbering;
 #[derive(Default)]
 pub struct IterationMessages {
     rank: u32,
-    /// Owner rank of each point of the local problem, where constraints may act on it.
+    /// Owner rank of each point of the local problem and of its ghosts, where constraints may act on it.
     owner_ranks: Vec<u32>,
     /// Points by number of the layout: those of the local problem, then its ghosts.
     points: Vec<u32>,
     ghosts: Vec<u32>,
-    shares: MessagePattern,
     letters: VariableMessages,
+    /// Between members of the constraints of this step that act on points of several ranks.
+    shares: MessagePattern,
 }
 
 impl IterationMessages {
-    /// The messages of `plan` between points of a local problem with this numbering, whose owner ranks are given by their
-    /// places.
-    pub fn new(
-        rank: u32,
-        owner_ranks: Vec<u32>,
-        numbering: &Numbering,
-        shares: MessagePattern,
-        plan: &CommunicationPlan,
-    ) -> IterationMessages {
-        let letters = VariableMessages::new(plan.partners.iter().map(|&rank| rank as usize));
-        IterationMessages {
+    /// The messages of `plan` between points of a local problem with this numbering.
+    pub fn new(rank: u32, numbering: &Numbering, plan: &CommunicationPlan) -> IterationMessages {
+        let Numbering { points, ghosts, .. } = numbering;
+        let mut messages = IterationMessages {
             rank,
-            owner_ranks,
-            points: numbering.points.clone(),
-            ghosts: numbering.ghosts.clone(),
-            shares,
-            letters,
+            owner_ranks: vec![rank; points.len() + ghosts.len()],
+            points: points.clone(),
+            ghosts: ghosts.clone(),
+            letters: VariableMessages::new(plan.partners.iter().map(|&rank| rank as usize)),
+            shares: MessagePattern::default(),
+        };
+        for (&owner_rank, come) in &plan.receive {
+            for &point in come {
+                let place = messages.place(point) as usize;
+                messages.owner_ranks[place] = owner_rank;
+            }
         }
+        messages
     }
 
     /// With the means to send them.
     pub fn over<'a>(&'a mut self, comm: &'a mut dyn Communicator) -> IterationExchange<'a> {
         IterationExchange { iteration_messages: self, comm }
+    }
+
+    /// Number of a point in the layout.
+    fn number(&self, place: u32) -> u32 {
+        let place = place as usize;
+        self.points.get(place).copied().unwrap_or_else(|| self.ghosts[place - self.points.len()])
+    }
+
+    /// Local number of a point of the layout.
+    fn place(&self, number: u32) -> u32 {
+        let ghost = || self.ghosts.binary_search(&number).expect("the communication plan tells of every member");
+        self.points.binary_search(&number).unwrap_or_else(|_| self.points.len() + ghost()) as u32
+    }
+
+    /// Lets the owner ranks of these constraints' members, and the rank that has made each, tell each other how all its members respond:
+    /// of the points on which constraints may act until the next search, a few in a hundred.
+    fn connect<'a>(&mut self, crossing: impl Iterator<Item = (u32, &'a Constraint)>) {
+        let (mut send, mut receive) = (Lists::new(), Lists::new());
+        let mut ranks: Vec<u32> = Vec::new();
+        for (maker, c) in crossing {
+            ranks.clear();
+            ranks
+                .extend(c.parts().map(|(point, _)| self.owner_ranks[point]).chain([maker]).filter(|&r| r != self.rank));
+            for (point, _) in c.parts() {
+                match self.owner_ranks[point] {
+                    owner_rank if owner_rank == self.rank => {
+                        ranks.iter().for_each(|&to| send.entry(to as usize).or_default().push(point as u32));
+                    }
+                    owner_rank => receive.entry(owner_rank as usize).or_default().push(point as u32),
+                }
+            }
+        }
+        for list in send.values_mut().chain(receive.values_mut()) {
+            list.sort_unstable_by_key(|&point| self.number(point));
+            list.dedup();
+        }
+        self.shares = MessagePattern::new(send, receive, self.rank as usize);
     }
 }
 
@@ -58,34 +96,32 @@ pub struct IterationExchange<'a> {
 
 impl OtherRanks for IterationExchange<'_> {
     fn copy(&mut self, constraints: &mut Vec<Constraint>, states: &mut Vec<ConstraintState>) {
-        let IterationMessages { rank, owner_ranks, points, ghosts, letters, .. } = &mut *self.iteration_messages;
-        let number = |point: u32| match points.get(point as usize) {
-            Some(&number) => number,
-            None => ghosts[point as usize - points.len()],
-        };
-        let place = |number: u32| match points.binary_search(&number) {
-            Ok(place) => place as u32,
-            Err(_) => {
-                let ghost = ghosts.binary_search(&number).expect("the communication plan tells of every member");
-                (points.len() + ghost) as u32
-            }
-        };
-        let acts_on = |c: &Constraint, rank: u32| c.parts().any(|(point, _)| owner_ranks[point] == rank);
-        let own: Vec<(usize, [u32; MEMBERS])> = (constraints.iter().enumerate())
-            .filter(|(_, c)| c.parts().any(|(point, _)| owner_ranks[point] != *rank))
-            .map(|(i, c)| (i, c.members.map(number)))
-            .collect();
-        let mut come: Vec<(Constraint, ConstraintState)> = Vec::new();
+        let messages = &mut *self.iteration_messages;
+        let mut letters = std::mem::take(&mut messages.letters);
+        let acts_on = |c: &Constraint, rank: u32| c.parts().any(|(point, _)| messages.owner_ranks[point] == rank);
+        let is_crossing = |c: &Constraint| c.parts().any(|(point, _)| messages.owner_ranks[point] != messages.rank);
+        let own: Vec<usize> = (0..constraints.len()).filter(|&i| is_crossing(&constraints[i])).collect();
+        let mut come: Vec<(u32, Constraint, ConstraintState)> = Vec::new();
         letters.exchange(
             |to, letter| {
-                for (i, members) in own.iter().filter(|(i, _)| acts_on(&constraints[*i], to as u32)) {
-                    letter.extend(pack(&constraints[*i], &states[*i], *members));
+                for &i in own.iter().filter(|&&i| acts_on(&constraints[i], to as u32)) {
+                    let members = constraints[i].members.map(|member| messages.number(member));
+                    letter.extend(pack(&constraints[i], &states[i], members));
                 }
             },
-            |letter| come.extend(letter.as_chunks().0.iter().map(|numbers| unpack(numbers, place))),
+            |from, letter| {
+                come.extend(letter.as_chunks().0.iter().map(|numbers| {
+                    let (constraint, state) = unpack(numbers, |number| messages.place(number));
+                    (from as u32, constraint, state)
+                }));
+            },
             self.comm,
         );
-        for (constraint, state) in come {
+        messages.letters = letters;
+        let made_here = own.iter().map(|&i| (messages.rank, &constraints[i]));
+        let crossing: Vec<(u32, &Constraint)> = made_here.chain(come.iter().map(|(from, c, _)| (*from, c))).collect();
+        messages.connect(crossing.into_iter());
+        for (_, constraint, state) in come {
             constraints.push(constraint);
             states.push(state);
         }
@@ -191,25 +227,29 @@ fn unpack(numbers: &[f64; COPY], place: impl Fn(u32) -> u32) -> (Constraint, Con
 mod tests {
     use super::*;
 
+    fn example(members: [u32; MEMBERS], count: usize, origin: Origin) -> Constraint {
+        Constraint {
+            members,
+            weights: [1.0, -0.1, -0.2, -0.3, -0.4],
+            count,
+            normal: [0.6, -0.0, 0.8],
+            gap: 0.0,
+            growth: 0.0,
+            persists: true,
+            yields: true,
+            is_thick: false,
+            size: 0.01,
+            share: 0.5,
+            friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },
+            carried: Carried { penetration: 0.0, normal_force: 17.0, tangential_force: [1.5, -2.5, 3.5] },
+            origin,
+        }
+    }
+
     #[test]
     fn a_constraint_arrives_as_it_was_sent() {
         for origin in [Origin::Face(7, 2), Origin::Edges(3, 9), Origin::Plane(5)] {
-            let constraint = Constraint {
-                members: [10, 11, 12, 13, 14],
-                weights: [1.0, -0.1, -0.2, -0.3, -0.4],
-                count: 5,
-                normal: [0.6, -0.0, 0.8],
-                gap: 0.0,
-                growth: 0.0,
-                persists: true,
-                yields: true,
-                is_thick: false,
-                size: 0.01,
-                share: 0.5,
-                friction: Friction { at_rest: 0.3, high_speed: 0.2, decay: 4.0 },
-                carried: Carried { penetration: 0.0, normal_force: 17.0, tangential_force: [1.5, -2.5, 3.5] },
-                origin,
-            };
+            let constraint = example([10, 11, 12, 13, 14], 5, origin);
             let state = ConstraintState {
                 strength: 6.0,
                 compliance: 0.7,
@@ -226,5 +266,39 @@ mod tests {
             assert_eq!(its_state.compliance, 0.7);
             assert_eq!(its_state.softness, state.softness);
         }
+    }
+
+    #[test]
+    fn members_of_what_acts_on_several_ranks_are_shared_and_no_others() {
+        // Points 0, 1 and 2 are of these ranks, and 3 and 4 of the last; the first rank makes a constraint on 0, 1 and 3, and one on 0 alone.
+        let owner_ranks = [0, 1, 2, 2, 2];
+        let told = crate::comm::run_threads(3, |comm| {
+            let rank = comm.rank();
+            let mut messages = IterationMessages {
+                rank: rank as u32,
+                owner_ranks: owner_ranks.to_vec(),
+                points: (10..15).collect(),
+                ghosts: Vec::new(),
+                letters: VariableMessages::new((0..3).filter(|&other| other != rank)),
+                shares: MessagePattern::default(),
+            };
+            let (mut constraints, mut states) = (Vec::new(), Vec::new());
+            if rank == 0 {
+                constraints =
+                    vec![example([0, 1, 3, 0, 0], 3, Origin::Face(1, 0)), example([0; MEMBERS], 1, Origin::Plane(1))];
+                states = vec![ConstraintState::default(); 2];
+            }
+            let mut others = messages.over(comm);
+            others.copy(&mut constraints, &mut states);
+            // Each rank knows how its own points respond.
+            let own = |owner_rank: u32| if owner_rank as usize == rank { 1.0 + owner_rank as f64 } else { 0.0 };
+            let mut responses = owner_ranks.map(|owner_rank| Response { load: own(owner_rank), ..Response::default() });
+            let mut largest = [rank as f64, -(rank as f64)];
+            others.share(&mut responses, &mut largest);
+            assert_eq!((largest, constraints.len()), ([2.0, 0.0], if rank == 0 { 2 } else { 1 }));
+            Ok::<_, ()>(responses.map(|response| response.load))
+        });
+        let expected = [[1.0, 2.0, 0.0, 3.0, 0.0], [1.0, 2.0, 0.0, 3.0, 0.0], [1.0, 2.0, 3.0, 3.0, 3.0]];
+        assert_eq!(told.unwrap(), expected);
     }
 }

@@ -26,7 +26,6 @@ use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::nodes::result::{Details, FORCES, NodeResult, Status};
 use crate::solver::contact::search::{Search, neighbourhood};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Forces on a node without contact. No sum that begins with +0 comes out as −0.
 const AT_REST: [f64; FORCES] = [-0.0; FORCES];
@@ -174,7 +173,7 @@ impl Remote {
         let motion = NodeMotion::of_some(numbering.points.iter().map(node), layout.origin);
         let mut problem = LocalProblem::new(numbering, found, depth, layout, &plane_nodes);
         problem.motion = motion;
-        self.connect((layout, contact_nodes), &mut problem, &plan, &regional, &plane_nodes, comm);
+        self.connect(contact_nodes, &mut problem, &plan, &plane_nodes, comm);
         problem.restore(history);
         problem
     }
@@ -198,10 +197,9 @@ impl Remote {
     /// Makes the patterns of messages until the next search.
     fn connect(
         &mut self,
-        (layout, contact_nodes): (&Layout, &ContactNodes),
+        contact_nodes: &ContactNodes,
         problem: &mut LocalProblem,
         plan: &CommunicationPlan,
-        regional: &Regional,
         plane_nodes: &[PlaneNode],
         comm: &mut dyn Communicator,
     ) {
@@ -211,13 +209,7 @@ impl Remote {
         loaded.sort_unstable();
         loaded.dedup();
         self.connect_results(&loaded, contact_nodes, problem, comm);
-        let rank = comm.rank();
-        let places = |lists: &BTreeMap<u32, BTreeSet<u32>>| -> Lists {
-            lists.iter().map(|(&r, list)| (r as usize, list.iter().map(|&p| problem.place(p)).collect())).collect()
-        };
-        let shares = MessagePattern::new(places(&plan.send), places(&plan.receive), rank);
-        let owner_ranks = plan.owner_ranks(rank as u32, layout, regional, problem);
-        self.iteration_messages = IterationMessages::new(rank as u32, owner_ranks, &problem.numbering, shares, plan);
+        self.iteration_messages = IterationMessages::new(comm.rank() as u32, &problem.numbering, plan);
     }
 
     /// Tells every other rank that has the node of a point on which forces may act that they will come.

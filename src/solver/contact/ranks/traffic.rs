@@ -90,11 +90,11 @@ impl VariableMessages {
         VariableMessages { lengths: peers.clone(), peers }
     }
 
-    /// Sends to each rank what `fill` writes for it, and hands what has come to `read`, by ascending rank.
+    /// Sends to each rank what `fill` writes for it, and hands what has come to `read`, with the rank that has sent it, by ascending rank.
     pub fn exchange(
         &mut self,
         mut fill: impl FnMut(usize, &mut Vec<f64>),
-        mut read: impl FnMut(&[f64]),
+        mut read: impl FnMut(usize, &[f64]),
         comm: &mut dyn Communicator,
     ) {
         for (peer, length) in self.peers.iter_mut().zip(&mut self.lengths) {
@@ -111,6 +111,6 @@ impl VariableMessages {
         }
         comm.start_exchange(&mut self.peers);
         comm.finish_exchange(&mut self.peers);
-        self.peers.iter().for_each(|peer| read(&peer.receive));
+        self.peers.iter().for_each(|peer| read(peer.rank, &peer.receive));
     }
 }
