@@ -198,15 +198,25 @@ impl EdgeCheck<'_> {
         f64::from(self.quick_box(first, margin).distance(&self.quick_box(second, 0.0)))
     }
 
-    /// Whether two edges touch in the coming step: the pair to remember and its constraint.
+    /// Whether two edges touch in the coming step: the pair to remember and its constraint. Lines are looked for again within `unseen` steps
+    /// like this one: what may wait for that is taken to be apart.
     #[inline(always)]
-    pub fn pair(&self, pair: [u32; 2], past: Option<&EdgeContact>, pairing: impl FnOnce() -> Pairing) -> EdgeVerdict {
+    pub fn pair(
+        &self,
+        pair: [u32; 2],
+        past: Option<&EdgeContact>,
+        unseen: f64,
+        pairing: impl FnOnce() -> Pairing,
+    ) -> EdgeVerdict {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
         let stand_out = self.edges[pair[1] as usize].stands_out() || self.is_of_surface(pair);
         if past.is_none() {
             let apart = self.apart(pair);
             if apart > 0.0 {
                 return EdgeVerdict::Apart(apart);
+            }
+            if unseen > 0.0 && self.may_wait(pair, unseen) {
+                return EdgeVerdict::Apart(0.0);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
             let Some(crossing) = self.quick_crossing(pair) else { return EdgeVerdict::Apart(0.0) };
@@ -226,7 +236,7 @@ impl EdgeCheck<'_> {
     /// Whether a pair that has not touched may wait until lines are looked for, so many steps like this one: edges of surfaces, which
     /// have no depth to sink into, look in every step.
     #[inline(always)]
-    pub fn may_wait(&self, pair: [u32; 2], steps: f64) -> bool {
+    fn may_wait(&self, pair: [u32; 2], steps: f64) -> bool {
         let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
         !second.stands_out() && !first.is_of_surface(self.faces) && !self.comes_fast(pair, steps)
     }
@@ -234,14 +244,17 @@ impl EdgeCheck<'_> {
     /// Whether an edge may come to a line farther than it may unseen within so many steps like this one.
     #[inline(always)]
     fn comes_fast(&self, pair: [u32; 2], steps: f64) -> bool {
-        let [first, second] = pair.map(|edge| &self.edges[edge as usize]);
-        let ([a, b, c, d], [e, f, g, h]) = (first.points(self.faces), second.points(self.faces));
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for point in [a, b, c, d, e, f, g, h] {
-            let (_, path) = self.motion.path(point);
-            (low, high) = ([0, 1, 2].map(|i| path[i].min(low[i])), [0, 1, 2].map(|i| path[i].max(high[i])));
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        for edge in pair.map(|edge| &self.edges[edge as usize]) {
+            let points = edge.points(self.faces);
+            for &point in if edge.is_ridge() { &points[..] } else { &points[..2] } {
+                let (start, end) = (self.motion.start_four(point), self.motion.end_four(point));
+                for i in 0..4 {
+                    (low[i], high[i]) = (smaller(end[i] - start[i], low[i]), larger(end[i] - start[i], high[i]));
+                }
+            }
         }
-        let [x, y, z] = subtract(high, low);
+        let [x, y, z] = subtract(three(high), three(low));
         let nearer = steps * (x * x + y * y + z * z).sqrt();
         nearer > unseen(self.reaches[pair[1] as usize])
     }
