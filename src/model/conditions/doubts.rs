@@ -23,7 +23,8 @@ pub fn check(problem: &Problem, mesh: &Mesh, found: &mut Diagnostics) {
     for card in problem.deck.cards.iter().filter(|card| card.complete) {
         match card.name.as_str() {
             "PRESSURE" => {
-                inner_faces(card, mesh, "it pushes on elements on both sides of these faces, or from within", found)
+                inner_faces(card, mesh, "it pushes on elements on both sides of these faces, or from within", found);
+                faces_twice(card, mesh, found);
             }
             "SILENT BC" => {
                 inner_faces(card, mesh, "dashpots there hold the inside of a body back", found);
@@ -49,6 +50,29 @@ fn given_twice(problem: &Problem, found: &mut Diagnostics) {
             );
         }
     }
+}
+
+/// Faces that a side set names more than once, as it does where parts of a mesh are joined: a pressure acts on each once.
+fn faces_twice(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
+    let Some(set) = card.maybe_integer("side_set").and_then(|id| mesh.side_set(id)) else { return };
+    let mut sides = set.sides.clone();
+    sides.sort_unstable();
+    let Some(&[(first, side), _]) = sides.array_windows().find(|[one, next]| one == next) else { return };
+    sides.dedup();
+    let message = format!(
+        "{}: {} of the {} faces of side set {} are named before in it, side {} of element {} first",
+        card.name,
+        set.sides.len() - sides.len(),
+        set.sides.len(),
+        set.id,
+        side + 1,
+        mesh.element_ids[first as usize]
+    );
+    found.push(
+        Diagnostic::warning(message)
+            .at(card.place("side_set"), "each face is pressed once, however often it is named")
+            .help("if the load is meant to act twice there, write a second line with a side set of these faces"),
+    );
 }
 
 /// Gravity along the radius of bodies of revolution: it pushes every point of a ring away from the axis, as no gravity does.
@@ -268,8 +292,11 @@ mod tests {
         let of_first = (0..).zip(mesh.blocks[0].elements()).flat_map(|(element, nodes)| {
             faces(Shape::Hexahedron, nodes).filter(at_one).map(move |(side, _)| (element, side))
         });
-        let sides = of_first.collect();
+        let sides: Vec<(u32, u8)> = of_first.collect();
+        let outside = mesh.side_sets[0].sides.clone();
+        let twice = outside.iter().chain(&outside[1..3]).copied().collect();
         mesh.side_sets.push(SideSet { id: 2, name: String::new(), sides });
+        mesh.side_sets.push(SideSet { id: 3, name: String::new(), sides: twice });
         let law = |block| format!("MATERIAL, {block}, ELASTIC, 1.\nYOUNGS MODULUS = 1.\nPOISSONS RATIO = 0.\nEND\n");
         let deck = format!(
             "TERMINATION TIME, 1.\n{}FUNCTION, 1\n0., 1.\n1., 1.\nEND\n{}{lines}EXIT\n",
@@ -302,6 +329,11 @@ mod tests {
         let twice = format!("{angular}{angular}PRESSURE, 1, 1, 2.\n");
         says(&twice, "INITIAL VELOCITY ANGULAR: the same line stands in the deck twice, and acts twice");
         is_silent("PRESSURE, 1, 1, 2.\nPRESSURE, 1, 1, 3.\nGRAVITY, 0., 0., -9.81, 1\n");
+    }
+
+    #[test]
+    fn faces_that_a_set_names_twice_are_told() {
+        says("PRESSURE, 3, 1, 1.\n", "PRESSURE: 2 of the 6 faces of side set 3 are named before in it");
     }
 
     /// The face between the boxes has 2 x 2 elements on either side, and the plane at x = 0 has 9 nodes, 3 of them
