@@ -19,7 +19,6 @@ mod room;
 mod shells;
 mod sliding;
 mod solids;
-mod struck;
 mod through;
 mod tied;
 mod tied_refusals;
