@@ -3,7 +3,7 @@
 use super::boundary::direction;
 use crate::common::vector::{cross, dot, subtract};
 use crate::deck::{Card, Diagnostic, Diagnostics};
-use crate::mesh::{Block, Mesh, Shape, check::counted, exterior};
+use crate::mesh::{Block, Mesh, Shape, SideSet, check::counted, exterior};
 use crate::model::check::moves;
 use crate::model::{Direction, Model, Problem};
 
@@ -52,22 +52,25 @@ fn given_twice(problem: &Problem, found: &mut Diagnostics) {
     }
 }
 
+/// Says of how many faces of a command's side set something holds, and of which side of which element first.
+fn some_faces(card: &Card, mesh: &Mesh, set: &SideSet, what: &str, (count, first, side): (usize, u32, u8)) -> String {
+    let (all, element) = (set.sides.len(), mesh.element_ids[first as usize]);
+    let set = set.id;
+    format!(
+        "{}: {count} of the {all} faces of side set {set} are {what}, side {} of element {element} first",
+        card.name,
+        side + 1
+    )
+}
+
 /// Faces that a side set names more than once, as it does where parts of a mesh are joined: a pressure acts on each once.
 fn faces_twice(card: &Card, mesh: &Mesh, found: &mut Diagnostics) {
     let Some(set) = card.maybe_integer("side_set").and_then(|id| mesh.side_set(id)) else { return };
     let mut sides = set.sides.clone();
     sides.sort_unstable();
-    let Some(&[(first, side), _]) = sides.array_windows().find(|[one, next]| one == next) else { return };
+    let Some(&[(first, side), _]) = sides.windows(2).find(|pair| pair[0] == pair[1]) else { return };
     sides.dedup();
-    let message = format!(
-        "{}: {} of the {} faces of side set {} are named before in it, side {} of element {} first",
-        card.name,
-        set.sides.len() - sides.len(),
-        set.sides.len(),
-        set.id,
-        side + 1,
-        mesh.element_ids[first as usize]
-    );
+    let message = some_faces(card, mesh, set, "named before in it", (set.sides.len() - sides.len(), first, side));
     found.push(
         Diagnostic::warning(message)
             .at(card.place("side_set"), "each face is pressed once, however often it is named")
@@ -193,15 +196,7 @@ fn inner_faces(card: &Card, mesh: &Mesh, outcome: &str, found: &mut Diagnostics)
     };
     let mut inside = set.sides.iter().filter(is_inside);
     let Some(&(first, side)) = inside.next() else { return };
-    let message = format!(
-        "{}: {} of the {} faces of side set {} are inside a body, side {} of element {} first",
-        card.name,
-        1 + inside.count(),
-        set.sides.len(),
-        set.id,
-        side + 1,
-        mesh.element_ids[first as usize]
-    );
+    let message = some_faces(card, mesh, set, "inside a body", (1 + inside.count(), first, side));
     found.push(
         Diagnostic::warning(message)
             .at(card.place("side_set"), outcome)

@@ -2,7 +2,7 @@
 
 use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
-use super::other_ranks::{Beginning, OtherRanks};
+use super::other_ranks::{InitialMaxima, OtherRanks};
 use super::sweep::{self, Moved, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
 
@@ -141,9 +141,9 @@ impl Enforcer {
         wanted: bool,
         others: &mut dyn OtherRanks,
     ) -> Option<Outcome> {
-        let mut all = self.beginning(constraints, times.drift, wanted).to_array();
+        let mut all = self.initial_maxima(constraints, times.drift, wanted).to_array();
         self.scatter(motion, times, &mut all, others);
-        let Beginning { wanted, yields, thick, deepest, depth, travel, held } = Beginning::from_array(all);
+        let InitialMaxima { wanted, yields, thick, deepest, depth, travel, held } = InitialMaxima::from_array(all);
         self.held_anywhere = held;
         if wanted == 0.0 {
             return None;
@@ -187,10 +187,10 @@ impl Enforcer {
         }
     }
 
-    /// What this rank knows before the first iteration.
-    fn beginning(&self, constraints: &[Constraint], drift: f64, wanted: bool) -> Beginning {
+    /// The values of this rank, see [`InitialMaxima`].
+    fn initial_maxima(&self, constraints: &[Constraint], drift: f64, wanted: bool) -> InitialMaxima {
         let flag = |holds: bool| f64::from(u8::from(holds));
-        let of_all = Beginning {
+        let of_all = InitialMaxima {
             wanted: flag(wanted),
             yields: flag(constraints.iter().any(|c| c.yields)),
             thick: flag(self.states.iter().any(|state| state.compliance > 0.0)),
@@ -205,7 +205,7 @@ impl Enforcer {
             let is_contact = iterate.active || !matches!(c.origin, Origin::Plane(_));
             let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
             let depth = if penetration > NOTICED * c.size { penetration } else { 0.0 };
-            Beginning {
+            InitialMaxima {
                 deepest: (penetration / c.size).max(all.deepest),
                 depth: depth.max(all.depth),
                 travel: travel.max(all.travel),

@@ -6,7 +6,7 @@ use crate::comm::{Communicator, ExactSum, gather_for_all};
 
 /// Of what all ranks learn the largest value before the first iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Beginning {
+pub struct InitialMaxima {
     /// 1 where a rank has a gap to close, else 0.
     pub wanted: f64,
     /// 1 where a rank has a constraint that yields, else 0.
@@ -23,16 +23,16 @@ pub struct Beginning {
     pub held: f64,
 }
 
-impl Beginning {
+impl InitialMaxima {
     /// As numbers, for messages.
     pub fn to_array(self) -> [f64; 7] {
-        let Beginning { wanted, yields, thick, deepest, depth, travel, held } = self;
+        let InitialMaxima { wanted, yields, thick, deepest, depth, travel, held } = self;
         [wanted, yields, thick, deepest, depth, travel, held]
     }
 
     /// From these numbers.
-    pub fn from_array([wanted, yields, thick, deepest, depth, travel, held]: [f64; 7]) -> Beginning {
-        Beginning { wanted, yields, thick, deepest, depth, travel, held }
+    pub fn from_array([wanted, yields, thick, deepest, depth, travel, held]: [f64; 7]) -> InitialMaxima {
+        InitialMaxima { wanted, yields, thick, deepest, depth, travel, held }
     }
 }
 

@@ -395,7 +395,7 @@ impl LocalProblem {
         let block = |edge: u32| faces.block[edges[edge as usize].faces[0] as usize];
         let before = std::mem::take(edge_history);
         let steps = super::LINES_EVERY as f64;
-        let unseen = if lines { 0.0 } else { steps };
+        let until_lines = if lines { 0.0 } else { steps };
         let some_are_fast = steps * locator.farthest_approach() > edge_edge::unseen(*least_line_reach);
         locator.pairs_to_check(lines || some_are_fast, before.iter().map(|past| &past.pair), pair_places);
         let mut past = before.iter().peekable();
@@ -415,7 +415,7 @@ impl LocalProblem {
                 motion.place_all(second.points(faces));
             }
             let check = EdgeCheck { motion, faces, edges, reaches: edge_reaches };
-            match check.pair(pair, past, unseen, pairing) {
+            match check.pair(pair, past, until_lines, pairing) {
                 EdgeVerdict::Touching(now, constraint) => {
                     locator.let_pair_wait(place, 0.0);
                     met.meet(blocks(pair[0]), blocks(pair[1]));

@@ -114,7 +114,7 @@ impl CommunicationPlan {
         }
     }
 
-    /// Those of edges that may cross: the owner ranks of all ends of two know all of them.
+    /// Agrees on the ends of edges that may cross: the owner ranks of all ends of a pair must know all of them.
     fn agree_on_edges(&mut self, me: u32, layout: &Layout, found: &SearchResult, regional: &Regional) {
         let ends = |edge: u32| layout.edges[edge as usize].points(&layout.faces);
         let mut ranks_of_edges: Vec<Vec<u32>> = vec![Vec::new(); regional.edges.ids.len()];

@@ -198,14 +198,14 @@ impl EdgeCheck<'_> {
         f64::from(self.quick_box(first, margin).distance(&self.quick_box(second, 0.0)))
     }
 
-    /// Whether two edges touch in the coming step: the pair to remember and its constraint. Lines are looked for again within `unseen` steps
-    /// like this one: what may wait for that is taken to be apart.
+    /// Whether two edges touch in the coming step: the pair to remember and its constraint. Lines are looked for again within
+    /// so many steps like this one, 0 where they are in this one: a pair that may wait for that is taken to be near, and no more.
     #[inline(always)]
     pub fn pair(
         &self,
         pair: [u32; 2],
         past: Option<&EdgeContact>,
-        unseen: f64,
+        until_lines: f64,
         pairing: impl FnOnce() -> Pairing,
     ) -> EdgeVerdict {
         // What lies in a surface has no outside of its own: motion says on which side the other is.
@@ -215,7 +215,7 @@ impl EdgeCheck<'_> {
             if apart > 0.0 {
                 return EdgeVerdict::Apart(apart);
             }
-            if unseen > 0.0 && self.may_wait(pair, unseen) {
+            if until_lines > 0.0 && self.may_wait(pair, until_lines) {
                 return EdgeVerdict::Apart(0.0);
             }
             // Nearly all pairs on bodies that rest on each other go no further.
