@@ -19,6 +19,7 @@ mod room;
 mod shells;
 mod sliding;
 mod solids;
+mod struck;
 mod through;
 mod tied;
 mod tied_refusals;

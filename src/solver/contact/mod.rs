@@ -327,11 +327,13 @@ impl Contact {
         let limits = limits.after(tally.unsettled);
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits, remaining, lines };
         problem.find_constraints(&setting, step, &mut seen.met);
-        match remote {
+        let outcome = match remote {
             Some(remote) => problem.find_forces(&setting, step, bank, &mut remote.others(comm)),
             None if coupled => problem.find_forces(&setting, step, bank, &mut Elsewhere(comm)),
             None => problem.find_forces(&setting, step, bank, &mut NoOtherRanks),
-        }
+        };
+        problem.meet_struck(&mut seen.met);
+        outcome
     }
 
     /// Books what the deck watches.

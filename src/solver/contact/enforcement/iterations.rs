@@ -201,8 +201,9 @@ impl Enforcer {
         let own = constraints.iter().zip(known).filter(|(_, (state, _))| state.own && state.strength > 0.0);
         own.fold(of_all, |all, (c, (state, iterate))| {
             let penetration = c.carried.penetration;
-            // A node above a plane is no contact until it reaches it.
-            let is_contact = iterate.active || !matches!(c.origin, Origin::Plane(_));
+            // A node above a plane, or that another contact may push to a face, is no contact until it reaches it.
+            let is_ahead = matches!(c.origin, Origin::Plane(_)) || c.gap > 0.0 && !c.persists;
+            let is_contact = iterate.active || !is_ahead;
             let travel = if is_contact { (drift * state.free).abs() } else { 0.0 };
             let depth = if penetration > NOTICED * c.size { penetration } else { 0.0 };
             InitialMaxima {

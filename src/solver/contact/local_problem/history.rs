@@ -67,15 +67,28 @@ impl LocalProblem {
         }
     }
 
+    /// Forgets what points that others stop might have met, where it has borne no force. From the last place on: those that are left begin at the first.
+    pub(super) fn forget_idle(&mut self) {
+        for (point, place) in self.stopped.drain(..).rev() {
+            let places = &mut self.history.own(point as usize)[place as usize..];
+            if places[0].carried.normal_force <= 0.0 {
+                places[0] = NO_CONTACT[0];
+                places.rotate_left(1);
+            }
+        }
+    }
+
     /// Keeps the force of a constraint: the iterations of the next step begin with it.
     pub(super) fn remember(&mut self, constraint: usize) {
         let c = self.constraints[constraint];
         match c.origin {
+            // What others may push to a face has its turn in the next step.
+            Origin::Face(_, place) if self.history[c.members[0] as usize][place as usize].face == NONE => (),
             Origin::Face(_, place) => {
                 let past = &mut self.history.own(c.members[0] as usize)[place as usize];
                 past.carried = c.carried;
                 // What has a thickness touches around its borders, along normals of its own for each of two contacts.
-                let is_of_solids = past.face != NONE && self.faces.distance(c.members[0], past.face) == 0.0;
+                let is_of_solids = self.faces.distance(c.members[0], past.face) == 0.0;
                 past.yields = is_of_solids && self.enforcer.yields(constraint);
             }
             Origin::Edges(first, second) => {

@@ -8,6 +8,7 @@ mod history;
 mod outcome;
 
 use super::check::edge_edge::{self, EdgeCheck, EdgeContact, EdgeVerdict};
+use super::check::node_face::unforeseen::{STOPPED, STRUCK};
 use super::check::node_face::{self, DetectedContact, FaceContact, MAX_FACES, NO_CONTACT, NONE, NodeFaceCheck};
 use super::check::planes::PlaneNode;
 use super::enforcement::accounts::certificate::Bank;
@@ -85,6 +86,10 @@ pub struct LocalProblem {
     near: Vec<Candidate>,
     pair_places: Vec<u32>,
     contacts: Vec<DetectedContact>,
+    /// Points that others stop, and places in their history of what they meet because of that.
+    stopped: Vec<(u32, u32)>,
+    /// Points that others may push to a face in this step, the places of these constraints among those of the point, and the faces.
+    struck: Vec<(u32, u32, u32)>,
     /// Whether this rank answers for each point, where others may have it as well: planes alone with rigid bodies on many
     /// ranks; else empty.
     pub answers: Vec<bool>,
@@ -305,8 +310,21 @@ impl LocalProblem {
             None => (0..own).for_each(|i| self.remember(i)),
             Some(order) => (0..order.len()).filter(|&i| order[i] < own as u32).for_each(|i| self.remember(i)),
         }
+        self.forget_idle();
         self.tell_nodes();
         outcome
+    }
+
+    /// Tells which blocks have met only because others pushed them together.
+    pub fn meet_struck(&self, met: &mut Meetings) {
+        let [of_points, of_faces] = &self.blocks_around;
+        for c in self.constraints.iter().filter(|c| c.carried.normal_force > 0.0) {
+            let Origin::Face(_, place) = c.origin else { continue };
+            let found = self.struck.binary_search_by_key(&(c.members[0], place), |&(point, place, _)| (point, place));
+            if let Ok(found) = found {
+                met.meet(of_points[c.members[0] as usize], of_faces[self.struck[found].2 as usize]);
+            }
+        }
     }
 
     /// Deepest penetration between members that nothing can move, as a part of the face's size, and one of them by its number in the
@@ -339,7 +357,9 @@ impl LocalProblem {
     fn check(&mut self, setting: &StepInput, drift: f64, met: &mut Meetings) {
         let StepInput { pairings, remaining, .. } = *setting;
         let LocalProblem { motion, faces, point_block, blocks_around, rules, locator, history, .. } = self;
-        let LocalProblem { constraints, near, contacts, edges_hold, .. } = self;
+        let LocalProblem { constraints, near, contacts, stopped, struck, edges_hold, .. } = self;
+        stopped.clear();
+        struck.clear();
         let edges_hold = *edges_hold;
         let longest_path = locator.longest_path();
         for i in 0..locator.slave_nodes().len() {
@@ -362,12 +382,16 @@ impl LocalProblem {
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;
             }
-            locator.set_held(i, !contacts.is_empty());
+            locator.set_held(i, contacts.iter().any(|contact| contact.time < STRUCK));
             history.reset(point as usize);
             for (place, contact) in contacts.iter().enumerate() {
                 let interface = near.iter().find(|near| near.face == contact.face).map_or(0, |near| near.interface);
                 let rule = rules[interface as usize];
-                met.meet(blocks_around[0][point as usize], blocks_around[1][contact.face as usize]);
+                if contact.time < STRUCK {
+                    met.meet(blocks_around[0][point as usize], blocks_around[1][contact.face as usize]);
+                } else {
+                    struck.push((point, place as u32, contact.face));
+                }
                 let pairing = pairings.of(rule, point_block[point as usize], faces.block[contact.face as usize]);
                 let before_growth = contact.tolerated;
                 let contact = &DetectedContact { tolerated: remaining * before_growth, ..*contact };
@@ -379,8 +403,13 @@ impl LocalProblem {
                     constraint.origin = Origin::Face(point, place as u32);
                     constraints.push(constraint);
                 }
-                history.own(point as usize)[place] =
-                    FaceContact { face: contact.face, tolerated: contact.tolerated, ..NO_CONTACT[0] };
+                if contact.time < STRUCK {
+                    history.own(point as usize)[place] =
+                        FaceContact { face: contact.face, tolerated: contact.tolerated, ..NO_CONTACT[0] };
+                }
+                if contact.time == STOPPED {
+                    stopped.push((point, place as u32));
+                }
             }
         }
     }

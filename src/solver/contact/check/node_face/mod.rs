@@ -9,6 +9,7 @@ mod facing;
 mod newcomer;
 mod persistent;
 mod ridge;
+pub mod unforeseen;
 mod way_out;
 
 pub(super) use facing::FACING;
@@ -139,6 +140,7 @@ impl NodeFaceCheck<'_> {
                 contacts.extend(found.filter(|_| !self.is_behind_flank(point, face, near)));
             }
         }
+        self.unforeseen(point, near, contacts);
         if contacts.len() > 1 {
             self.choose(point, contacts);
         }

@@ -330,7 +330,7 @@ impl NodeFaceCheck<'_> {
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
     /// the corners in its foot.
-    fn slides_over(&self, point: u32, face: u32, weights: &[f64; 4]) -> bool {
+    pub(super) fn slides_over(&self, point: u32, face: u32, weights: &[f64; 4]) -> bool {
         let at = self.motion.start(point);
         let corners = self.faces.start(face, self.motion);
         let foot = projection::foot(&corners, weights);

@@ -2,7 +2,7 @@
 
 use super::super::FLUSH;
 use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
-use crate::common::vector::{dot, subtract};
+use crate::common::vector::{add, dot, scaled, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
 
@@ -53,11 +53,46 @@ impl NodeFaceCheck<'_> {
             }
         }
         if let Some(departure) = departure.filter(|_| contacts.is_empty()) {
-            contacts.extend(self.moved_on(point, &departure));
+            self.in_hollow(point, near, past, (false, contacts));
+            if contacts.is_empty() {
+                contacts.extend(self.moved_on(point, &departure));
+            }
+            if contacts.is_empty() {
+                self.in_hollow(point, near, past, (true, contacts));
+            }
         }
         self.still_around(point, near, past, contacts);
         // Of the faces around those that hold the point only those that fold towards it can hold it as well.
         self.folds(point, near, contacts);
+    }
+
+    /// A point in a hollow that would go beyond the borders of all faces that held it is held by each of them over which it would be if the others
+    /// held it: others that have no corner in common with it, or all.
+    fn in_hollow(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        (all, contacts): (bool, &mut Vec<DetectedContact>),
+    ) {
+        let free = self.motion.end(point);
+        let held = || past.iter().filter(|past| past.face != NONE && is_near(near, past.face));
+        let push = |past: &FaceContact| {
+            let end = self.projection_at_end(point, past.face);
+            end.map_or([0.0; 3], |end| scaled(end.normal, (past.tolerated - end.gap).max(0.0)))
+        };
+        for own in held() {
+            let counts = |other: &u32| *other != own.face && (all || !self.faces.adjacent(own.face, *other));
+            let end = held().filter(|other| counts(&other.face)).fold(free, |end, other| add(end, push(other)));
+            let over = projection::project(&self.faces.end(own.face, self.motion), end);
+            let Some(mut over) = over.filter(|over| end != free && self.is_hardly_beyond(own.face, over)) else {
+                continue;
+            };
+            over.gap += dot(subtract(free, end), over.normal) - self.faces.distance(point, own.face);
+            if self.begins_over(point, own.face) && self.still_in_reach(point, own.face, &over, own.tolerated) {
+                contacts.push(self.held(own.face, over, own.tolerated));
+            }
+        }
     }
 
     /// Whether a point stands beside the end of a surface, whose projection counts its gap from where they touch.
