@@ -112,6 +112,11 @@ fn is_near(near: &[Candidate], face: u32) -> bool {
     near.iter().any(|near| near.face == face)
 }
 
+/// The way, a vector, along which a face pushes back a point that is deeper than it tolerates, an overlap of at most 0.
+fn push_back(projection: &Projection, tolerated: f64) -> [f64; 3] {
+    scaled(projection.normal, (tolerated - projection.gap).max(0.0))
+}
+
 /// The faces near a point.
 fn faces_of(near: &[Candidate]) -> impl Iterator<Item = u32> + '_ {
     near.iter().map(|near| near.face)

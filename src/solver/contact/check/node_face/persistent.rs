@@ -1,8 +1,10 @@
 //! Nodes that faces have held before: whether they still do, and to which faces around them a node has gone on.
 
 use super::super::FLUSH;
-use super::{DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near};
-use crate::common::vector::{add, dot, scaled, subtract};
+use super::{
+    DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near, push_back,
+};
+use crate::common::vector::{add, dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
 
@@ -53,12 +55,12 @@ impl NodeFaceCheck<'_> {
             }
         }
         if let Some(departure) = departure.filter(|_| contacts.is_empty()) {
-            self.in_hollow(point, near, past, (false, contacts));
+            self.in_hollow(point, near, past, false, contacts);
             if contacts.is_empty() {
                 contacts.extend(self.moved_on(point, &departure));
             }
             if contacts.is_empty() {
-                self.in_hollow(point, near, past, (true, contacts));
+                self.in_hollow(point, near, past, true, contacts);
             }
         }
         self.still_around(point, near, past, contacts);
@@ -73,13 +75,14 @@ impl NodeFaceCheck<'_> {
         point: u32,
         near: &[Candidate],
         past: &[FaceContact; MAX_FACES],
-        (all, contacts): (bool, &mut Vec<DetectedContact>),
+        all: bool,
+        contacts: &mut Vec<DetectedContact>,
     ) {
         let free = self.motion.end(point);
         let held = || past.iter().filter(|past| past.face != NONE && is_near(near, past.face));
         let push = |past: &FaceContact| {
             let end = self.projection_at_end(point, past.face);
-            end.map_or([0.0; 3], |end| scaled(end.normal, (past.tolerated - end.gap).max(0.0)))
+            end.map_or([0.0; 3], |end| push_back(&end, past.tolerated))
         };
         for own in held() {
             let counts = |other: &u32| *other != own.face && (all || !self.faces.adjacent(own.face, *other));

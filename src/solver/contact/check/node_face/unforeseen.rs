@@ -5,8 +5,8 @@
 //! others close their gaps. What a node meets that another face has stopped is remembered where it has borne a force; what lies on something else
 //! has its turn in the next step.
 
-use super::{DetectedContact, HOLD, NodeFaceCheck, keep};
-use crate::common::vector::{add, dot, scaled, subtract};
+use super::{DetectedContact, HOLD, NodeFaceCheck, keep, push_back};
+use crate::common::vector::{add, dot, subtract};
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::locate::Candidate;
 
@@ -17,18 +17,12 @@ pub const STRUCK: f64 = 3.0;
 /// Cosine of the angle within which the normals of two faces are opposed.
 const OPPOSED: f64 = 0.5;
 
-/// How far a contact pushes a point beyond where it would be without, a length.
-fn overlap(contact: &DetectedContact) -> f64 {
-    (contact.tolerated - contact.projection.gap).max(0.0)
-}
-
 impl NodeFaceCheck<'_> {
     /// Adds the faces that `point` would meet if the `contacts` found so far held it, or be as near to as what has left a face is still held. Where there
     /// are none, those of other blocks to which it is as near.
     pub(super) fn unforeseen(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
         let (free, held) = (self.motion.end(point), contacts.len());
-        let push =
-            |at: [f64; 3], contact: &DetectedContact| add(at, scaled(contact.projection.normal, overlap(contact)));
+        let push = |at, contact: &DetectedContact| add(at, push_back(&contact.projection, contact.tolerated));
         let end = contacts.iter().fold(free, push);
         for &Candidate { face, interface } in near {
             let is_known = contacts[..held].iter().any(|contact| contact.face == face);
@@ -71,7 +65,7 @@ impl NodeFaceCheck<'_> {
     fn lies_below(&self, face: u32, (end, normal): ([f64; 3], &[f64; 3]), holding: &DetectedContact) -> bool {
         let up = holding.projection.normal;
         let rises = |corner: [f64; 3]| dot(subtract(corner, end), up) > HOLD * self.faces.size[face as usize];
-        let looks_at = overlap(holding) > 0.0 && dot(*normal, up) < -OPPOSED;
+        let looks_at = holding.projection.gap < holding.tolerated && dot(*normal, up) < -OPPOSED;
         !looks_at && !self.faces.end(face, self.motion).into_iter().any(rises)
     }
 
