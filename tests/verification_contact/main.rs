@@ -9,6 +9,7 @@ mod extremes;
 mod flush;
 mod flying;
 mod friction;
+mod joints;
 mod matching;
 mod overlaps;
 mod press_fit;

@@ -6,6 +6,7 @@
 //! (Heinstein et al. 1993; Attaway et al. 1996, figures 3 and 4).
 
 mod facing;
+mod flush;
 mod newcomer;
 mod persistent;
 mod ridge;

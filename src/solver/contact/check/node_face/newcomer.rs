@@ -1,6 +1,5 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
-use super::super::FLUSH;
 use super::facing::FACING;
 use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{cross, dot, normalized, scaled, subtract};
@@ -14,7 +13,7 @@ const CLEARLY: f64 = 1e-6;
 
 /// A point this part of a face's size from its plane is in the plane. Not more: in folds, faces that merely come near
 /// each other's planes must not be taken for a seam.
-const SEAM: f64 = 1e-4;
+pub(super) const SEAM: f64 = 1e-4;
 
 /// A point in the side of a body is nearer to the plane of that side than this part of how far it is beyond the border of a face there.
 const LEVEL_WITH_SIDE: f64 = 0.1;
@@ -45,16 +44,20 @@ impl NodeFaceCheck<'_> {
         }
         let start = self.around_border(point, face, false)?;
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
-        let comes = || self.faced(point, &end.normal, rule) && !self.slides_over(point, face, &end.weights);
+        let comes = |time| {
+            self.faced(point, &end.normal, rule)
+                && !self.slides_over((point, face), near, &end.weights, self.meeting(point, time))
+        };
         if distance == 0.0 && start.gap >= 0.0 {
             if !may_have_come() {
                 return None;
             }
-            let time = self.first_touch(point, face).or_else(|| self.comes_flush(point, face, [&start, &end]))?;
+            let time =
+                self.first_touch(point, face).or_else(|| self.comes_flush((point, face), near, [&start, &end]))?;
             if rule == Rule::Blocks && self.edges_hold && self.is_held_by_edges(point, face, time) {
                 return None;
             }
-            return comes().then(|| contact(time, 0.0));
+            return comes(time).then(|| contact(time, 0.0));
         }
         if distance > 0.0 && self.begins_in_front(point, face) {
             // What comes over the border is not seen to come through the face pushed out. What is in front all the time and
@@ -63,7 +66,7 @@ impl NodeFaceCheck<'_> {
             let unseen = if start.gap < 0.0 { 0.0 } else { 1.0 };
             let time = self.first_touch(point, face).or_else(|| stays_in_front.then_some(unseen))?;
             // Nearer than thicknesses allow, as the mesh has it or because it came from beside, it stays as near.
-            return comes().then(|| contact(time, self.nearness(point, face, &start).min(0.0)));
+            return comes(time).then(|| contact(time, self.nearness(point, face, &start).min(0.0)));
         }
         if self.faces.is_two_sided(face) {
             // It is on the other side.
@@ -78,8 +81,8 @@ impl NodeFaceCheck<'_> {
         let inside = shallow
             && is_over()
             && self.opposition(point, &end) < FACING
-            && !self.in_front_of_another(point, face)
-            && !self.slides_over(point, face, &start.weights);
+            && !self.in_front_of_another(point, face, start.gap)
+            && !self.slides_over((point, face), near, &start.weights, self.meeting(point, 0.0));
         inside.then(|| contact(0.0, start.gap))
     }
 
@@ -92,31 +95,6 @@ impl NodeFaceCheck<'_> {
         is_elsewhere
             && self.faces.distance(point, face) == 0.0
             && projection::is_behind(&self.faces.start(face, self.motion), self.motion.start(point))
-    }
-
-    /// Part of the step after which a point comes through the plane of a face of a solid hardly beyond its border, where the face around
-    /// that border looks the same way as one of the point's own: what is as wide as the other body must not slip by for a little that
-    /// it bulges. A pin in a hole that is a little wider finds no such side there.
-    fn comes_flush(&self, point: u32, face: u32, [start, end]: [&Projection; 2]) -> Option<f64> {
-        let farther = if start.outside > end.outside { start } else { end };
-        if farther.outside <= 0.0 || !self.is_hardly_beyond(face, farther) {
-            return None;
-        }
-        let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
-        let own: Vec<[f64; 3]> = self.faces.around(point).iter().filter_map(|&own| normal(own)).collect();
-        let is_flush = |other: u32| {
-            self.is_across(face, &farther.weights, other)
-                && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
-        };
-        self.beside(face).any(is_flush).then(|| start.gap / (start.gap - end.gap))
-    }
-
-    /// Whether another face has all the corners of a face that have a share in a foot on its border: it goes on there.
-    fn is_across(&self, face: u32, weights: &[f64; 4], other: u32) -> bool {
-        let around = self.faces.corners[other as usize];
-        let mut shares =
-            self.faces.corners[face as usize].iter().zip(weights).filter(|(_, weight)| **weight > projection::TIE);
-        shares.all(|(corner, _)| around.contains(corner))
     }
 
     /// Whether a point that a face has not held is beside its border and too far from that to be stopped by it, see
@@ -304,8 +282,9 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point is in front of another outer face of a face's element: then it is around the corner and outside,
-    /// however far behind the face's plane. So it is in front of a side that touches nothing itself.
-    fn in_front_of_another(&self, point: u32, face: u32) -> bool {
+    /// however far behind the face's plane. So it is in front of a side that touches nothing itself. Where a
+    /// point has no faces of its own to tell by which it came in, nearer to another face than the `gap` to this one is enough.
+    fn in_front_of_another(&self, point: u32, face: u32, gap: f64) -> bool {
         let is_outside = |HiddenSide { at, area_normal, .. }: HiddenSide| {
             let length = dot(area_normal, area_normal).sqrt();
             dot(subtract(self.motion.start(point), at), area_normal) > CLEARLY * length.sqrt() * length
@@ -313,7 +292,8 @@ impl NodeFaceCheck<'_> {
         let mut others = self.beside(face);
         others.any(|other| {
             let start = self.projection_at_start(point, other);
-            start.is_some_and(|start| start.gap > CLEARLY * self.faces.size[other as usize])
+            let least = if self.faces.around(point).is_empty() { gap } else { 0.0 };
+            start.is_some_and(|start| start.gap > least + CLEARLY * self.faces.size[other as usize])
         }) || self.faces.hidden_sides(face, self.motion).any(is_outside)
     }
 
@@ -325,22 +305,6 @@ impl NodeFaceCheck<'_> {
         let all = below.chain((face + 1..self.faces.len() as u32).take_while(same));
         // The other side of a surface lies at the same place.
         all.filter(move |_| !self.faces.is_two_sided(face))
-    }
-
-    /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
-    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
-    /// the corners in its foot.
-    pub(super) fn slides_over(&self, point: u32, face: u32, weights: &[f64; 4]) -> bool {
-        let at = self.motion.start(point);
-        let corners = self.faces.start(face, self.motion);
-        let foot = projection::foot(&corners, weights);
-        self.beside(face).any(|other| {
-            let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
-            let near =
-                |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
-            near(foot).is_some()
-                && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
-        })
     }
 }
 

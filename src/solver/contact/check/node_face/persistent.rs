@@ -64,6 +64,9 @@ impl NodeFaceCheck<'_> {
             }
         }
         self.still_around(point, near, past, contacts);
+        if self.faces.around(point).is_empty() {
+            self.still_at_joint(point, near, past, contacts);
+        }
         // Of the faces around those that hold the point only those that fold towards it can hold it as well.
         self.folds(point, near, contacts);
     }
@@ -199,6 +202,25 @@ impl NodeFaceCheck<'_> {
             let another = contacts.iter().all(|contact| contact.face != past.face);
             if another && is_near(near, past.face) {
                 contacts.extend(self.held_around(point, past.face, past.tolerated));
+            }
+        }
+    }
+
+    /// A point without faces that others hold in the corner of several bodies stays with a face beyond whose border it is no farther than it is in
+    /// another body there.
+    fn still_at_joint(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
+        for past in past.iter().filter(|past| past.face != NONE && is_near(near, past.face)) {
+            let another = contacts.iter().all(|other| !self.faces.adjacent(other.face, past.face));
+            if another && self.comes_at_joint(past.face, near, self.meeting(point, 1.0)) {
+                let end = self.projection_at_end(point, past.face);
+                let end = end.filter(|end| self.still_in_reach(point, past.face, end, past.tolerated));
+                contacts.extend(end.map(|end| self.held(past.face, end, past.tolerated)));
             }
         }
     }

@@ -5,6 +5,7 @@
 //! others close their gaps. What a node meets that another face has stopped is remembered where it has borne a force; what lies on something else
 //! has its turn in the next step.
 
+use super::flush::Meeting;
 use super::{DetectedContact, HOLD, NodeFaceCheck, keep, push_back};
 use crate::common::vector::{add, dot, subtract};
 use crate::solver::contact::geometry::projection;
@@ -43,7 +44,7 @@ impl NodeFaceCheck<'_> {
             }
             let Some(tolerated) = self.overlap_at_start(point, face) else { continue };
             if contacts[..held].iter().any(|contact| self.lies_below(face, (end, &projection.normal), contact))
-                || self.slides_over(point, face, &projection.weights)
+                || self.slides_over((point, face), near, &projection.weights, Meeting { place: end, time: 1.0 })
                 || !self.faced(point, &projection.normal, self.rules[interface as usize])
             {
                 continue;

@@ -1,0 +1,156 @@
+//! Joints of flush bodies: sides that another body covers, over which what is on both of them slides, and into which nothing goes.
+
+use super::super::FLUSH;
+use super::newcomer::SEAM;
+use super::{HOLD, NodeFaceCheck, SAME_WAY, faces_of};
+use crate::common::vector::{add, dot, normalized, scaled, subtract};
+use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::search::locate::Candidate;
+
+/// Where a point meets a face: its place, and the part of the step after which the face is looked at.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting {
+    pub place: [f64; 3],
+    pub time: f64,
+}
+
+impl NodeFaceCheck<'_> {
+    /// Where a point would be without contact at a part of the step.
+    pub(super) fn meeting(&self, point: u32, time: f64) -> Meeting {
+        Meeting { place: self.place(point, time), time }
+    }
+
+    fn place(&self, point: u32, time: f64) -> [f64; 3] {
+        let (start, path) = self.motion.path(point);
+        add(start, scaled(path, time))
+    }
+
+    /// Part of the step after which a point comes through the plane of a face of a solid hardly beyond its border, where the face around
+    /// that border looks the same way as one of the point's own: what is as wide as the other body must not slip by for a little that
+    /// it bulges. A pin in a hole that is a little wider finds no such side there. A point without faces goes into no joint.
+    pub(super) fn comes_flush(
+        &self,
+        (point, face): (u32, u32),
+        near: &[Candidate],
+        [start, end]: [&Projection; 2],
+    ) -> Option<f64> {
+        let time = start.gap / (start.gap - end.gap);
+        if self.faces.around(point).is_empty() {
+            return self.comes_at_joint(face, near, self.meeting(point, time)).then_some(time);
+        }
+        let farther = if start.outside > end.outside { start } else { end };
+        if farther.outside <= 0.0 || !self.is_hardly_beyond(face, farther) {
+            return None;
+        }
+        let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
+        let own: Vec<[f64; 3]> = self.faces.around(point).iter().filter_map(|&own| normal(own)).collect();
+        let is_flush = |other: u32| {
+            self.is_across(face, &farther.weights, other)
+                && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
+        };
+        self.beside(face).any(is_flush).then_some(time)
+    }
+
+    /// Whether a point is at the border of a face, or hardly beyond, where a face of another body meets that border: the slit between them is narrow.
+    /// Not so where that body covers the face, which then is a wall of the slit. The faces near the point are
+    /// asked, which all ranks have that check it.
+    pub(super) fn comes_at_joint(&self, face: u32, near: &[Candidate], meeting: Meeting) -> bool {
+        let corners = self.corners_at(face, meeting.time);
+        let Some(at) = projection::project(&corners, meeting.place) else { return false };
+        if !self.is_hardly_beyond(face, &at) {
+            return false;
+        }
+        let border = projection::foot(&corners, &at.weights);
+        let meets = |other: u32| {
+            let place = projection::project(&self.corners_at(other, meeting.time), border);
+            let is_there = |place: Projection| {
+                place.gap.abs() <= HOLD * self.faces.size[other as usize] && self.is_hardly_beyond(other, &place)
+            };
+            !self.faces.adjacent(face, other) && place.is_some_and(is_there)
+        };
+        faces_of(near).any(|other| other != face && meets(other)) && !self.is_covered(&corners, &at, near, meeting.time)
+    }
+
+    /// Whether another face has all the corners of a face that have a share in a foot on its border: it goes on there.
+    pub(super) fn is_across(&self, face: u32, weights: &[f64; 4], other: u32) -> bool {
+        let around = self.faces.corners[other as usize];
+        let mut shares =
+            self.faces.corners[face as usize].iter().zip(weights).filter(|(_, weight)| **weight > projection::TIE);
+        shares.all(|(corner, _)| around.contains(corner))
+    }
+
+    /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
+    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
+    /// the corners in its foot.
+    pub(super) fn slides_over(
+        &self,
+        (point, face): (u32, u32),
+        near: &[Candidate],
+        weights: &[f64; 4],
+        meeting: Meeting,
+    ) -> bool {
+        if self.faces.around(point).is_empty() {
+            return self.is_at_joint(face, near, meeting);
+        }
+        let at = self.motion.start(point);
+        let corners = self.faces.start(face, self.motion);
+        let foot = projection::foot(&corners, weights);
+        self.beside(face).any(|other| {
+            let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
+            let near =
+                |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
+            near(foot).is_some()
+                && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
+        })
+    }
+
+    /// Whether what has no faces of its own meets a side in a flush joint: on the surface beside it, where another body covers the side and has a surface
+    /// beside that which looks the same way. The faces near the point are asked, which
+    /// all ranks have that check it, and those of their elements.
+    fn is_at_joint(&self, side: u32, near: &[Candidate], meeting: Meeting) -> bool {
+        let corners = self.corners_at(side, meeting.time);
+        let Some(own) = projection::project(&corners, meeting.place) else { return false };
+        // Normals of the surfaces beside a side on which the point is.
+        let surfaces = |side: u32| {
+            self.beside(side).filter_map(move |surface| {
+                let reach = HOLD * self.faces.size[surface as usize];
+                let place = projection::project(&self.corners_at(surface, meeting.time), meeting.place)?;
+                (place.gap.abs() <= reach && self.is_hardly_beyond(surface, &place)).then_some(place.normal)
+            })
+        };
+        surfaces(side).any(|surface| {
+            let goes_on = |other: u32| surfaces(other).any(|beyond| dot(beyond, surface) > FLUSH);
+            let covers = |other: u32| {
+                around(&corners, &own).iter().any(|&at| self.lies_against(other, at, own.normal, meeting.time))
+            };
+            faces_of(near).any(|other| covers(other) && goes_on(other))
+                && self.is_covered(&corners, &own, near, meeting.time)
+        })
+    }
+
+    /// Whether faces lie against a side, whose corners are given, on all sides of the foot of a point on that: bodies that touch with their edges
+    /// alone, and the corner in which a body ends at another one, cover nothing.
+    fn is_covered(&self, side: &[[f64; 3]; 4], on_side: &Projection, near: &[Candidate], time: f64) -> bool {
+        around(side, on_side)
+            .iter()
+            .all(|&at| faces_of(near).any(|other| self.lies_against(other, at, on_side.normal, time)))
+    }
+
+    /// Whether a face lies against a place of a side, whose normal is given.
+    fn lies_against(&self, other: u32, at: [f64; 3], normal: [f64; 3], time: f64) -> bool {
+        let reach = SEAM * self.faces.size[other as usize];
+        projection::project(&self.corners_at(other, time), at).is_some_and(|place| {
+            dot(place.normal, normal) < -FLUSH && place.gap.abs() <= reach && place.outside <= reach
+        })
+    }
+
+    fn corners_at(&self, face: u32, time: f64) -> [[f64; 3]; 4] {
+        self.faces.corners[face as usize].map(|corner| self.place(corner, time))
+    }
+}
+
+/// Places around the foot of a point on a side, whose corners are given: some way towards each of them.
+fn around(side: &[[f64; 3]; 4], on_side: &Projection) -> [[f64; 3]; 4] {
+    let foot = projection::foot(side, &on_side.weights);
+    side.map(|corner| add(foot, scaled(subtract(corner, foot), 2.0 * HOLD)))
+}
