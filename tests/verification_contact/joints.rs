@@ -28,19 +28,13 @@ fn held(walls: usize) -> String {
     (2..2 + walls).map(|block| format!("NODE SET BLOCK, 1, {block}\n")).collect()
 }
 
-/// Places of the masses that have been on the outside of block 1, in the mesh and in a state.
+/// Places of the masses of block 1, in the mesh and in a state; the one in the middle of 2 × 2 × 2 elements has never had a face.
 fn masses(state: &State, mesh: &Mesh) -> Vec<[[f64; 3]; 2]> {
     let mut nodes = mesh.blocks[0].nodes.clone();
     nodes.sort_unstable();
     nodes.dedup();
     let (start, now) = (&mesh.coordinates, state.positions(mesh));
-    let middle =
-        [0, 1, 2].map(|axis| nodes.iter().map(|&node| start[node as usize][axis]).sum::<f64>() / nodes.len() as f64);
-    // The node in the middle of 2 × 2 × 2 elements has never been in contact.
-    let was_inside =
-        |at: [f64; 3]| nodes.len() == 27 && at.iter().zip(middle).all(|(x, middle)| (x - middle).abs() < 1e-6);
-    let both = nodes.iter().map(|&node| [start[node as usize], now[node as usize]]);
-    both.filter(|[start, _]| !was_inside(*start)).collect()
+    nodes.iter().map(|&node| [start[node as usize], now[node as usize]]).collect()
 }
 
 /// Masses come down obliquely on a floor of four blocks: on one of them, exactly on a joint, and exactly where all four meet. They keep their
@@ -89,7 +83,7 @@ fn joints_are_the_same_on_three_ranks() {
 /// A room of six walls that abut, each a block of its own, with gaps of up to 3·10⁻⁷ m or none: all over the corners, in a ring, or with nothing but
 /// their edges in common.
 fn room(dice: &mut Dice, gap: f64) -> String {
-    let over = dice.one_of(&[[[true, true], [false, true], [false, false]], [[false; 2]; 3], [[true, false]; 3]]);
+    let over = dice.one_of(&[[[true, true], [true, false], [false, false]], [[false; 2]; 3], [[true, false]; 3]]);
     let mut text = String::new();
     for axis in 0..3 {
         for (side, low) in [-THICK - gap, ROOM + gap].into_iter().enumerate() {
@@ -127,8 +121,8 @@ fn leave(seed: u64) -> usize {
     masses(run.end(), &mesh).iter().filter(|[_, at]| is_outside(at)).count()
 }
 
-/// Masses that slide into the edges and corners of such rooms stay in them, in all but a few: of the rooms of the seeds 0 to 120 nine are left by some
-/// (`URTO_SCENES=0..120`), of these thirty two.
+/// Masses that slide into the edges and corners of such rooms stay in them, in all but a few: some leave four of the rooms of the seeds 0 to 60
+/// (`URTO_SCENES=0..60`), two of these.
 #[test]
 fn masses_stay_in_rooms_of_abutting_walls() {
     let (seeds, _) = asked_for(0..30);

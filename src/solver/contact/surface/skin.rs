@@ -1,7 +1,7 @@
 //! The surfaces that the deck lets touch, found in the mesh, and layouts made of them, again when elements go.
 
 use super::exclusions::Exclusions;
-use super::layout::Layout;
+use super::layout::{ABSENT, Layout};
 use super::touching::Touching;
 use crate::mesh::{Connectivity, Coordinates, Dimension, Mesh, exterior};
 use crate::model::{Contact, ContactEdges, Model};
@@ -13,6 +13,7 @@ use crate::solver::contact::geometry::surface::{Surface, back_nodes, face_nodes}
 use crate::solver::contact::observations::meetings;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::search::locate::{Interface, Rule};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Middle of the box around some points, or what is left of one without end.
@@ -50,7 +51,8 @@ pub struct Skin {
     rooms: Vec<(u32, f64)>,
     /// At what distance elements touch, and those of the chosen blocks whose nodes do, as long as they are there.
     touching: Touching,
-    /// Nodes that have lost their last face and go on as free points, each with the block of the faces it had.
+    /// Nodes that have lost their last face, or all their elements before they had one, and go on as free points, each with the block of the faces it had
+    /// or of its elements.
     pub(in crate::solver::contact) free: Vec<(u32, u32)>,
 }
 
@@ -184,7 +186,7 @@ impl Skin {
         layout
     }
 
-    /// Takes elements away. Nodes that lose their last face and that `keeps` wants become free points.
+    /// Takes elements away. Nodes that lose their last face, or all their elements before they had one, and that `keeps` wants become free points.
     pub fn delete(&mut self, elements: &[u32], old: &Layout, keeps: impl Fn(u32) -> bool) {
         self.touching.delete(elements);
         let Some(surface) = &mut self.surface else { return self.shorten_sets(elements) };
@@ -207,6 +209,31 @@ impl Skin {
         }
         let lost = (0..old.nodes.len()).filter(|&point| automatic.points[point] && !on_a_face[point]);
         self.free = lost.map(|p| (old.nodes[p], old.point_block[p])).filter(|(node, _)| keeps(*node)).collect();
+        let inner = self.never_outside(elements, old);
+        self.free.extend(inner.into_iter().filter(|(node, _)| keeps(*node)));
+        self.free.sort_unstable();
+    }
+
+    /// Nodes of elements that have gone that no face has had before or has now, as those inside a part that goes at once, each with the first block of
+    /// these elements.
+    fn never_outside(&self, gone: &[u32], old: &Layout) -> BTreeMap<u32, u32> {
+        let mut inner = BTreeMap::new();
+        for &element in gone {
+            let block = self.element_block[element as usize];
+            if self.chosen[block as usize] {
+                for &node in self.element_nodes[element as usize].iter().filter(|&&node| old.point(node) == ABSENT) {
+                    inner.entry(node).and_modify(|first: &mut u32| *first = block.min(*first)).or_insert(block);
+                }
+            }
+        }
+        if !inner.is_empty() {
+            for face in self.outside() {
+                for node in face_nodes(&self.element_nodes, face) {
+                    inner.remove(&node);
+                }
+            }
+        }
+        inner
     }
 
     /// Nodes that touch as balls, once for each of their elements, with radius and block.
