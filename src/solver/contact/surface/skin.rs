@@ -195,10 +195,12 @@ impl Skin {
         self.shorten_sets(elements);
         let Some(automatic) = old.automatic() else { return };
         let mut on_a_face = vec![false; old.nodes.len()];
+        let mut inner = self.not_outside(elements, old);
         for face in self.outside() {
             for node in face_nodes(&self.element_nodes, face) {
-                if let Some(on) = on_a_face.get_mut(old.point(node) as usize) {
-                    *on = true;
+                match on_a_face.get_mut(old.point(node) as usize) {
+                    Some(on) => *on = true,
+                    None => _ = inner.remove(&node),
                 }
             }
         }
@@ -209,27 +211,18 @@ impl Skin {
         }
         let lost = (0..old.nodes.len()).filter(|&point| automatic.points[point] && !on_a_face[point]);
         self.free = lost.map(|p| (old.nodes[p], old.point_block[p])).filter(|(node, _)| keeps(*node)).collect();
-        let inner = self.never_outside(elements, old);
         self.free.extend(inner.into_iter().filter(|(node, _)| keeps(*node)));
         self.free.sort_unstable();
     }
 
-    /// Nodes of elements that have gone that no face has had before or has now, as those inside a part that goes at once, each with the first block of
-    /// these elements.
-    fn never_outside(&self, gone: &[u32], old: &Layout) -> BTreeMap<u32, u32> {
+    /// Nodes of elements of the chosen blocks that no face had before these went, each with the first block of them.
+    fn not_outside(&self, gone: &[u32], old: &Layout) -> BTreeMap<u32, u32> {
         let mut inner = BTreeMap::new();
         for &element in gone {
             let block = self.element_block[element as usize];
             if self.chosen[block as usize] {
                 for &node in self.element_nodes[element as usize].iter().filter(|&&node| old.point(node) == ABSENT) {
                     inner.entry(node).and_modify(|first: &mut u32| *first = block.min(*first)).or_insert(block);
-                }
-            }
-        }
-        if !inner.is_empty() {
-            for face in self.outside() {
-                for node in face_nodes(&self.element_nodes, face) {
-                    inner.remove(&node);
                 }
             }
         }

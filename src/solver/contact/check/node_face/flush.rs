@@ -20,7 +20,8 @@ impl NodeFaceCheck<'_> {
         Meeting { place: self.place(point, time), time }
     }
 
-    fn place(&self, point: u32, time: f64) -> [f64; 3] {
+    /// The place alone.
+    pub(super) fn place(&self, point: u32, time: f64) -> [f64; 3] {
         let (start, path) = self.motion.path(point);
         add(start, scaled(path, time))
     }
@@ -52,8 +53,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point is at the border of a face, or hardly beyond, where a face of another body meets that border: the slit between them is narrow.
-    /// Not so where that body covers the face, which then is a wall of the slit. The faces near the point are
-    /// asked, which all ranks have that check it.
+    /// Not so where that body covers the face, which then is a wall of the slit. The faces near the point are asked, which all ranks have that check it.
     pub(super) fn comes_at_joint(&self, face: u32, near: &[Candidate], meeting: Meeting) -> bool {
         let corners = self.corners_at(face, meeting.time);
         let Some(at) = projection::project(&corners, meeting.place) else { return false };
@@ -81,16 +81,16 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
-    /// the corners in its foot.
+    /// the corners in its foot. Where they meet is asked of points without faces only.
     pub(super) fn slides_over(
         &self,
         (point, face): (u32, u32),
         near: &[Candidate],
         weights: &[f64; 4],
-        meeting: Meeting,
+        meeting: impl FnOnce() -> Meeting,
     ) -> bool {
         if self.faces.around(point).is_empty() {
-            return self.is_at_joint(face, near, meeting);
+            return self.is_at_joint(face, near, meeting());
         }
         let at = self.motion.start(point);
         let corners = self.faces.start(face, self.motion);
@@ -105,8 +105,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether what has no faces of its own meets a side in a flush joint: on the surface beside it, where another body covers the side and has a surface
-    /// beside that which looks the same way. The faces near the point are asked, which
-    /// all ranks have that check it, and those of their elements.
+    /// beside that which looks the same way. The faces near the point are asked, which all ranks have that check it, and those of their elements.
     fn is_at_joint(&self, side: u32, near: &[Candidate], meeting: Meeting) -> bool {
         let corners = self.corners_at(side, meeting.time);
         let Some(own) = projection::project(&corners, meeting.place) else { return false };

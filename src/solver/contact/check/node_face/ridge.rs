@@ -20,10 +20,7 @@ impl NodeFaceCheck<'_> {
     /// and is in the middle of a sharp edge of its own body that clearly crosses that border. What slides along a ridge has its nodes
     /// level with the other ridge but for round-off; the flank would stop them, and throw them off to the side.
     pub(super) fn is_held_by_edges(&self, point: u32, face: u32, time: f64) -> bool {
-        let at = |point: u32| {
-            let (start, path) = self.motion.path(point);
-            add(start, scaled(path, time))
-        };
+        let at = |point: u32| self.place(point, time);
         let corners = self.faces.corners[face as usize];
         let Some(place) = projection::project(&corners.map(at), at(point)) else { return false };
         let level = LEVEL * self.faces.size[face as usize];

@@ -44,7 +44,7 @@ impl NodeFaceCheck<'_> {
             }
             let Some(tolerated) = self.overlap_at_start(point, face) else { continue };
             if contacts[..held].iter().any(|contact| self.lies_below(face, (end, &projection.normal), contact))
-                || self.slides_over((point, face), near, &projection.weights, Meeting { place: end, time: 1.0 })
+                || self.slides_over((point, face), near, &projection.weights, || Meeting { place: end, time: 1.0 })
                 || !self.faced(point, &projection.normal, self.rules[interface as usize])
             {
                 continue;
