@@ -17,7 +17,7 @@ impl NodeFaceCheck<'_> {
     pub(super) fn faced(&self, point: u32, normal: &[f64; 3], rule: Rule) -> bool {
         let looks = |side: [f64; 3]| dot(side, *normal) < FACING * dot(side, side).sqrt();
         self.faces.around(point).is_empty()
-            || self.most_opposed(point, normal) < FACING
+            || self.has_face_opposed(point, normal, FACING)
             || self.faces.is_on_surface(point)
             || rule != Rule::Blocks && (self.hidden_sides_around(point).any(looks) || !self.is_surrounded(point))
     }
@@ -28,13 +28,20 @@ impl NodeFaceCheck<'_> {
         sides.filter(move |side| side.ends.contains(&point)).map(|side| side.area_normal)
     }
 
-    /// Smallest cosine between a normal and those of the faces around a point.
-    pub(super) fn most_opposed(&self, point: u32, normal: &[f64; 3]) -> f64 {
-        let cosine = |&face: &u32| {
-            let own = projection::area_normal(&self.faces.start(face, self.motion));
-            dot(own, *normal) / dot(own, own).sqrt()
-        };
-        self.faces.around(point).iter().map(cosine).fold(1.0, f64::min)
+    /// Whether one of the faces around a point makes a smaller cosine with a normal than this negative one.
+    pub(super) fn has_face_opposed(&self, point: u32, normal: &[f64; 3], cosine: f64) -> bool {
+        self.faces.around(point).iter().any(|&face| self.is_opposed(face, normal, cosine))
+    }
+
+    /// The same of all of them, of which there must be one.
+    pub(super) fn are_all_opposed(&self, point: u32, normal: &[f64; 3], cosine: f64) -> bool {
+        let around = self.faces.around(point);
+        !around.is_empty() && around.iter().all(|&face| self.is_opposed(face, normal, cosine))
+    }
+
+    fn is_opposed(&self, face: u32, normal: &[f64; 3], cosine: f64) -> bool {
+        let own = projection::area_normal(&self.faces.start(face, self.motion));
+        dot(own, *normal) < cosine * dot(own, own).sqrt()
     }
 
     /// Whether another face of contact, or a side that touches nothing, is known at every edge with which the faces around a point end there. It

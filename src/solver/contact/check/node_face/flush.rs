@@ -97,10 +97,14 @@ impl NodeFaceCheck<'_> {
         let foot = projection::foot(&corners, weights);
         self.beside(face).any(|other| {
             let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
+            // The inside of a side is far from the faces beside it, which is cheap to see.
+            if [foot, at].iter().any(|&place| projection::is_off_plane(&corners, place, reach)) {
+                return false;
+            }
             let near =
                 |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
             near(foot).is_some()
-                && near(at).is_some_and(|projection| self.most_opposed(point, &projection.normal) < -FLUSH)
+                && near(at).is_some_and(|projection| self.has_face_opposed(point, &projection.normal, -FLUSH))
         })
     }
 

@@ -6,9 +6,9 @@
 //! has its turn in the next step.
 
 use super::flush::Meeting;
-use super::{DetectedContact, HOLD, NodeFaceCheck, keep, push_back};
+use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY_AT_DISTANCE, keep, push_back};
 use crate::common::vector::{add, dot, subtract};
-use crate::solver::contact::geometry::projection;
+use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
 
 /// Time of a contact that is not foreseen, of a point that others stop: after all that are. That of a point which nothing else holds is still later.
@@ -25,58 +25,86 @@ impl NodeFaceCheck<'_> {
         let (free, held) = (self.motion.end(point), contacts.len());
         let push = |at, contact: &DetectedContact| add(at, push_back(&contact.projection, contact.tolerated));
         let end = contacts.iter().fold(free, push);
+        // In folds that close, what is not yet met would be held too early.
+        let own_block = if held == 0 { self.block_of(point) } else { None };
         for &Candidate { face, interface } in near {
             let is_known = contacts[..held].iter().any(|contact| contact.face == face);
-            if is_known || held == 0 && self.is_of_same_block(point, face) {
+            if is_known || own_block == Some(self.faces.block[face as usize]) {
                 continue;
             }
             let corners = self.faces.end(face, self.motion);
+            // Most of those around a point go on beside one that is known.
+            let normal = projection::area_normal(&corners);
+            let length = dot(normal, normal).sqrt();
+            let pushes_the_same_way =
+                |known: &DetectedContact| dot(known.projection.normal, normal) > SAME_WAY_AT_DISTANCE * length;
+            if contacts.iter().any(pushes_the_same_way) {
+                continue;
+            }
+            if contacts[..held].iter().any(|contact| self.lies_below((face, &corners), end, contact)) {
+                continue;
+            }
             let (distance, least) = (self.faces.distance(point, face), keep(self.faces, face));
             if projection::is_out_of_reach(&corners, end, distance + least) {
                 continue;
             }
             let Some(mut projection) = projection::project(&corners, end) else { continue };
-            let gap = projection.gap - distance;
+            projection.gap -= distance;
             // What the motion without contact tells of a point that nothing holds has had its turn.
-            let is_told = held == 0 && gap < 0.0;
-            if is_told || gap >= least || !self.is_hardly_beyond(face, &projection) {
+            let is_told = held == 0 && projection.gap < 0.0;
+            if is_told || projection.gap >= least || !self.is_hardly_beyond(face, &projection) {
                 continue;
             }
-            let Some(tolerated) = self.overlap_at_start(point, face) else { continue };
-            if contacts[..held].iter().any(|contact| self.lies_below(face, (end, &projection.normal), contact))
-                || self.slides_over((point, face), near, &projection.weights, || Meeting { place: end, time: 1.0 })
+            projection.gap += dot(subtract(free, end), projection.normal);
+            let Some(tolerated) = self.overlap_at_start(point, face, &projection) else { continue };
+            if held == 0 && !self.may_be_pushed_to(point, face, &projection.normal)
                 || !self.faced(point, &projection.normal, self.rules[interface as usize])
+                || self.slides_over((point, face), near, &projection.weights, || Meeting { place: end, time: 1.0 })
             {
                 continue;
             }
-            projection.gap = gap + dot(subtract(free, end), projection.normal);
             let time = if held > 0 { STOPPED } else { STRUCK };
             contacts.push(DetectedContact { face, time, opposition: 0.0, projection, tolerated });
         }
     }
 
-    /// Whether a face is of the block of a point: in folds that close, what is not yet met would be held too early.
-    fn is_of_same_block(&self, point: u32, face: u32) -> bool {
-        let block = |face: u32| self.faces.block[face as usize];
-        self.faces.around(point).first().is_some_and(|&own| block(own) == block(face))
+    /// The block of the faces around a point, `None` where it has none.
+    fn block_of(&self, point: u32) -> Option<u32> {
+        self.faces.around(point).first().map(|&own| self.faces.block[own as usize])
     }
 
-    /// Whether nothing of a face, whose normal is given, rises over a point in its place as a contact pushes it: the side of the next body where what
-    /// slides over a flush joint rests on both. Where a face looks at the one that pushes the point, it is not for it to rise.
-    fn lies_below(&self, face: u32, (end, normal): ([f64; 3], &[f64; 3]), holding: &DetectedContact) -> bool {
+    /// Whether nothing of a face, whose corners are given, rises over a point in its place as a contact pushes it: the side of the next body where
+    /// what slides over a flush joint rests on both. Where a face looks at the one that pushes the point, it is not for it to rise.
+    #[inline(always)]
+    fn lies_below(&self, (face, corners): (u32, &[[f64; 3]; 4]), end: [f64; 3], holding: &DetectedContact) -> bool {
         let up = holding.projection.normal;
-        let rises = |corner: [f64; 3]| dot(subtract(corner, end), up) > HOLD * self.faces.size[face as usize];
-        let looks_at = holding.projection.gap < holding.tolerated && dot(*normal, up) < -OPPOSED;
-        !looks_at && !self.faces.end(face, self.motion).into_iter().any(rises)
+        let rises = |corner: &[f64; 3]| dot(subtract(*corner, end), up) > HOLD * self.faces.size[face as usize];
+        let looks_at = || {
+            let normal = projection::area_normal(corners);
+            dot(normal, up) < -OPPOSED * dot(normal, normal).sqrt()
+        };
+        let pushes = holding.projection.gap < holding.tolerated;
+        !corners.iter().any(rises) && !(pushes && looks_at())
     }
 
-    /// The overlap, a length of at most 0, with which a point begins the step over the front of a face; `None` where it is not over it, or deeper than
-    /// what others may have left in the step before.
-    fn overlap_at_start(&self, point: u32, face: u32) -> Option<f64> {
-        let start = self.projection_at_start(point, face).filter(|start| self.is_hardly_beyond(face, start))?;
-        let gap = start.gap - self.faces.distance(point, face);
+    /// Whether what strikes another face around a point that nothing holds may push it to a face, whose normal is given: not where all around it look
+    /// at that face, as on the flat side of a solid that lies on another one. Nodes of surfaces, rigid bodies and joints go with what is struck elsewhere.
+    fn may_be_pushed_to(&self, point: u32, face: u32, normal: &[f64; 3]) -> bool {
+        let mobility = &self.motion.mobility;
+        let is_carried = |point: u32| mobility.of(point as usize).is_some() || mobility.joint(point as usize).is_some();
+        self.faces.is_two_sided(face)
+            || !self.are_all_opposed(point, normal, -OPPOSED)
+            || is_carried(point)
+            || self.faces.corners[face as usize].into_iter().any(is_carried)
+    }
+
+    /// The overlap, a length of at most 0, with which a point begins the step in front of a face, over whose foot at the end of the step without contact
+    /// it has come; `None` where it is not in front of it, or deeper than what others may have left in the step before.
+    fn overlap_at_start(&self, point: u32, face: u32, end: &Projection) -> Option<f64> {
+        let gap = end.gap - self.leaving(point, face, end);
+        let begins = |start: Projection| self.is_hardly_beyond(face, &start) && self.begins_in_front(point, face);
         let is_in_front = gap > -HOLD * self.faces.size[face as usize]
-            && (!self.faces.is_two_sided(face) || self.begins_in_front(point, face));
+            && (!self.faces.is_two_sided(face) || self.projection_at_start(point, face).is_some_and(begins));
         is_in_front.then_some(gap.min(0.0))
     }
 }
