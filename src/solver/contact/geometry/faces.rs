@@ -6,7 +6,7 @@ use super::projection::area_normal;
 use super::sides::{HiddenSide, HiddenSides};
 use super::surface::{back_nodes, face_nodes};
 use crate::common::shared::Shared;
-use crate::common::vector::{dot, subtract};
+use crate::common::vector::{dot, normalized, subtract};
 use crate::mesh::Connectivity;
 
 /// Most factors of √2 by which a depth becomes less: to 0.6 % of that at the start.
@@ -14,6 +14,9 @@ pub const THINNEST: u8 = 15;
 
 /// A surface is thick against its elements when two thicknesses of its sides make more than this part of a face.
 pub(super) const THICK: f64 = 0.7;
+
+/// Faces around a point whose normals have at least this cosine between them make a side of the body there.
+const NEARLY_THE_SAME_WAY: f64 = 0.8;
 
 /// Half of the thickness of an element between a face and the side across from it, along the normal of the face; 0 for a face
 /// without area.
@@ -63,6 +66,8 @@ pub struct Faces {
     around: Shared<u32>,
     /// Element nodes of each face as points, `u32::MAX` for nodes that are none.
     element: Shared<[u32; 8]>,
+    /// Whether each point has faces around it, and all of them looked nearly the same way at the start.
+    flat: Shared<bool>,
 }
 
 impl Faces {
@@ -111,6 +116,14 @@ impl Faces {
         let thickest =
             |point: u32| faces.around(point).iter().map(|&face| faces.reach[face as usize]).fold(0.0, f64::max);
         faces.node_reach = (0..points as u32).map(thickest).collect();
+        let normals: Vec<[f64; 3]> =
+            numbers.iter().map(|number| normalized(area_normal(&at(nodes_of(number)))).unwrap_or_default()).collect();
+        let bends = |[a, b]: [u32; 2]| dot(normals[a as usize], normals[b as usize]) <= NEARLY_THE_SAME_WAY;
+        let is_flat = |point: u32| {
+            let around = faces.around(point);
+            !around.is_empty() && !around.iter().any(|&a| around.iter().any(|&b| bends([a, b])))
+        };
+        faces.flat = (0..points as u32).map(is_flat).collect();
         faces
     }
 
@@ -133,6 +146,13 @@ impl Faces {
             node_reach: vec![0.0; points].into(),
             ..Faces::default()
         };
+        let mut flat = vec![false; points];
+        for (old, _) in (0..).zip(&self.flat).filter(|(_, flat)| **flat) {
+            if let Some(place) = flat.get_mut(point(old) as usize) {
+                *place = true;
+            }
+        }
+        some.flat = flat.into();
         for (old, &reach) in (0..).zip(&self.node_reach).filter(|(_, reach)| **reach > 0.0) {
             if let Some(place) = some.node_reach.get_mut(point(old) as usize) {
                 *place = reach;
@@ -239,6 +259,11 @@ impl Faces {
     /// Faces with this point as a corner.
     pub fn around(&self, point: u32) -> &[u32] {
         &self.around[self.first[point as usize] as usize..self.first[point as usize + 1] as usize]
+    }
+
+    /// Whether a point was in the middle of a side of its body at the start: neither on an edge of it nor in a corner.
+    pub fn is_in_side(&self, point: u32) -> bool {
+        self.flat[point as usize]
     }
 
     /// Whether the point is a node of the face's element: never a contact, however crushed the element.

@@ -30,18 +30,10 @@ impl NodeFaceCheck<'_> {
 
     /// Whether one of the faces around a point makes a smaller cosine with a normal than this negative one.
     pub(super) fn has_face_opposed(&self, point: u32, normal: &[f64; 3], cosine: f64) -> bool {
-        self.faces.around(point).iter().any(|&face| self.is_opposed(face, normal, cosine))
-    }
-
-    /// The same of all of them, of which there must be one.
-    pub(super) fn are_all_opposed(&self, point: u32, normal: &[f64; 3], cosine: f64) -> bool {
-        let around = self.faces.around(point);
-        !around.is_empty() && around.iter().all(|&face| self.is_opposed(face, normal, cosine))
-    }
-
-    fn is_opposed(&self, face: u32, normal: &[f64; 3], cosine: f64) -> bool {
-        let own = projection::area_normal(&self.faces.start(face, self.motion));
-        dot(own, *normal) < cosine * dot(own, own).sqrt()
+        self.faces.around(point).iter().any(|&face| {
+            let own = projection::area_normal(&self.faces.start(face, self.motion));
+            dot(own, *normal) < cosine * dot(own, own).sqrt()
+        })
     }
 
     /// Whether another face of contact, or a side that touches nothing, is known at every edge with which the faces around a point end there. It

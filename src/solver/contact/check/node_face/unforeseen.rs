@@ -17,19 +17,25 @@ pub const STOPPED: f64 = 2.0;
 pub const STRUCK: f64 = 3.0;
 /// Cosine of the angle within which the normals of two faces are opposed.
 const OPPOSED: f64 = 0.5;
+/// Cosine between the normals of two faces that are upright on each other, at most.
+const UPRIGHT: f64 = 0.1;
 
 impl NodeFaceCheck<'_> {
     /// Adds the faces that `point` would meet if the `contacts` found so far held it, or be as near to as what has left a face is still held. Where there
     /// are none, those of other blocks to which it is as near.
     pub(super) fn unforeseen(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
-        let (free, held) = (self.motion.end(point), contacts.len());
+        let held = contacts.len();
+        // What meets the side of a solid pushes its nodes into it.
+        let is_backed = held == 0 && self.faces.is_in_side(point) && !self.is_carried(point);
+        let free = self.motion.end(point);
         let push = |at, contact: &DetectedContact| add(at, push_back(&contact.projection, contact.tolerated));
         let end = contacts.iter().fold(free, push);
         // In folds that close, what is not yet met would be held too early.
         let own_block = if held == 0 { self.block_of(point) } else { None };
         for &Candidate { face, interface } in near {
             let is_known = contacts[..held].iter().any(|contact| contact.face == face);
-            if is_known || own_block == Some(self.faces.block[face as usize]) {
+            let is_own = own_block == Some(self.faces.block[face as usize]);
+            if is_known || is_own || is_backed && !self.is_carried_along(face) {
                 continue;
             }
             let corners = self.faces.end(face, self.motion);
@@ -38,7 +44,9 @@ impl NodeFaceCheck<'_> {
             let length = dot(normal, normal).sqrt();
             let pushes_the_same_way =
                 |known: &DetectedContact| dot(known.projection.normal, normal) > SAME_WAY_AT_DISTANCE * length;
-            if contacts.iter().any(pushes_the_same_way) {
+            if contacts.iter().any(pushes_the_same_way)
+                || held == 0 && !self.may_be_pushed_to(point, face, normal, length)
+            {
                 continue;
             }
             if contacts[..held].iter().any(|contact| self.lies_below((face, &corners), end, contact)) {
@@ -57,8 +65,7 @@ impl NodeFaceCheck<'_> {
             }
             projection.gap += dot(subtract(free, end), projection.normal);
             let Some(tolerated) = self.overlap_at_start(point, face, &projection) else { continue };
-            if held == 0 && !self.may_be_pushed_to(point, face, &projection.normal)
-                || !self.faced(point, &projection.normal, self.rules[interface as usize])
+            if !self.faced(point, &projection.normal, self.rules[interface as usize])
                 || self.slides_over((point, face), near, &projection.weights, || Meeting { place: end, time: 1.0 })
             {
                 continue;
@@ -87,15 +94,28 @@ impl NodeFaceCheck<'_> {
         !corners.iter().any(rises) && !(pushes && looks_at())
     }
 
-    /// Whether what strikes another face around a point that nothing holds may push it to a face, whose normal is given: not where all around it look
-    /// at that face, as on the flat side of a solid that lies on another one. Nodes of surfaces, rigid bodies and joints go with what is struck elsewhere.
-    fn may_be_pushed_to(&self, point: u32, face: u32, normal: &[f64; 3]) -> bool {
-        let mobility = &self.motion.mobility;
-        let is_carried = |point: u32| mobility.of(point as usize).is_some() || mobility.joint(point as usize).is_some();
+    /// Whether what strikes another face around a point that nothing holds may push it to a face, whose area normal is given with its length: not where
+    /// all around it look at that face or stand upright on it, as on the sides of a solid that lies on another one. Nodes of surfaces, rigid bodies and
+    /// joints go with what is struck elsewhere.
+    fn may_be_pushed_to(&self, point: u32, face: u32, normal: [f64; 3], length: f64) -> bool {
+        let is_harmless = |&own: &u32| {
+            let own = projection::area_normal(&self.faces.start(own, self.motion));
+            dot(own, normal) < UPRIGHT * dot(own, own).sqrt() * length
+        };
+        let around = self.faces.around(point);
+        around.is_empty() || self.is_carried_along(face) || self.is_carried(point) || !around.iter().all(is_harmless)
+    }
+
+    /// Whether a point goes with others of a rigid body or a joint.
+    fn is_carried(&self, point: u32) -> bool {
+        let (point, mobility) = (point as usize, &self.motion.mobility);
+        mobility.of(point).is_some() || mobility.joint(point).is_some()
+    }
+
+    /// Whether what strikes a body elsewhere may push a face outwards at once.
+    fn is_carried_along(&self, face: u32) -> bool {
         self.faces.is_two_sided(face)
-            || !self.are_all_opposed(point, normal, -OPPOSED)
-            || is_carried(point)
-            || self.faces.corners[face as usize].into_iter().any(is_carried)
+            || self.faces.corners[face as usize].into_iter().any(|corner| self.is_carried(corner))
     }
 
     /// The overlap, a length of at most 0, with which a point begins the step in front of a face, over whose foot at the end of the step without contact
