@@ -107,29 +107,32 @@ impl<V: Lanes> Sym3<V> {
     #[inline(always)]
     pub fn rotate(self, r: &Matrix3<V>) -> Self {
         let ra = multiply(r, &self.matrix());
-        let entry = |i: usize, j: usize| ra[i][0] * r[j][0] + ra[i][1] * r[j][1] + ra[i][2] * r[j][2];
-        Sym3 { xx: entry(0, 0), yy: entry(1, 1), zz: entry(2, 2), xy: entry(0, 1), yz: entry(1, 2), zx: entry(2, 0) }
+        Sym3 {
+            xx: dot(&ra[0], &r[0]),
+            yy: dot(&ra[1], &r[1]),
+            zz: dot(&ra[2], &r[2]),
+            xy: dot(&ra[0], &r[1]),
+            yz: dot(&ra[1], &r[2]),
+            zx: dot(&ra[2], &r[0]),
+        }
     }
+}
+
+/// Sum of three products. A function, as all that kernels call is: closures are not always inlined, and where one stays a call, even
+/// on a path that is hardly ever taken, what it looks at has to be in memory on all of them.
+#[inline(always)]
+fn dot<V: Lanes>(a: &[V; 3], b: &[V; 3]) -> V {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// a · b
 #[inline(always)]
 pub fn multiply<V: Lanes>(a: &Matrix3<V>, b: &Matrix3<V>) -> Matrix3<V> {
-    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-    [
-        [entry(0, 0), entry(0, 1), entry(0, 2)],
-        [entry(1, 0), entry(1, 1), entry(1, 2)],
-        [entry(2, 0), entry(2, 1), entry(2, 2)],
-    ]
+    array![i in 3 => array![j in 3 => dot(&a[i], &[b[0][j], b[1][j], b[2][j]])]]
 }
 
 /// aᵀ · b
 #[inline(always)]
 pub fn multiply_transposed<V: Lanes>(a: &Matrix3<V>, b: &Matrix3<V>) -> Matrix3<V> {
-    let entry = |i: usize, j: usize| a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
-    [
-        [entry(0, 0), entry(0, 1), entry(0, 2)],
-        [entry(1, 0), entry(1, 1), entry(1, 2)],
-        [entry(2, 0), entry(2, 1), entry(2, 2)],
-    ]
+    array![i in 3 => array![j in 3 => dot(&[a[0][i], a[1][i], a[2][i]], &[b[0][j], b[1][j], b[2][j]])]]
 }

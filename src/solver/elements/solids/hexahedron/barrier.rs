@@ -10,7 +10,7 @@
 //! f, f′ and f″ vanish at u = 1. Its force on the corners is φ′ B, B = ∂V/∂x: exactly the gradient of φ, whatever the shape.
 
 use super::geometry::{Gradient, Modes, dot, earlier, gradient};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, array};
 use crate::solver::elements::solids::exact::Steps;
 
 /// s: the barrier begins where this part of the volume is left.
@@ -157,9 +157,14 @@ fn growth<V: Lanes>(v: &[Modes<V>; 3], operator: &Gradient<V>) -> V {
 /// squares of modes are eight times those of the corners.
 #[inline(always)]
 fn largest_curvature<V: Lanes>(x: &[Modes<V>; 3]) -> V {
-    let square =
-        |m: &Modes<V>| ((m[0] * m[0] + m[1] * m[1]) + (m[2] * m[2] + m[3] * m[3])) + (m[4] * m[4] + m[5] * m[5]);
-    ((square(&x[0]) + square(&x[1]) + square(&x[2])) * V::splat(4.0 / 3.0)).sqrt() * V::splat(1.0 / 6.0)
+    let squares = array![i in 3 => square(&x[i])];
+    ((squares[0] + squares[1] + squares[2]) * V::splat(4.0 / 3.0)).sqrt() * V::splat(1.0 / 6.0)
+}
+
+/// Sum of the squares of the modes that the operator has. A function: see `geometry::square`, which adds in another order.
+#[inline(always)]
+fn square<V: Lanes>(m: &Modes<V>) -> V {
+    ((m[0] * m[0] + m[1] * m[1]) + (m[2] * m[2] + m[3] * m[3])) + (m[4] * m[4] + m[5] * m[5])
 }
 
 /// The stable step Δt' of an element that has a further stiffness K: with its own, Δt, damped or not, (4/Δt²) Δt/Δt' + 8K/M

@@ -214,7 +214,7 @@ fn of_second_order<V: Lanes>(
     let (half, quarter) = (V::splat(0.5), V::splat(0.25));
     // Symmetric, as c is what makes it so.
     let growth = Sym3::of(&multiply(&with_skew(d, c), &u.matrix()));
-    let middle = u.zip(growth, |a, b| a + b * half).matrix();
+    let middle = half_way(u, &growth).matrix();
     let p = multiply(&with_skew(strain, c), &middle);
     // −2δ
     let excess = inverse.times(&[p[2][1] - p[1][2], p[0][2] - p[2][0], p[1][0] - p[0][1]]);
@@ -225,6 +225,14 @@ fn of_second_order<V: Lanes>(
         half_turn: array![i in 3 => excess[i] * half - seen[i] * quarter],
         growth: Sym3::of(&array![i in 3 => array![j in 3 => p[i][j] - turned[j][i]]]),
     }
+}
+
+/// u + ½ growth
+#[inline(always)]
+fn half_way<V: Lanes>(u: &Sym3<V>, growth: &Sym3<V>) -> Sym3<V> {
+    let (u, growth) = (u.to_array(), growth.to_array());
+    let [xx, yy, zz, xy, yz, zx] = array![k in 6 => u[k] + growth[k] * V::splat(0.5)];
+    Sym3 { xx, yy, zz, xy, yz, zx }
 }
 
 #[inline(always)]
