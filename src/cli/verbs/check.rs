@@ -10,7 +10,7 @@ use crate::model::{Model, StepEstimate};
 use crate::output::print::{self, scientific};
 use crate::run::Endless;
 use crate::solver::contact::search::Box3;
-use crate::solver::elements::Element;
+use crate::solver::elements::{Element, ahead};
 use crate::solver::{BlockTrial, Body, Request, Solver, Stop, of_overlaps, state_names, studs};
 use crate::studies::advice;
 use std::time::Instant;
@@ -326,7 +326,8 @@ fn memory(given: &Given) -> f64 {
             let rows =
                 |element: Element| element.entry().rows.len() + element.points() * (element.point_rows() + law_rows);
             let rows = Element::of_block(block, model).map_or(0, rows);
-            block.len() * (8 * rows + 8 + 4 * block.shape.corners() + 3 * 4 + 4 * block.shape.corners() + 8)
+            ahead::bytes(block.len())
+                + block.len() * (8 * rows + 8 + 4 * block.shape.corners() + 3 * 4 + 4 * block.shape.corners() + 8)
         })
         .sum();
     // A node's record, force, file number and ownership; position and number in the mesh.

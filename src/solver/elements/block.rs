@@ -1,5 +1,6 @@
 //! Storage of one element block on one rank: chunks of eight elements, each quantity a row of eight numbers.
 
+use super::ahead::{FarNodes, far_nodes};
 use super::pass::{Pass, PassOutcome, PassSettings, Sink};
 use super::{Element, Probe};
 use crate::comm::ExactSum;
@@ -47,6 +48,8 @@ pub struct Group {
     pub unknowns: usize,
     /// Local nodes of eight elements, then their rotations: `unknowns` such rows per chunk.
     pub connectivity: Vec<[u32; CHUNK]>,
+    /// Nodes that have to be asked for ahead, of each chunk; empty where the group is small.
+    pub far: Vec<FarNodes>,
     /// Masses of the elements' material, one row per chunk.
     pub mass: Vec<Row>,
     /// The same with what MASS SCALING has added; empty where it has added nothing.
@@ -105,6 +108,7 @@ impl Group {
             corners,
             unknowns,
             connectivity: vec![[0; CHUNK]; chunks * unknowns],
+            far: Vec::new(),
             mass: vec![Row::default(); chunks],
             moving: Vec::new(),
             least_share: Vec::new(),
@@ -134,6 +138,7 @@ impl Group {
                 (place..end).for_each(|slot| group.least_share[slot / CHUNK].0[slot % CHUNK] = least_share);
             }
         }
+        group.far = far_nodes(&group.connectivity, unknowns);
         if !added.is_empty() {
             group.moving = group.mass.clone();
             let lanes = group.moving.iter_mut().flat_map(|row| &mut row.0);

@@ -2,6 +2,7 @@
 //!
 //! A kind of element is a folder in `solids` or `structural` and a line in the list below: see `docs/adding-an-element.md`.
 
+pub mod ahead;
 mod block;
 mod bulk_viscosity;
 #[cfg(test)]

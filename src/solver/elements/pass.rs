@@ -1,9 +1,10 @@
 //! One pass over the elements of a block, compiled for every kind of element, law and instruction set.
 
+use super::ahead::Ahead;
 use super::block::Group;
 use crate::lanes::{
     CHUNK, Corner, CornerForces, DoubleLanes, Force, InstructionSet, Lanes, MOST_CORNERS, MOST_LANES, Numbers, Row,
-    Vectors, Widths, array, prefetch,
+    Vectors, Widths, array,
 };
 use crate::model::{BulkViscosity, StepModuli};
 
@@ -86,6 +87,9 @@ pub trait StepKernel<const N: usize> {
     /// Whether [`Outcome::motion_step`] may be smaller than the stable step.
     const MOVES_FAR: bool = false;
 
+    /// How often it [pauses](Ahead::pause) in a step: kernels that take long, so that what comes next is asked for evenly.
+    const PAUSES: usize = 0;
+
     /// Whether x is the distance from an axis: positions and velocities along x are then those in space.
     #[inline(always)]
     fn about_axis(&self) -> bool {
@@ -93,7 +97,7 @@ pub trait StepKernel<const N: usize> {
     }
 
     /// One step of the elements of one part of a chunk: from corner positions and mid-step velocities by direction and corner,
-    /// both relative to the first corner. Advances the rows of `state`.
+    /// both relative to the first corner. Advances the rows of `state`. `ahead` is for its [pauses](StepKernel::PAUSES).
     fn step<V: Lanes>(
         &self,
         positions: &[[V; N]; 3],
@@ -101,6 +105,7 @@ pub trait StepKernel<const N: usize> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, N>,
+        ahead: &mut Ahead<V::Row>,
     ) -> Outcome<V, N>;
 }
 
@@ -301,11 +306,19 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
     for (row, connectivity) in group.connectivity.as_chunks::<N>().0.chunks_exact(abreast).enumerate() {
         let chunk = row * abreast;
         let mut steps = group.steps.get_mut(chunk..chunk + abreast);
-        let (state, ahead) = rows[row * stride..].split_at_mut(stride);
-        // A share before and one after the kernel of each part: all of it at once would fill the queue of what the first
-        // cache waits for, and hold up the loads of this row.
-        let next = ahead.get(..stride).unwrap_or_default();
-        let shares = 2 * V::Row::LANES / V::COUNT;
+        let (state, later) = rows[row * stride..].split_at_mut(stride);
+        // Forces that are kept apart are of few elements.
+        let (sums, far) = match &sink {
+            Target::Apart(_) => (&[][..], &[][..]),
+            Target::Nodes(merge) => (&*merge.forces, &group.far[..]),
+        };
+        let mut ahead = Ahead {
+            state: later.get(..stride).unwrap_or_default(),
+            nodes: (nodes.rows, far.get(chunk + abreast..chunk + 2 * abreast).unwrap_or_default()),
+            forces: (sums, far.get(chunk..chunk + abreast).unwrap_or_default()),
+            shares: 2 * V::Row::LANES / V::COUNT + if Ahead::<V::Row>::pauses::<V>() { S::PAUSES } else { 0 },
+            taken: 0,
+        };
         for part in 0..V::Row::LANES / V::COUNT {
             let places = N - S::ROTATIONS;
             relative_corners::<V, N>(nodes.rows, connectivity, part, (kernel.about_axis(), places), [&mut x, &mut v]);
@@ -317,9 +330,9 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
             let least_share = least_share.map_or(V::splat(1.0), |rows| V::load_double(rows, part));
             let rates =
                 if S::NEIGHBOURS { gathered::<V, N>(nodes.rates, connectivity, part) } else { [V::splat(0.0); N] };
-            prefetch(share(next, 2 * part, shares));
-            let outcome = kernel.step(&x, &v, state, part, Given { material, moving, least_share, rates });
-            prefetch(share(next, 2 * part + 1, shares));
+            ahead.go_on();
+            let outcome = kernel.step(&x, &v, state, part, Given { material, moving, least_share, rates }, &mut ahead);
+            ahead.go_on();
             scatter_forces(&outcome, S::BALANCED, &mut corner_forces, part);
             // A NaN fails every comparison, so it counts as a failed element and never as the smallest step.
             let (here, mut step) = (V::splat(row as f64), outcome.stable_step);
@@ -356,12 +369,6 @@ fn chunks<V: Lanes, const N: usize, S: StepKernel<N>>(
         merge.border_before(u32::MAX);
     }
     summarise(group, [&smallest, &smallest_row, &motion_steps, &failed_row])
-}
-
-/// One of some nearly equal shares of rows.
-#[inline(always)]
-fn share<R>(rows: &[R], place: usize, shares: usize) -> &[R] {
-    rows.get(rows.len() * place / shares..rows.len() * (place + 1) / shares).unwrap_or_default()
 }
 
 /// Brings the forces of a part to where they are taken from; in single precision made to add up to nothing again in each

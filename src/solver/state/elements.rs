@@ -96,6 +96,7 @@ impl Group {
             corners: _,
             unknowns: _,
             connectivity: _,
+            far: _,
             gone: _,
             steps: _,
         } = self;

@@ -6,6 +6,7 @@ use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::mesh::hexahedron::SIGNS;
 use crate::model::BulkViscosity;
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::hexahedron::geometry::{Corners, Gradient, Modes, dot, earlier, gradient, modes};
 use crate::solver::elements::hexahedron::hourglass::Resistance;
@@ -61,6 +62,7 @@ impl<K: Kernel> StepKernel<8> for EightPointStep<K> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 8>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, 8> {
         let settings = &self.settings;
         let (zero, one, half) = (V::splat(0.0), V::splat(1.0), V::splat(0.5));

@@ -12,6 +12,7 @@ use super::single_precision::carried;
 use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::BulkViscosity;
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::solids::answer::Answer;
@@ -90,6 +91,7 @@ pub struct Physics<'a, K, H> {
 impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
     const NEIGHBOURS: bool = K::FLUID;
     const MOVES_FAR: bool = K::HYPOELASTIC;
+    const PAUSES: usize = 3;
 
     #[inline(always)]
     fn step<V: Lanes>(
@@ -99,8 +101,9 @@ impl<K: Kernel, H: hourglass::Control> StepKernel<8> for Physics<'_, K, H> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 8>,
+        ahead: &mut Ahead<V::Row>,
     ) -> Outcome<V, 8> {
-        step(positions, velocities, state, part, given, self)
+        step(positions, velocities, state, part, given, self, ahead)
     }
 }
 
@@ -114,6 +117,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     part: usize,
     given: Given<V, 8>,
     Physics { settings, law, control }: &Physics<K, H>,
+    ahead: &mut Ahead<V::Row>,
 ) -> Outcome<V, 8> {
     let zero = V::splat(0.0);
     let x: [Modes<V>; 3] = array![i in 3 => modes(&positions[i])];
@@ -129,6 +133,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     // (i) velocity gradient and hourglass rates at mid-step, (ii) frame, stretch and strain increment
     let middle = Middle::of([&x, &v], settings);
     let (motion, biot_strain) = turn::<V, K>(&middle.velocity_gradient, state, part, settings);
+    ahead.pause::<V>();
 
     // (iii) stress
     let volumes = [middle.volume(), V::splat(settings.density) / given.material];
@@ -151,6 +156,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     if !K::EQUATION {
         book::<V, K>(slowed.power * motion.strain.trace() * middle.volume(), VISCOUS, state, part);
     }
+    ahead.pause::<V>();
 
     // (v) hourglass resistance in the frame, or of a fluid; with an equation of state the accounts are closed
     let mut held = [[zero; 8]; 3];
@@ -191,6 +197,7 @@ fn step<V: Lanes, K: Kernel, H: hourglass::Control>(
     // An element that passed through itself within the step has failed, even if it looks sound at the end.
     let stable_step = V::select_less(zero, middle.volume192, stable_step, zero);
     let stable_step = if V::SINGLE { stable_step * V::splat(ROUNDED_BOUND) } else { stable_step };
+    ahead.pause::<V>();
 
     // (vii) corner forces from the rotated stress
     let turned = answer.stress.rotate(&motion.frame);

@@ -14,6 +14,7 @@ use crate::lanes::{Lanes, Matrix3, Sym3, array};
 use crate::material::Moduli;
 use crate::model::BulkViscosity;
 use crate::solver::elements::Probe;
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 
 /// What holds for a whole block.
@@ -54,6 +55,7 @@ impl StepKernel<8> for Vibration {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 8>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, 8> {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let light = given.moving * given.least_share;

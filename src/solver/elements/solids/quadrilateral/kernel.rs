@@ -9,6 +9,7 @@ use super::sections::{Corners, Operator, Section};
 use crate::lanes::{Lanes, Sym3, array};
 use crate::material::{Kernel, Step};
 use crate::model::{BulkViscosity, Hourglass};
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping, softened};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::solids::answer::Answer;
@@ -98,6 +99,7 @@ impl<K: Kernel> StepKernel<4> for Physics<'_, K> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 4>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, 4> {
         step([[positions[0], positions[1]], [velocities[0], velocities[1]]], state, part, given, self)
     }

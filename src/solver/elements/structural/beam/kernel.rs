@@ -4,6 +4,7 @@ use super::section::MOST_FIBRES;
 use super::{point_rows, rows};
 use crate::lanes::{Lanes, array, exp};
 use crate::material::{Kernel, Moduli};
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::structural::{BAR_STEP, uniaxial};
 
@@ -113,6 +114,7 @@ impl<K: Kernel> StepKernel<4> for BeamStep<K> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 4>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, 4> {
         let (zero, half, dt) = (V::splat(0.0), V::splat(0.5), V::splat(self.times[1]));
         // (i) axes before, in the middle of and after the step; rates in the middle

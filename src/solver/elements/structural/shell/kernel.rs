@@ -8,6 +8,7 @@ use super::{point_rows, rows};
 use crate::lanes::{Lanes, Numbers, Sym3, array};
 use crate::material::{Kernel, Moduli};
 use crate::model::BulkViscosity;
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::bulk_viscosity::{damped_step, damping};
 use crate::solver::elements::pass::{Given, Outcome, StepKernel};
 use crate::solver::elements::state_rows::accumulate;
@@ -51,6 +52,7 @@ impl<K: Kernel, S: Kind<C, R>, const C: usize, const R: usize, const N: usize, c
         state: &mut [V::Row],
         part: usize,
         given: Given<V, N>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, N> {
         let half_step = V::splat(0.5 * self.times[1]);
         let zero = V::splat(0.0);

@@ -11,6 +11,7 @@ use crate::material::{Kernel, KernelVisitor, Law, Moduli, Start};
 use crate::mesh::{Block, Shape};
 use crate::model::Model;
 use crate::solver::body::centroid;
+use crate::solver::elements::ahead::Ahead;
 use crate::solver::elements::{
     Energies, Entry, Formulation, Given, Group, NewElement, Outcome, Pass, PassOutcome, PassSettings, Sample,
     StepKernel, StoredRow, Touch, Unfit,
@@ -215,6 +216,7 @@ impl<K: Kernel> StepKernel<2> for TrussStep<K> {
         state: &mut [V::Row],
         part: usize,
         given: Given<V, 2>,
+        _: &mut Ahead<V::Row>,
     ) -> Outcome<V, 2> {
         let half = V::splat(0.5);
         // (i) strain increment at mid-step
