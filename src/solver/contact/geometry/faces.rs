@@ -15,7 +15,7 @@ pub const THINNEST: u8 = 15;
 /// A surface is thick against its elements when two thicknesses of its sides make more than this part of a face.
 pub(super) const THICK: f64 = 0.7;
 
-/// Faces around a point whose normals have at least this cosine between them make a side of the body there.
+/// Faces around a point whose normals have a larger cosine between them, all of them, make a side of the body there.
 const NEARLY_THE_SAME_WAY: f64 = 0.8;
 
 /// Half of the thickness of an element between a face and the side across from it, along the normal of the face; 0 for a face

@@ -164,7 +164,8 @@ pub fn is_out_of_reach(corners: &[[f64; 3]; 4], point: [f64; 3], distance: f64) 
     along(point) > along(corners[0]).abs() * (1.0 + BORDER) + distance * dot(normal, normal).sqrt()
 }
 
-/// Whether a point is surely farther from a face than a distance, on either side of its plane and of its continuation. Cheap, for the many that are.
+/// Whether a point within some edges of a face is surely farther from it than a distance, on either side of its plane and of its continuation. Cheap, for
+/// the many that are.
 #[inline(always)]
 pub fn is_off_plane(corners: &[[f64; 3]; 4], point: [f64; 3], distance: f64) -> bool {
     let (middle, normal) = (centre(corners), area_normal(corners));

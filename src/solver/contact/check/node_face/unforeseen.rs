@@ -22,10 +22,10 @@ const UPRIGHT: f64 = 0.1;
 
 impl NodeFaceCheck<'_> {
     /// Adds the faces that `point` would meet if the `contacts` found so far held it, or be as near to as what has left a face is still held. Where there
-    /// are none, those of other blocks to which it is as near.
+    /// are none, those of other blocks to which it is as near, if others may push it there. Of faces that push the same way the first is enough.
     pub(super) fn unforeseen(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
         let held = contacts.len();
-        // What meets the side of a solid pushes its nodes into it.
+        // What meets the side of a solid pushes its nodes into it. The cheap form of what `may_be_pushed_to` asks.
         let is_backed = held == 0 && self.faces.is_in_side(point) && !self.is_carried(point);
         let free = self.motion.end(point);
         let push = |at, contact: &DetectedContact| add(at, push_back(&contact.projection, contact.tolerated));
@@ -39,7 +39,7 @@ impl NodeFaceCheck<'_> {
                 continue;
             }
             let corners = self.faces.end(face, self.motion);
-            // Most of those around a point go on beside one that is known.
+            // Most of those around a point go on beside one that is known, which is enough.
             let normal = projection::area_normal(&corners);
             let length = dot(normal, normal).sqrt();
             let pushes_the_same_way =
@@ -118,10 +118,11 @@ impl NodeFaceCheck<'_> {
             || self.faces.corners[face as usize].into_iter().any(|corner| self.is_carried(corner))
     }
 
-    /// The overlap, a length of at most 0, with which a point begins the step in front of a face, over whose foot at the end of the step without contact
-    /// it has come; `None` where it is not in front of it, or deeper than what others may have left in the step before.
-    fn overlap_at_start(&self, point: u32, face: u32, end: &Projection) -> Option<f64> {
-        let gap = end.gap - self.leaving(point, face, end);
+    /// The overlap, a length of at most 0, with which a point begins the step in front of a face; `None` where it is not in front of it, or deeper than
+    /// what others may have left in the step before. `met` has the foot and the normal of the place to which others push the point, and the gap of the end of
+    /// the step without them; what foot and point go in the step is taken along that normal, which is exact but for what the face turns in the step.
+    fn overlap_at_start(&self, point: u32, face: u32, met: &Projection) -> Option<f64> {
+        let gap = met.gap - self.leaving(point, face, met);
         let begins = |start: Projection| self.is_hardly_beyond(face, &start) && self.begins_in_front(point, face);
         let is_in_front = gap > -HOLD * self.faces.size[face as usize]
             && (!self.faces.is_two_sided(face) || self.projection_at_start(point, face).is_some_and(begins));
