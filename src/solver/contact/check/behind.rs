@@ -56,7 +56,8 @@ pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<
         locator.locate(i, &mut motion, &layout.faces, &NO_CONTACT, &mut near);
         // Nothing comes through anything, so that edges need not be asked.
         let (faces, edges_hold) = (&*layout.faces, false);
-        let check = NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold };
+        let check =
+            NodeFaceCheck { motion: &motion, faces, rules: &strict, longest_path, edges_hold, have_friction: false };
         check.point(point, &near, &NO_CONTACT, &mut contacts);
         if !contacts.is_empty() && check.leave_nearest_ways_out(point, &mut near, |face| nothing(layout, &motion, face))
         {

@@ -360,7 +360,7 @@ impl LocalProblem {
         let LocalProblem { constraints, near, contacts, stopped, struck, edges_hold, .. } = self;
         stopped.clear();
         struck.clear();
-        let edges_hold = *edges_hold;
+        let (edges_hold, have_friction) = (*edges_hold, pairings.have_friction);
         let longest_path = locator.longest_path();
         for i in 0..locator.slave_nodes().len() {
             if locator.is_quiet(i) {
@@ -377,7 +377,7 @@ impl LocalProblem {
             }
             // The history of the many that nothing holds need not be fetched.
             let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
-            let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold };
+            let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold, have_friction };
             check.point(point, near, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;

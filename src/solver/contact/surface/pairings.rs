@@ -20,6 +20,8 @@ pub struct Pairings {
     blocks: Vec<Pairing>,
     count: usize,
     pairs: Vec<Pairing>,
+    /// Whether there is friction anywhere.
+    pub have_friction: bool,
 }
 
 impl Pairings {
@@ -54,12 +56,14 @@ impl Pairings {
                 None => Pairing { friction: Friction::default(), share: by_impedance },
             }
         };
-        let blocks = (0..count * count).map(|i| pairing(i / count, i % count)).collect();
+        let blocks: Vec<Pairing> = (0..count * count).map(|i| pairing(i / count, i % count)).collect();
         let pairs = model.contact.surfaces.iter().flat_map(|pair| {
             // Points of the first set on faces of the second, then the other way round.
             let partition = if pair.side_sets[0] == pair.side_sets[1] { 0.5 } else { pair.partition };
             [1.0 - partition, partition].map(|share| Pairing { friction: pair.friction, share })
         });
-        Pairings { blocks, count, pairs: pairs.collect() }
+        let pairs: Vec<Pairing> = pairs.collect();
+        let have_friction = blocks.iter().chain(&pairs).any(|pairing| pairing.friction != Friction::default());
+        Pairings { blocks, count, pairs, have_friction }
     }
 }

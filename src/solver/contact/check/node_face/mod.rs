@@ -106,6 +106,8 @@ pub struct NodeFaceCheck<'a> {
     pub longest_path: f64,
     /// Whether edges that stand out hold each other.
     pub edges_hold: bool,
+    /// Whether any two bodies rub.
+    pub have_friction: bool,
 }
 
 /// Whether a face is one of those near a point.

@@ -334,7 +334,7 @@ mod tests {
         motion.receive(point, [from[0], from[1], from[2], path[0], path[1], path[2], 0., 0., 0.]);
         let longest_path = path.iter().fold(0.0, |longest: f64, along| longest.max(along.abs()));
         let (motion, faces, rules) = (&motion, &faces, &[Rule::Blocks][..]);
-        let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold: true };
+        let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold: true, have_friction: false };
         let near: Vec<Candidate> = (0..faces.len() as u32).map(|face| Candidate { face, interface: 0 }).collect();
         let mut contacts = Vec::new();
         check.point(point, &near, &NO_CONTACT, &mut contacts);

@@ -91,16 +91,17 @@ impl NodeFaceCheck<'_> {
             dot(normal, up) < -OPPOSED * dot(normal, normal).sqrt()
         };
         let pushes = holding.projection.gap < holding.tolerated;
-        !corners.iter().any(rises) && !(pushes && looks_at())
+        !(corners.iter().any(rises) || pushes && looks_at())
     }
 
     /// Whether what strikes another face around a point that nothing holds may push it to a face, whose area normal is given with its length: not where
-    /// all around it look at that face or stand upright on it, as on the sides of a solid that lies on another one. Nodes of surfaces, rigid bodies and
-    /// joints go with what is struck elsewhere.
+    /// all around it look at that face or stand upright on it, as on the sides of a solid that lies on another one; upright sides take their nodes along
+    /// with what rubs them. Nodes of surfaces, rigid bodies and joints go with what is struck elsewhere.
     fn may_be_pushed_to(&self, point: u32, face: u32, normal: [f64; 3], length: f64) -> bool {
+        let cosine = if self.have_friction { -OPPOSED } else { UPRIGHT };
         let is_harmless = |&own: &u32| {
             let own = projection::area_normal(&self.faces.start(own, self.motion));
-            dot(own, normal) < UPRIGHT * dot(own, own).sqrt() * length
+            dot(own, normal) < cosine * dot(own, own).sqrt() * length
         };
         let around = self.faces.around(point);
         around.is_empty() || self.is_carried_along(face) || self.is_carried(point) || !around.iter().all(is_harmless)
