@@ -170,27 +170,31 @@ pub fn prefetch_later<A, B>(one: &A, other: &B) {
 /// Asks the memory for rows that will be needed soon. Hardware does this too, but not across the border of a page.
 #[inline(always)]
 pub fn prefetch<R: Numbers>(rows: &[R]) {
-    #[cfg(target_arch = "x86_64")]
     for row in rows {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(row).cast()) }
+        prefetch_line(row);
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = rows;
 }
 
-/// Asks the memory for some of many values, by their places. `unsafe` for a twelfth of a step of 64³ hexahedra: 75 ns without it, 69 with it (Zen 4).
+/// Asks the memory for some of many values, by their places. It gains a twelfth of a step of 64³ hexahedra: 75 ns without it, 69 with it (Zen 4).
 #[inline(always)]
 pub fn prefetch_named<T>(all: &[T], places: &[u32]) {
-    #[cfg(target_arch = "x86_64")]
     for &place in places {
+        // Found without a promise that there is a value, which would have to be checked.
+        prefetch_line(all.as_ptr().wrapping_add(place as usize));
+    }
+}
+
+/// Asks the memory for the line of an address, into the first cache.
+#[inline(always)]
+fn prefetch_line<T>(address: *const T) {
+    #[cfg(target_arch = "x86_64")]
+    {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: as above; the address is found without a promise that there is a value.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(all.as_ptr().wrapping_add(place as usize).cast()) }
+        // SAFETY: a prefetch reads nothing that the program sees, whatever the address, and every x86-64 processor has the instruction.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (all, places);
+    let _ = address;
 }
 
 /// What an element adds to a node, `[x, y, z, s]`: a force, and a number of its own that neighbours are to hear of (0 where there is

@@ -66,8 +66,8 @@ pub struct Faces {
     around: Shared<u32>,
     /// Element nodes of each face as points, `u32::MAX` for nodes that are none.
     element: Shared<[u32; 8]>,
-    /// Whether each point has faces around it, and all of them looked nearly the same way at the start.
-    flat: Shared<bool>,
+    /// Around which of its corners all faces looked nearly the same way at the start, a bit each.
+    amid_side: Shared<u8>,
 }
 
 impl Faces {
@@ -118,12 +118,7 @@ impl Faces {
         faces.node_reach = (0..points as u32).map(thickest).collect();
         let normals: Vec<[f64; 3]> =
             numbers.iter().map(|number| normalized(area_normal(&at(nodes_of(number)))).unwrap_or_default()).collect();
-        let bends = |[a, b]: [u32; 2]| dot(normals[a as usize], normals[b as usize]) <= NEARLY_THE_SAME_WAY;
-        let is_flat = |point: u32| {
-            let around = faces.around(point);
-            !around.is_empty() && !around.iter().any(|&a| around.iter().any(|&b| bends([a, b])))
-        };
-        faces.flat = (0..points as u32).map(is_flat).collect();
+        faces.amid_side = (0..faces.len() as u32).map(|face| faces.find_amid_side(face, &normals)).collect();
         faces
     }
 
@@ -140,19 +135,13 @@ impl Faces {
             reach: chosen_of(&self.reach, chosen),
             two_sided: chosen_of(&self.two_sided, chosen),
             borders: chosen_of(&self.borders, chosen),
+            amid_side: chosen_of(&self.amid_side, chosen),
             hidden_sides: self.hidden_sides.subset(chosen),
             thinning: chosen_of(&self.thinning, chosen),
             element: chosen.iter().map(|&face| element(self.element[face as usize])).collect(),
             node_reach: vec![0.0; points].into(),
             ..Faces::default()
         };
-        let mut flat = vec![false; points];
-        for (old, _) in (0..).zip(&self.flat).filter(|(_, flat)| **flat) {
-            if let Some(place) = flat.get_mut(point(old) as usize) {
-                *place = true;
-            }
-        }
-        some.flat = flat.into();
         for (old, &reach) in (0..).zip(&self.node_reach).filter(|(_, reach)| **reach > 0.0) {
             if let Some(place) = some.node_reach.get_mut(point(old) as usize) {
                 *place = reach;
@@ -251,6 +240,16 @@ impl Faces {
         if self.two_sided[face as usize] { (0..4).filter(is_border).fold(0, |borders, i| borders | 1 << i) } else { 0 }
     }
 
+    /// See [`Faces::is_amid_side`]; `normals` are those of all faces.
+    fn find_amid_side(&self, face: u32, normals: &[[f64; 3]]) -> u8 {
+        let look_alike = |[a, b]: [u32; 2]| dot(normals[a as usize], normals[b as usize]) > NEARLY_THE_SAME_WAY;
+        let is_amid = |corner: &usize| {
+            let around = self.around(self.corners[face as usize][*corner]);
+            around.iter().all(|&a| around.iter().all(|&b| look_alike([a, b])))
+        };
+        (0..4).filter(is_amid).fold(0, |corners, corner| corners | 1 << corner)
+    }
+
     /// Edges of one side of a surface at which no other element goes on: bit i for that from corner i to the next.
     pub fn borders_of(&self, face: u32) -> u8 {
         self.borders[face as usize]
@@ -262,8 +261,11 @@ impl Faces {
     }
 
     /// Whether a point was in the middle of a side of its body at the start: neither on an edge of it nor in a corner.
-    pub fn is_in_side(&self, point: u32) -> bool {
-        self.flat[point as usize]
+    pub fn is_amid_side(&self, point: u32) -> bool {
+        self.around(point).first().is_some_and(|&face| {
+            let is_there = |corner: &usize| self.corners[face as usize][*corner] == point;
+            (0..4).find(is_there).is_some_and(|corner| self.amid_side[face as usize] >> corner & 1 == 1)
+        })
     }
 
     /// Whether the point is a node of the face's element: never a contact, however crushed the element.
@@ -391,6 +393,25 @@ fn chosen_of<T: Copy, L: FromIterator<T>>(all: &[T], chosen: &[u32]) -> L {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Shape;
+    use crate::mesh::exterior::exterior;
+
+    /// Two by two by two cubes: a point in the middle of each of six sides, in all faces and in those of one element.
+    #[test]
+    fn points_amid_sides_are_neither_on_edges_nor_in_corners() {
+        let range = |n: u32| (0..n).flat_map(move |k| (0..n).flat_map(move |j| (0..n).map(move |i| [i, j, k])));
+        let at: Vec<[f64; 3]> = range(3).map(|place| place.map(f64::from)).collect();
+        let nodes = range(2).flat_map(|[i, j, k]| {
+            let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+            corners.map(|[a, b, c]| ((k + c) * 3 + j + b) * 3 + i + a)
+        });
+        let elements = Connectivity::of(Shape::Hexahedron, nodes.collect());
+        let numbers = exterior(elements.shaped(), at.len(), |_| true);
+        let faces = Faces::new(&numbers, (&elements, &[0; 8], &at), (|node| node, at.len()), |_| 0.0);
+        let amid = |faces: &Faces| (0..27).filter(|&point| faces.is_amid_side(point)).collect::<Vec<u32>>();
+        assert_eq!(amid(&faces), [4, 10, 12, 14, 16, 22]);
+        assert_eq!(amid(&faces.subset(&[0, 1, 2], |point| point, 27)), [4, 10, 12]);
+    }
 
     #[test]
     fn a_depth_follows_a_thinner_element_at_once_and_a_thicker_one_late() {

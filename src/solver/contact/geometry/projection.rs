@@ -399,6 +399,20 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn off_the_plane_the_gap_is_larger(
+            x in prop::array::uniform4(prop::array::uniform3(-0.1..0.1)), point in prop::array::uniform3(-2.0..3.0), flat in 0.0..1.0, far in 0.0..0.5,
+        ) {
+            let corners = [0, 1, 2, 3].map(|i| [SQUARE[i][0] + x[i][0], SQUARE[i][1] + x[i][1], flat * x[i][2]]);
+            if is_off_plane(&corners, point, far) {
+                let gap = project(&corners, point).map_or(f64::INFINITY, |projection| projection.gap.abs());
+                prop_assert!(gap > far, "{gap}");
+            }
+            prop_assert!(!is_off_plane(&SQUARE, [point[0], point[1], far], 1.01 * far + 1e-9));
+        }
+    }
+
     #[test]
     fn beyond_the_border_the_nearest_point_of_it() {
         let s = project(&SQUARE, [1.25, 0.5, 0.5]).expect("a face");

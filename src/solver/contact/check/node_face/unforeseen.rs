@@ -24,10 +24,7 @@ impl NodeFaceCheck<'_> {
     /// Adds the faces that `point` would meet if the `contacts` found so far held it, or be as near to as what has left a face is still held. Where there
     /// are none, those of other blocks to which it is as near, if others may push it there. Of faces that push the same way the first is enough.
     pub(super) fn unforeseen(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
-        let held = contacts.len();
-        // What meets the side of a solid pushes its nodes into it. The cheap form of what `may_be_pushed_to` asks.
-        let is_backed = held == 0 && self.faces.is_in_side(point) && !self.is_carried(point);
-        let free = self.motion.end(point);
+        let (free, held) = (self.motion.end(point), contacts.len());
         let push = |at, contact: &DetectedContact| add(at, push_back(&contact.projection, contact.tolerated));
         let end = contacts.iter().fold(free, push);
         // In folds that close, what is not yet met would be held too early.
@@ -35,7 +32,7 @@ impl NodeFaceCheck<'_> {
         for &Candidate { face, interface } in near {
             let is_known = contacts[..held].iter().any(|contact| contact.face == face);
             let is_own = own_block == Some(self.faces.block[face as usize]);
-            if is_known || is_own || is_backed && !self.is_carried_along(face) {
+            if is_known || is_own || held == 0 && !self.may_be_pushed_to(point, face) {
                 continue;
             }
             let corners = self.faces.end(face, self.motion);
@@ -44,9 +41,7 @@ impl NodeFaceCheck<'_> {
             let length = dot(normal, normal).sqrt();
             let pushes_the_same_way =
                 |known: &DetectedContact| dot(known.projection.normal, normal) > SAME_WAY_AT_DISTANCE * length;
-            if contacts.iter().any(pushes_the_same_way)
-                || held == 0 && !self.may_be_pushed_to(point, face, normal, length)
-            {
+            if contacts.iter().any(pushes_the_same_way) {
                 continue;
             }
             if contacts[..held].iter().any(|contact| self.lies_below((face, &corners), end, contact)) {
@@ -94,17 +89,23 @@ impl NodeFaceCheck<'_> {
         !(corners.iter().any(rises) || pushes && looks_at())
     }
 
-    /// Whether what strikes another face around a point that nothing holds may push it to a face, whose area normal is given with its length: not where
-    /// all around it look at that face or stand upright on it, as on the sides of a solid that lies on another one; upright sides take their nodes along
-    /// with what rubs them. Nodes of surfaces, rigid bodies and joints go with what is struck elsewhere.
-    fn may_be_pushed_to(&self, point: u32, face: u32, normal: [f64; 3], length: f64) -> bool {
-        let cosine = if self.have_friction { -OPPOSED } else { UPRIGHT };
-        let is_harmless = |&own: &u32| {
-            let own = projection::area_normal(&self.faces.start(own, self.motion));
-            dot(own, normal) < cosine * dot(own, own).sqrt() * length
+    /// Whether what strikes another face around a point that nothing holds may push it to a face: not in the middle of the side of a solid, as what meets
+    /// that side pushes its nodes into it, nor where all faces around the point look at that face or stand upright on it. Upright sides take
+    /// their nodes along with what rubs them. Nodes of surfaces, rigid bodies and joints go with what is struck elsewhere.
+    fn may_be_pushed_to(&self, point: u32, face: u32) -> bool {
+        let are_all_harmless = || {
+            let normal = projection::area_normal(&self.faces.end(face, self.motion));
+            let cosine = if self.have_friction { -OPPOSED } else { UPRIGHT };
+            let most = cosine * dot(normal, normal).sqrt();
+            self.faces.around(point).iter().all(|&own| {
+                let own = projection::area_normal(&self.faces.start(own, self.motion));
+                dot(own, normal) < most * dot(own, own).sqrt()
+            })
         };
-        let around = self.faces.around(point);
-        around.is_empty() || self.is_carried_along(face) || self.is_carried(point) || !around.iter().all(is_harmless)
+        self.faces.around(point).is_empty()
+            || self.is_carried_along(face)
+            || self.is_carried(point)
+            || !self.faces.is_amid_side(point) && !are_all_harmless()
     }
 
     /// Whether a point goes with others of a rigid body or a joint.
