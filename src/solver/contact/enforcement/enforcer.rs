@@ -176,7 +176,9 @@ impl Enforcer {
         if outcome.is_some() {
             self.settle(constraints, motion, times, ledger, others);
             let travel = outcome.map_or(0.0, |outcome| outcome.travel);
-            self.find_yielding(constraints, times.drift, |size| limits.left(size, travel));
+            if limits.let_some_yield() {
+                self.find_yielding(constraints, times.drift, |size| limits.left(size, travel));
+            }
         } else {
             for (c, state) in constraints.iter_mut().zip(&self.states) {
                 c.scale_along_ray(state, [0.0; 3], 0.0, times.drift);

@@ -2,6 +2,7 @@
 
 use super::constraint::{Constraint, Origin};
 use super::enforcer::Enforcer;
+use super::node_pairs;
 use super::other_ranks::{InitialMaxima, OtherRanks};
 use super::sweep::{self, Moved, Pace};
 use crate::solver::contact::geometry::motion::NodeMotion;
@@ -54,6 +55,11 @@ impl Limits {
     /// How far iterations that have settled may still move a constraint of this size, a length; see [`Limits::are_met`].
     pub(super) fn left(&self, size: f64, travel: f64) -> f64 {
         (self.tolerance * size).min(part_of_travel(self.tolerance) * travel)
+    }
+
+    /// Whether so many iterations may be made that contacts may yield to others.
+    pub(super) fn let_some_yield(&self) -> bool {
+        self.iterations >= FEW
     }
 
     /// Whether so many iterations are enough, though the last of them has moved constraints so far, see [`Limits::are_met`].
@@ -148,10 +154,13 @@ impl Enforcer {
         if wanted == 0.0 {
             return None;
         }
+        for own in self.iterates.normal.iter_mut().filter(|own| own.yields) {
+            own.closing += node_pairs::left_by_yielding(own.size, limits.tolerance, travel);
+        }
         let mut outcome = Outcome { deepest, depth, travel, ..Default::default() };
         let (mut momentum, mut ended) = (Momentum::new(), [false; LOOSER.len()]);
         // With few passes there is no time for it.
-        let mut some_yield = limits.iterations >= FEW;
+        let mut some_yield = limits.let_some_yield();
         loop {
             let pace = momentum.next(some_yield);
             let Enforcer { instructions, iterates, responses, .. } = &mut *self;
