@@ -18,6 +18,9 @@ pub(super) const SEAM: f64 = 1e-4;
 /// A point in the side of a body is nearer to the plane of that side than this part of how far it is beyond the border of a face there.
 const LEVEL_WITH_SIDE: f64 = 0.1;
 
+/// A face looks at another one where the cosine between their normals is below this.
+const LOOKS_AT: f64 = -0.5;
+
 impl NodeFaceCheck<'_> {
     /// A point that this face, one of those `near` it, has not seen before. Edges have a say where blocks meet.
     #[inline(always)]
@@ -213,26 +216,33 @@ impl NodeFaceCheck<'_> {
         let start = ends[0];
         let is_across = |other: u32| self.is_across(face, &start.weights, other);
         let middle = |face| projection::centre(&self.faces.start(face, self.motion));
-        // What is over the other face at both ends of the step is held by that one. In the bottom of a valley a point begins over both faces and
-        // goes beyond the borders of both.
-        let leaves = |other: u32| self.projection_at_end(point, other).is_some_and(|at| at.outside > 0.0);
-        let is_beyond = |other: u32| {
-            dot(subtract(middle(other), middle(face)), start.normal) > 0.0
-                && self
-                    .projection_at_start(point, other)
-                    .is_some_and(|at| at.gap < 0.0 && (at.outside > 0.0 || leaves(other)))
-        };
         // From the border to the foot of the perpendicular beyond it.
         let nearest = projection::foot(&self.faces.start(face, self.motion), &start.weights);
         let foot = subtract(self.motion.start(point), scaled(start.normal, start.gap));
         let beyond = subtract(foot, nearest);
+        // Faces beside each other at the rim of a flat side see each other by round-off, and those of a side that is hollow along its rim do: what is
+        // beyond that rim is outside the body, and not on the way from one to the other.
+        let sees = |other: u32| {
+            let rise = dot(subtract(middle(other), middle(face)), start.normal);
+            let is_on_the_way = start.outside <= 0.0 || dot(subtract(middle(other), nearest), beyond) > 0.0;
+            rise > CLEARLY * self.faces.size[face as usize] && is_on_the_way
+        };
+        // What is over the other face at both ends of the step is held by that one. In the bottom of a valley a point begins over both faces and
+        // goes beyond the borders of both.
+        let leaves = |other: u32| self.projection_at_end(point, other).is_some_and(|at| at.outside > 0.0);
+        let is_beyond = |other: u32| {
+            sees(other)
+                && self
+                    .projection_at_start(point, other)
+                    .is_some_and(|at| at.gap < 0.0 && (at.outside > 0.0 || leaves(other)))
+        };
         let is_in_side = |other: u32| {
             let reach = SEAM * self.faces.size[other as usize];
             self.projection_at_start(point, other).is_some_and(|at| {
-                // What looks at the side touches that, as what follows a chord does.
+                // What looks at the side touches that, as what follows a chord does: by one of its faces, as thin elements have next to no side.
                 at.gap.abs() <= reach
                     && dot(beyond, at.normal) > 0.5 * start.outside
-                    && self.opposition(point, &at) > FACING
+                    && !self.has_face_opposed(point, &at.normal, LOOKS_AT)
             })
         };
         let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
