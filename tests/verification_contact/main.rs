@@ -1,5 +1,6 @@
 //! Contact against known answers, and in random scenes: what it must never do.
 
+mod abutting;
 mod bars;
 mod cases;
 mod edges;
