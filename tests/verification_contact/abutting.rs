@@ -42,8 +42,8 @@ fn pieces(seed: u64) -> (String, usize) {
     (text, blocks.len())
 }
 
-/// Round-off turned faces beside each other at the rim of a flat side towards each other, and took for behind them what touches the body around that rim: of such scenes
-/// some in ten were refused, or their nodes moved by parts of a block without a word.
+/// Round-off turned faces beside each other at the rim of a flat side towards each other, and took for behind them what touches the body around that rim: of 300 such
+/// scenes 66 were refused, and in 15 nodes were moved by parts of a block.
 #[test]
 fn blocks_that_abut_do_not_overlap() {
     let (seeds, _) = asked_for(0..300);
