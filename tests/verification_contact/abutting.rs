@@ -88,3 +88,35 @@ fn blocks_beside_each_other_slide_without_a_force() {
         assert!(off < 1e-9 && totals.contact.abs() < 1e-9 * kinetic, "seed {seed}: {off:.1e}, {:.1e}", totals.contact);
     }
 }
+
+/// A sleeve on a tube of the same facets flies along it at 20 m/s, out over its end, and keeps its energy to round-off. Nodes in the seams of its facets were taken
+/// to be behind the side at its end, which rises over the facet beside: of twelve such scenes eight lost up to 28 % in a millisecond.
+#[test]
+fn a_sleeve_slides_on_a_tube_of_the_same_facets() {
+    let (seeds, _) = asked_for(0..24);
+    for seed in seeds {
+        let mut dice = Dice::of(seed);
+        let (around, angles) = (dice.one_of(&[4, 6, 8, 12]), [dice.between(0.0, 90.0), dice.between(0.0, 90.0)]);
+        let turned = dice.chance(0.7);
+        let mut tube = |block: usize, inner: f64| {
+            let (through, along) = (dice.count(1, 3), dice.count(1, 6));
+            let turns = format!("ROTATE, {block}, Z, {:?}\nROTATE, {block}, X, {:?}\n", angles[0], angles[1]);
+            let made = format!("TUBE, {block}, {inner:?}, {:?}, 1., {through}, {around}, {along}\n", inner + 0.1);
+            if turned { made + &turns } else { made }
+        };
+        let mesh = recipe(&format!("TITLE\n sleeve\n{}{}", tube(1, 0.5), tube(2, 0.6)));
+        let (sine, cosine) = if turned { angles[1].to_radians().sin_cos() } else { (0.0, 1.0) };
+        let deck = format!(
+            "TITLE\n sleeve\nTERMINATION TIME, 1.E-3\nOUTPUT TIME, 1.E-5\nCONTACT MATERIAL\n\
+             INITIAL VELOCITY MATERIAL, 2, 0., {:?}, {:?}\n{}",
+            -20.0 * sine,
+            20.0 * cosine,
+            laws(2)
+        );
+        let run = run(&deck, &mesh).whole();
+        let (first, last) = (run.lines[0].totals.kinetic, &run.last().totals);
+        let off = (last.kinetic / first - 1.0).abs();
+        // To round-off, as above.
+        assert!(off < 1e-9 && last.contact.abs() < 1e-9 * first, "seed {seed}: {off:.1e}, {:.1e}", last.contact);
+    }
+}

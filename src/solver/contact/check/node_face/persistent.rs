@@ -248,7 +248,8 @@ impl NodeFaceCheck<'_> {
         for i in 0..held {
             let old = contacts[i];
             let middle = projection::centre(&self.faces.end(old.face, self.motion));
-            for face in faces_of(near).filter(|&face| face != old.face && self.faces.adjacent(old.face, face)) {
+            let beside = |near: &&Candidate| near.face != old.face && self.faces.adjacent(old.face, near.face);
+            for &Candidate { face, interface } in near.iter().filter(beside) {
                 let corners = self.faces.end(face, self.motion);
                 let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
                 if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
@@ -273,7 +274,17 @@ impl NodeFaceCheck<'_> {
                 let flush = if self.faces.is_two_sided(face) { SAME_WAY } else { FLUSH };
                 let goes_on = dot(old.projection.normal, projection.normal) > flush;
                 let tolerated = if goes_on { old.tolerated } else { 0.0 };
-                if projection.outside <= beyond && projection.gap < 0.0 && self.in_reach(face, &projection, 0.0) {
+                // At the end of a valley the side of the body there rises over the walls as well; what slides out along them is behind it, and does not look
+                // at it.
+                let looks = || {
+                    self.faces.is_two_sided(face)
+                        || self.faced(point, &projection.normal, self.rules[interface as usize])
+                };
+                if projection.outside <= beyond
+                    && projection.gap < 0.0
+                    && self.in_reach(face, &projection, 0.0)
+                    && looks()
+                {
                     contacts.push(self.held(face, projection, tolerated));
                 }
             }
