@@ -56,6 +56,35 @@ fn blocks_that_abut_do_not_overlap() {
     }
 }
 
+/// A tube whose bore ends over the wall of the one on which it stands, as a flange on a pipe: what touches its end is behind the seams of the bore, but below the
+/// bore. Of 22 such scenes 16 were refused, and 2 had nodes moved by up to 0.17.
+#[test]
+fn tubes_that_stand_on_each_other_do_not_overlap() {
+    let (seeds, _) = asked_for(0..100);
+    for seed in seeds {
+        let mut dice = Dice::of(seed);
+        let (part, around) = (dice.one_of(&["FULL", "HALF", "QUARTER"]), dice.one_of(&[6, 8, 12]));
+        let (height, inner) = (dice.one_of(&[0.05, 0.3, 1.0]), dice.one_of(&[0.9, 1.0, 1.1, 1.2]));
+        let angles = [dice.between(0.0, 90.0), dice.between(0.0, 90.0)];
+        let turned = dice.chance(0.7);
+        let mut tube = |block: usize, [inner, outer]: [f64; 2], around: usize, lift: f64| {
+            let (through, along) = (dice.count(1, 3), dice.count(1, 6));
+            let made = format!(
+                "TUBE, {block}, {inner:?}, {outer:?}, {height:?}, {through}, {around}, {along}, {part}\n\
+                 TRANSLATE, {block}, 0., 0., {lift:?}\n"
+            );
+            let turns = format!("ROTATE, {block}, Z, {:?}\nROTATE, {block}, X, {:?}\n", angles[0], angles[1]);
+            if turned { made + &turns } else { made }
+        };
+        let lower = tube(1, [1.0, 1.3], around, 0.0);
+        let upper = tube(2, [inner, 1.5], if seed % 2 == 0 { around } else { 2 * around }, height);
+        let mesh = recipe(&format!("TITLE\n tubes\n{lower}{upper}"));
+        let deck = format!("TITLE\n tubes\nTERMINATION TIME, 1.E-6\nCONTACT MATERIAL\n{}", laws(2));
+        let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
+        assert_eq!((overlap.refusal(&mesh), overlap.nodes), (None, 0), "seed {seed}: {overlap:?}\n{lower}{upper}");
+    }
+}
+
 /// A block that flies along the side of another one, past its rim or to it, keeps its energy to round-off: what it meets of the other is upright on its way.
 #[test]
 fn blocks_beside_each_other_slide_without_a_force() {

@@ -221,11 +221,24 @@ impl NodeFaceCheck<'_> {
         let foot = subtract(self.motion.start(point), scaled(start.normal, start.gap));
         let beyond = subtract(foot, nearest);
         // Faces beside each other at the rim of a flat side see each other by round-off, and those of a side that is hollow along its rim do: what is
-        // beyond that rim is outside the body, and not on the way from one to the other.
+        // beyond that rim is outside the body, and not on the way from one to the other over the border between them.
+        let corners = self.faces.corners[face as usize];
+        let is_level_with = |ends: [u32; 2]| {
+            let [from, to] = ends.map(|end| self.motion.start(end));
+            let (along, arm) = (subtract(to, from), subtract(self.motion.start(point), from));
+            let square = dot(along, along);
+            // In the plane a border is one node.
+            square == 0.0 || (-HOLD..=1.0 + HOLD).contains(&(dot(arm, along) / square))
+        };
+        let is_over_border_with = |other: u32| {
+            let around = self.faces.corners[other as usize];
+            let mut borders = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]);
+            borders.any(|ends| ends.iter().all(|end| around.contains(end)) && is_level_with(ends))
+        };
+        let goes_to = |other: u32| dot(subtract(middle(other), nearest), beyond) > 0.0 && is_over_border_with(other);
         let sees = |other: u32| {
             let rise = dot(subtract(middle(other), middle(face)), start.normal);
-            let is_on_the_way = start.outside <= 0.0 || dot(subtract(middle(other), nearest), beyond) > 0.0;
-            rise > CLEARLY * self.faces.size[face as usize] && is_on_the_way
+            rise > CLEARLY * self.faces.size[face as usize] && (start.outside <= 0.0 || goes_to(other))
         };
         // What is over the other face at both ends of the step is held by that one. In the bottom of a valley a point begins over both faces and
         // goes beyond the borders of both.
@@ -247,7 +260,7 @@ impl NodeFaceCheck<'_> {
         };
         let mut others = faces_of(near).filter(|&other| other != face && is_across(other));
         others.any(is_beyond)
-            || self.beside(face).any(|other| is_across(other) && is_in_side(other))
+            || self.beside(face).any(|other| is_across(other) && is_over_border_with(other) && is_in_side(other))
             || self.is_in_hidden_side((point, face), start, beyond)
     }
 
