@@ -18,6 +18,19 @@ fn laws(blocks: usize) -> String {
     (1..=blocks).map(law).collect()
 }
 
+/// The lines that turn a block about z and then about x, by angles in degrees.
+fn turns(block: usize, [about_z, about_x]: [f64; 2]) -> String {
+    format!("ROTATE, {block}, Z, {about_z:?}\nROTATE, {block}, X, {about_x:?}\n")
+}
+
+/// Checks that the blocks of a recipe touch and no more.
+fn check_that_none_overlaps(seed: u64, text: &str, blocks: usize) {
+    let mesh = recipe(text);
+    let deck = format!("TITLE\n abutting\nTERMINATION TIME, 1.E-6\nCONTACT MATERIAL\n{}", laws(blocks));
+    let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
+    assert_eq!((overlap.refusal(&mesh), overlap.nodes), (None, 0), "seed {seed}: {overlap:?}\n{text}");
+}
+
 /// A box that is cut in two again and again, most of the pieces with meshes of their own, turned about two axes.
 fn pieces(seed: u64) -> (String, usize) {
     let mut dice = Dice::of(seed);
@@ -37,7 +50,7 @@ fn pieces(seed: u64) -> (String, usize) {
         let [a, b, c] = [0, 1, 2].map(|axis| high[axis] - low[axis]);
         let [l, m, n] = [0; 3].map(|_| dice.count(1, 5));
         let _ = writeln!(text, "BOX, {number}, {x:?}, {y:?}, {z:?}, {a:?}, {b:?}, {c:?}, {l}, {m}, {n}");
-        let _ = writeln!(text, "ROTATE, {number}, Z, {:?}\nROTATE, {number}, X, {:?}", angles[0], angles[1]);
+        text += &turns(number, angles);
     }
     (text, blocks.len())
 }
@@ -49,10 +62,7 @@ fn blocks_that_abut_do_not_overlap() {
     let (seeds, _) = asked_for(0..300);
     for seed in seeds {
         let (text, blocks) = pieces(seed);
-        let mesh = recipe(&text);
-        let deck = format!("TITLE\n abutting\nTERMINATION TIME, 1.E-6\nCONTACT MATERIAL\n{}", laws(blocks));
-        let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
-        assert_eq!((overlap.refusal(&mesh), overlap.nodes), (None, 0), "seed {seed}: {overlap:?}\n{text}");
+        check_that_none_overlaps(seed, &text, blocks);
     }
 }
 
@@ -73,15 +83,11 @@ fn tubes_that_stand_on_each_other_do_not_overlap() {
                 "TUBE, {block}, {inner:?}, {outer:?}, {height:?}, {through}, {around}, {along}, {part}\n\
                  TRANSLATE, {block}, 0., 0., {lift:?}\n"
             );
-            let turns = format!("ROTATE, {block}, Z, {:?}\nROTATE, {block}, X, {:?}\n", angles[0], angles[1]);
-            if turned { made + &turns } else { made }
+            if turned { made + &turns(block, angles) } else { made }
         };
         let lower = tube(1, [1.0, 1.3], around, 0.0);
         let upper = tube(2, [inner, 1.5], if seed % 2 == 0 { around } else { 2 * around }, height);
-        let mesh = recipe(&format!("TITLE\n tubes\n{lower}{upper}"));
-        let deck = format!("TITLE\n tubes\nTERMINATION TIME, 1.E-6\nCONTACT MATERIAL\n{}", laws(2));
-        let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
-        assert_eq!((overlap.refusal(&mesh), overlap.nodes), (None, 0), "seed {seed}: {overlap:?}\n{lower}{upper}");
+        check_that_none_overlaps(seed, &format!("TITLE\n tubes\n{lower}{upper}"), 2);
     }
 }
 
@@ -129,9 +135,8 @@ fn a_sleeve_slides_on_a_tube_of_the_same_facets() {
         let turned = dice.chance(0.7);
         let mut tube = |block: usize, inner: f64| {
             let (through, along) = (dice.count(1, 3), dice.count(1, 6));
-            let turns = format!("ROTATE, {block}, Z, {:?}\nROTATE, {block}, X, {:?}\n", angles[0], angles[1]);
             let made = format!("TUBE, {block}, {inner:?}, {:?}, 1., {through}, {around}, {along}\n", inner + 0.1);
-            if turned { made + &turns } else { made }
+            if turned { made + &turns(block, angles) } else { made }
         };
         let mesh = recipe(&format!("TITLE\n sleeve\n{}{}", tube(1, 0.5), tube(2, 0.6)));
         let (sine, cosine) = if turned { angles[1].to_radians().sin_cos() } else { (0.0, 1.0) };
