@@ -51,6 +51,9 @@ const SAME_WAY: f64 = 0.8;
 /// would be nearer to the other by as much.
 const SAME_WAY_AT_DISTANCE: f64 = 0.995;
 
+/// Two faces whose normals have a cosine below minus this between them look at each other.
+const OPPOSED: f64 = 0.5;
+
 /// A point that is nearer to the middle of a surface than this part of a face's size is on neither side; a cosine below it is round-off.
 const IN_SURFACE: f64 = 1e-9;
 

@@ -1,7 +1,7 @@
 //! Nodes that a face has not seen before: whether and when they come through it, and which of those behind it belong there.
 
 use super::facing::FACING;
-use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
+use super::{DetectedContact, HOLD, NodeFaceCheck, OPPOSED, SAME_WAY, faces_of};
 use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
@@ -17,9 +17,6 @@ pub(super) const SEAM: f64 = 1e-4;
 
 /// A point in the side of a body is nearer to the plane of that side than this part of how far it is beyond the border of a face there.
 const LEVEL_WITH_SIDE: f64 = 0.1;
-
-/// A face looks at another one where the cosine between their normals is below this.
-const LOOKS_AT: f64 = -0.5;
 
 impl NodeFaceCheck<'_> {
     /// A point that this face, one of those `near` it, has not seen before. Edges have a say where blocks meet.
@@ -255,7 +252,7 @@ impl NodeFaceCheck<'_> {
                 // What looks at the side touches that, as what follows a chord does: by one of its faces, as thin elements have next to no side.
                 at.gap.abs() <= reach
                     && dot(beyond, at.normal) > 0.5 * start.outside
-                    && !self.has_face_opposed(point, &at.normal, LOOKS_AT)
+                    && !self.has_face_opposed(point, &at.normal, -OPPOSED)
             })
         };
         let mut others = faces_of(near).filter(|&other| other != face && is_across(other));

@@ -6,7 +6,7 @@
 //! has its turn in the next step.
 
 use super::flush::Meeting;
-use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY_AT_DISTANCE, keep, push_back};
+use super::{DetectedContact, HOLD, NodeFaceCheck, OPPOSED, SAME_WAY_AT_DISTANCE, keep, push_back};
 use crate::common::vector::{add, dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
@@ -15,8 +15,6 @@ use crate::solver::contact::search::locate::Candidate;
 pub const STOPPED: f64 = 2.0;
 /// See [`STOPPED`].
 pub const STRUCK: f64 = 3.0;
-/// Cosine of the angle within which the normals of two faces are opposed.
-const OPPOSED: f64 = 0.5;
 /// Cosine between the normals of two faces that are upright on each other, at most.
 const UPRIGHT: f64 = 0.1;
 
