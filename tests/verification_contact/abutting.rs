@@ -11,7 +11,7 @@ use urto::solver::Body;
 type Block = [[f64; 3]; 2];
 
 /// Law of each of so many blocks of steel.
-fn laws(blocks: usize) -> String {
+pub fn laws(blocks: usize) -> String {
     let law = |block: usize| {
         format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n")
     };

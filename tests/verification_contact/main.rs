@@ -13,6 +13,7 @@ mod friction;
 mod joints;
 mod matching;
 mod overlaps;
+mod passing;
 mod press_fit;
 mod rigid;
 mod rigid_driven;

@@ -324,7 +324,7 @@ impl Contact {
             self;
         let remaining = press_fit.map_or(1.0, |fit| fit.remaining(step));
         let lines = age.is_multiple_of(LINES_EVERY);
-        let limits = limits.after(tally.unsettled);
+        let limits = limits.after(tally.unsettled, tally.farthest);
         let setting = StepInput { pairings, planes, mean_size: *mean_size, limits, remaining, lines };
         problem.find_constraints(&setting, step, &mut seen.met);
         let outcome = match remote {

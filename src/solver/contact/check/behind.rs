@@ -1,7 +1,11 @@
 //! Points of a body at rest that are behind faces, each behind that through which the way out is shortest.
 
+use super::enclosing::Enclosing;
+use super::initial_overlap::solid_elements;
 use super::node_face;
 use super::node_face::{DetectedContact, NO_CONTACT, NodeFaceCheck};
+use crate::common::vector::{add, normalized, scaled};
+use crate::solver::Body;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::nodes::ContactNodes;
@@ -28,12 +32,37 @@ pub struct Behind {
     pub beside: bool,
 }
 
-/// Constraints of all points behind faces that face them.
-pub fn overlaps(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
-    let behind = behind(layout, pairings, motion).into_iter();
+/// Of what is behind a face by no more than this part of its size elements are not asked, and so far into its own body a point is moved for that.
+const SHALLOW: f64 = 0.01;
+
+/// Constraints of all points of a body at rest that are behind faces that face them, as far as elements say so, too.
+pub fn overlaps(body: &Body, layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<Constraint> {
+    let mut behind = behind(layout, pairings, motion);
+    leave_out_touching(&mut behind, (body, layout), motion);
     let constraint =
         |Behind { point, contact, pairing, .. }: Behind| node_face::constraint(&layout.faces, pairing, point, &contact);
-    behind.filter_map(constraint).collect()
+    behind.into_iter().filter_map(constraint).collect()
+}
+
+/// Leaves out what is clearly behind a face and in no element of another body: which faces hold a point is a matter of many rules, and no node is
+/// moved by part of an element on their word alone. A point of a surface is looked for a little into its own body, where that does not overlap
+/// another one: a point at an edge of that would be in its elements but for round-off.
+fn leave_out_touching(behind: &mut Vec<Behind>, (body, layout): (&Body, &Layout), motion: &NodeMotion) {
+    let part = |of: &Behind| -of.contact.projection.gap / layout.faces.size[of.contact.face as usize];
+    let mut places = vec![None; layout.nodes.len()];
+    for of in behind.iter().filter(|of| part(of) > SHALLOW) {
+        let at = motion.start(of.point);
+        let inwards = normalized(layout.faces.point_normal(of.point, motion)).unwrap_or_default();
+        let size = layout.faces.size[of.contact.face as usize];
+        places[of.point as usize] = Some(add(at, scaled(inwards, -0.5 * SHALLOW * size)));
+    }
+    if places.iter().all(Option::is_none) {
+        return;
+    }
+    let mut faces: Vec<u32> = layout.interfaces.iter().flat_map(|interface| &interface.faces).copied().collect();
+    faces.sort_unstable();
+    let enclosing = Enclosing::new(body, layout, solid_elements(body, layout, &faces), places);
+    behind.retain(|of| part(of) <= SHALLOW || enclosing.of(of.point as usize).next().is_some());
 }
 
 /// Every point behind a face that faces it, or nearer to it than they touch, points ascending.

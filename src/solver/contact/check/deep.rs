@@ -1,14 +1,13 @@
 //! Nodes that begin inside elements and that contact does not know to be there: too deep below the faces at which they look.
 
-use super::initial_overlap::{bodies_of, corners_of, depth, is_inside, seen_larger, solid_elements, stand_still};
+use super::enclosing::Enclosing;
+use super::initial_overlap::{bodies_of, corners_of, depth, solid_elements, stand_still};
 use super::node_face;
 use super::overlap::DeepOverlap;
-use crate::mesh::plane;
 use crate::solver::Body;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::locate::Interface;
-use crate::solver::contact::search::{Box3, Candidates, SearchKind};
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use std::collections::BTreeSet;
 
@@ -44,28 +43,20 @@ enum Place {
 /// Points of the surface that CONTACT MATERIAL lets touch and that are inside elements of its blocks, deeper than this part of half
 /// the element below every face at which they look.
 pub fn deep_points(body: &Body, layout: &Layout, automatic: &Interface, part: f64) -> Vec<Inside> {
-    let elements = solid_elements(body, layout, automatic);
-    // Nodes of meshes that match may be between two elements, where round-off would leave them in neither.
-    let corners = |place: u32| seen_larger(&plane::solid(&body.corners(&elements[place as usize].1)));
-    let boxes: Vec<Box3> = (0..elements.len() as u32).map(|place| Box3::around(&corners(place))).collect();
-    let at = |point: usize| body.positions[layout.nodes[point] as usize];
-    let one = |point: usize| if automatic.points[point] { Box3::around(&[at(point)]) } else { Box3::empty() };
-    let points: Vec<Box3> = (0..layout.nodes.len()).map(one).collect();
-    let mut candidates = Candidates::default();
-    SearchKind::Grid.make().find(&points, &boxes, &vec![[u32::MAX; 4]; boxes.len()], &mut candidates);
+    let elements = solid_elements(body, layout, &automatic.faces);
+    let at = |(&node, takes_part): (&u32, &bool)| takes_part.then(|| body.positions[node as usize]);
+    let places = layout.nodes.iter().zip(automatic.points.iter()).map(at).collect();
+    let enclosing = Enclosing::new(body, layout, elements, places);
     let mut motion: Option<NodeMotion> = None;
     let (mut deep, mut known) = (Vec::new(), Vec::new());
     for (point, &node) in layout.nodes.iter().enumerate() {
-        let holds = |&place: &u32| !elements[place as usize].1.contains(&node) && is_inside(&corners(place), at(point));
-        let held = candidates.of(point).iter().copied().filter(holds);
-        let held: Vec<u32> = held.map(|place| elements[place as usize].0).collect();
         let apart = |element: &u32| {
             let face = (6 * element..6 * element + 6).map(|number| layout.face(number)).find(|&face| face != ABSENT);
             let block = layout.point_block[point];
             face.is_some_and(|face| layout.exclusions.keep_apart(point as u32, block, face, &layout.faces))
                 || is_joined(body, layout, point as u32, *element)
         };
-        let held: Vec<u32> = held.into_iter().filter(|element| !apart(element)).collect();
+        let held: Vec<u32> = enclosing.of(point).filter(|element| !apart(element)).collect();
         let Some(&element) = held.first() else { continue };
         let motion = motion.get_or_insert_with(|| at_rest(body, layout));
         let place = |&element: &u32| (place(body, layout, element, (point as u32, motion), part), element);

@@ -27,7 +27,7 @@ pub fn engulfed(
     (body, layout, interface): (&Body, &Layout, &Interface),
     pairs: &BodyPairs,
 ) -> (Unheld, BTreeSet<u32>) {
-    let solid = solid_elements(body, layout, interface).into_iter();
+    let solid = solid_elements(body, layout, &interface.faces).into_iter();
     let placed = solid.map(|(number, nodes)| (number, nodes, plane::solid(&body.corners(&nodes))));
     let elements: Vec<Element> =
         placed.filter(|(_, nodes, corners)| pairs.may_overlap(pairs.body(nodes[0]), &Box3::around(corners))).collect();

@@ -22,7 +22,6 @@ use crate::solver::contact::enforcement::iterations::Limits;
 use crate::solver::contact::enforcement::other_ranks::NoOtherRanks;
 use crate::solver::contact::geometry::motion::NodeMotion;
 use crate::solver::contact::geometry::projection;
-use crate::solver::contact::search::locate::Interface;
 use crate::solver::contact::surface::layout::{ABSENT, Layout};
 use crate::solver::contact::surface::pairings::Pairings;
 use crate::solver::contact::surface::skin::Skin;
@@ -169,7 +168,7 @@ fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) ->
     let mut stuck = Stuck::default();
     for round in 0..=ROUNDS {
         stand_still(&mut motion, body, layout);
-        let mut constraints = overlaps(layout, &pairings, &motion);
+        let mut constraints = overlaps(body, layout, &pairings, &motion);
         stuck = Stuck::of(&constraints, layout);
         if constraints.is_empty() || round == ROUNDS {
             break;
@@ -177,7 +176,13 @@ fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) ->
         for c in &constraints {
             c.parts().for_each(|(point, _)| farthest[point] = f64::max(farthest[point], -c.gap));
         }
-        let limits = Limits { iterations: 100, unsettled: 100, tolerance: 0.1 * NOTHING, may_give_way: false };
+        let limits = Limits {
+            iterations: 100,
+            unsettled: 100,
+            tolerance: 0.1 * NOTHING,
+            may_give_way: false,
+            farthest: f64::INFINITY,
+        };
         enforcer.prepare(&mut constraints, &motion, still.drift, &Ledger::Unlimited);
         enforcer.solve(&mut constraints, &motion, &still, limits, (Ledger::Unlimited, &mut NoOtherRanks));
         let positions: &mut Vec<[f64; 3]> = &mut body.positions;
@@ -196,7 +201,7 @@ fn remove_known(mesh: &Mesh, model: &Model, body: &mut Body, layout: &Layout) ->
 fn kept(mesh: &Mesh, model: &Model, body: &Body, layout: &Layout) -> Overlap {
     let mut motion = NodeMotion::new(layout.nodes.len(), layout.origin);
     stand_still(&mut motion, body, layout);
-    let mut constraints = overlaps(layout, &Pairings::new(mesh, model, body), &motion);
+    let mut constraints = overlaps(body, layout, &Pairings::new(mesh, model, body), &motion);
     let kept = Stuck::of(&constraints, layout);
     let is_rigid = of_rigid_bodies(mesh, body, layout);
     constraints.retain(|c| c.parts().all(|(point, _)| is_rigid[point]));
@@ -249,10 +254,10 @@ fn within(there: [f64; 3], from: [f64; 3], most: f64) -> [f64; 3] {
     if length > most { add(from, scaled(path, most / length)) } else { there }
 }
 
-/// Solid elements of the blocks with faces of an interface, each by its canonical number and its nodes as [`plane::eight`] has
-/// them. Surfaces have no inside.
-pub(super) fn solid_elements(body: &Body, layout: &Layout, interface: &Interface) -> Vec<(u32, [u32; 8])> {
-    let of_solids = interface.faces.iter().filter(|&&face| !layout.faces.is_two_sided(face));
+/// Solid elements of the blocks with some faces, each by its canonical number and its nodes as [`plane::eight`] has them. Surfaces have
+/// no inside.
+pub(super) fn solid_elements(body: &Body, layout: &Layout, faces: &[u32]) -> Vec<(u32, [u32; 8])> {
+    let of_solids = faces.iter().filter(|&&face| !layout.faces.is_two_sided(face));
     let mut blocks: Vec<u32> = of_solids.map(|&face| layout.faces.block[face as usize]).collect();
     blocks.sort_unstable();
     blocks.dedup();

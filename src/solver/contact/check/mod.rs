@@ -5,6 +5,7 @@ mod body_pairs;
 mod deep;
 pub mod edge_edge;
 pub mod embedded;
+mod enclosing;
 mod engulfed;
 pub mod initial_overlap;
 pub mod node_face;

@@ -28,6 +28,12 @@ const FEW: u32 = 8;
 /// What yields takes no force in the first of so many parts of the iterations: what has not settled by then will hardly do so for its sake.
 const QUIET: u32 = 4;
 
+/// So many iterations, the default, are made where fewer have left something this many times deeper than the farthest motion of a contact in
+/// a step so far: one alone lets solids whose corners have turned inside out sink by many motions.
+const ENOUGH: u32 = 20;
+/// See [`ENOUGH`].
+const TOO_DEEP: f64 = 1.0;
+
 /// Penetrations up to this part of the face's size are not measured in motions: where next to nothing moves, any is many of them.
 const NOTICED: f64 = 1e-4;
 
@@ -42,6 +48,8 @@ pub struct Limits {
     pub tolerance: f64,
     /// Whether what has a thickness may give way where they run out, see `giving_way`: not what is pressed for many steps.
     pub may_give_way: bool,
+    /// Farthest motion of a contact along its normal in a step so far, a length; infinite where ranks do not hear how deep others are.
+    pub farthest: f64,
 }
 
 impl Limits {
@@ -68,15 +76,25 @@ impl Limits {
         iterations >= self.unsettled || (iterations >= self.iterations && has_nearly_settled)
     }
 
-    /// The limits of a step after so many in a row in which iterations have not settled within the usual number. What only now and then
-    /// does not settle is left at that: in folds that close more iterations push tangled corners farther.
-    pub fn after(self, unsettled_steps: u64) -> Limits {
+    /// The limits of a step after so many in a row in which iterations have not settled within the usual number, when no contact has moved
+    /// farther in a step than this length. What only now and then does not settle is left at that: in folds that close more iterations push
+    /// tangled corners farther.
+    pub fn after(self, unsettled_steps: u64, farthest: f64) -> Limits {
         let goes_on = unsettled_steps >= MANY_IN_A_ROW;
         Limits {
             unsettled: if goes_on { self.unsettled } else { self.iterations },
             may_give_way: self.may_give_way && !goes_on,
+            farthest: self.farthest.max(farthest),
             ..self
         }
+    }
+
+    /// The limits of a step that begins with something as deep as a length, see [`ENOUGH`].
+    fn where_as_deep(self, depth: f64) -> Limits {
+        if depth <= TOO_DEEP * self.farthest {
+            return self;
+        }
+        Limits { iterations: self.iterations.max(ENOUGH), unsettled: self.unsettled.max(ENOUGH), ..self }
     }
 
     /// Whether a step has settled within the usual number of iterations.
@@ -157,6 +175,7 @@ impl Enforcer {
         for own in self.iterates.normal.iter_mut().filter(|own| own.yields) {
             own.closing += node_pairs::left_by_yielding(own.size, limits.tolerance, travel);
         }
+        let limits = limits.where_as_deep(depth);
         let mut outcome = Outcome { deepest, depth, travel, ..Default::default() };
         let (mut momentum, mut ended) = (Momentum::new(), [false; LOOSER.len()]);
         // With few passes there is no time for it.
@@ -177,15 +196,15 @@ impl Enforcer {
             for (spared, _) in looser.iter_mut().zip(ended).filter(|(_, ended)| *ended) {
                 *spared = Spared { iterations: spared.iterations + 1, moved: spared.moved + residual };
             }
-            ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= by_looser(factor));
+            // What has yielded must have its turn, whatever the tolerance.
+            let may_end = !(some_yield && yields > 0.0);
+            ended.iter_mut().zip(LOOSER).for_each(|(ended, factor)| *ended |= may_end && by_looser(factor));
             let (iterations, is_unsettled) = (outcome.iterations + 1, moved > UNSETTLED * travel);
             let ran_out = residual > limits.tolerance || is_unsettled;
             let lacks_room = is_unsettled && thick > 0.0 && limits.iterations >= FEW && limits.may_give_way;
             outcome = Outcome { residual, iterations, ran_out, lacks_room, looser, ..outcome };
             let is_settled = by_looser(1.0);
-            if (is_settled && !(some_yield && yields > 0.0))
-                || limits.are_reached(iterations, [residual, moved, travel])
-            {
+            if (is_settled && may_end) || limits.are_reached(iterations, [residual, moved, travel]) {
                 return Some(outcome);
             }
             // Where the rest has settled, or does not, what has yielded sees to it that nothing is open to it.

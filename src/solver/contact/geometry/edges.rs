@@ -255,10 +255,7 @@ pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outward
     let to = |other: u32| subtract(motion.start(other), motion.start(end));
     let along = scaled(to(from), -1.0);
     let around = faces.around(end);
-    let mut others: Vec<u32> = around.iter().flat_map(|&face| beside(faces.corners[face as usize], end)).collect();
-    others.sort_unstable();
-    others.dedup();
-    others.retain(|&other| other != from);
+    let others = others_around(faces, [from, end]);
     let is_sharp = |other: &&u32| {
         let has = |face: &&u32| faces.corners[**face as usize].contains(*other);
         let mut both = around.iter().filter(has);
@@ -274,6 +271,29 @@ pub fn onward(faces: &Faces, motion: &NodeMotion, [from, end]: [u32; 2], outward
         (Some(&only), None) => bend(along, to(only), outwards),
         _ => others.iter().map(|&other| straight(along, to(other))).max().unwrap_or(Onward::Ends),
     }
+}
+
+/// Points to which an edge, from a point to its end, goes on there at the beginning of the step, see [`onward`].
+pub fn leading_on(
+    faces: &Faces,
+    motion: &NodeMotion,
+    [from, end]: [u32; 2],
+    outwards: [f64; 3],
+) -> impl Iterator<Item = u32> {
+    let to = move |other: u32| subtract(motion.start(other), motion.start(end));
+    let along = scaled(to(from), -1.0);
+    let leads_on = move |&other: &u32| bend(along, to(other), outwards) != Onward::Ends;
+    others_around(faces, [from, end]).into_iter().filter(leads_on)
+}
+
+/// Points to which edges of the mesh lead from the end of one, but for the point from which that comes, ascending.
+fn others_around(faces: &Faces, [from, end]: [u32; 2]) -> Vec<u32> {
+    let around = faces.around(end).iter();
+    let mut others: Vec<u32> = around.flat_map(|&face| beside(faces.corners[face as usize], end)).collect();
+    others.sort_unstable();
+    others.dedup();
+    others.retain(|&other| other != from);
+    others
 }
 
 /// Corners of a face beside one of them.

@@ -88,7 +88,7 @@ impl HiddenSides {
 
 /// Unit vectors across an edge of a face, away from it, and along its normal. `None` for what is no edge: between a corner and itself in space, from end to
 /// end of a strip.
-fn frame(corners: &[[f64; 3]; 4], edge: usize) -> Option<[[f64; 3]; 2]> {
+pub fn frame(corners: &[[f64; 3]; 4], edge: usize) -> Option<[[f64; 3]; 2]> {
     let normal = normalized(area_normal(corners))?;
     let [from, to] = [corners[edge], corners[(edge + 1) % 4]];
     if let Some([a, b]) = strip::of(corners) {

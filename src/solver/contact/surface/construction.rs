@@ -216,6 +216,7 @@ fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limi
             unsettled: control.unsettled_passes,
             tolerance: control.tolerance,
             may_give_way: true,
+            farthest: 0.0,
         };
     }
     let mut nodes = plane_node_sets.concat();
@@ -223,7 +224,8 @@ fn limits(model: &Model, plane_node_sets: &[Vec<u32>], are_joined: bool) -> Limi
     let alone = nodes.windows(2).all(|pair| pair[0] != pair[1]);
     let iterations = if alone { 1 } else { control.passes };
     // Nobody else hears what runs out here.
-    Limits { iterations, unsettled: iterations, tolerance: f64::NEG_INFINITY, may_give_way: false }
+    let tolerance = f64::NEG_INFINITY;
+    Limits { iterations, unsettled: iterations, tolerance, may_give_way: false, farthest: f64::INFINITY }
 }
 
 fn plane_points(plane_node_sets: &[Vec<u32>], model: &Model, body: &Body, layout: &Layout) -> Vec<PlaneNode> {

@@ -2,7 +2,7 @@
 
 use super::EdgeCheck;
 use super::lines::{Crossing, WHOLE};
-use crate::common::vector::{dot, subtract};
+use crate::common::vector::{cross, dot, scaled, subtract};
 use crate::solver::contact::geometry::edges::{self, CLEAR_CROSSING, Edge, Onward};
 use crate::solver::contact::geometry::projection::area_normal;
 
@@ -15,6 +15,12 @@ pub const BEYOND_END: [f64; 2] = [-1e-3, 1.0 + 1e-3];
 
 /// The same of edges that come into a valley, where what goes through both parts of an edge is beyond the end of either.
 pub const IN_VALLEY: [f64; 2] = [-0.25, 1.25];
+
+/// Edges look at each other if the cosine between their ways out is below minus this.
+const LOOKING: f64 = 0.5;
+
+/// An end nearer to another edge than this part of the edges is on it but for round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 impl EdgeCheck<'_> {
     /// Whether edges of solids cross between their ends. Nearer to an end than they are deep a node or another edge is in the way before
@@ -50,12 +56,48 @@ impl EdgeCheck<'_> {
         clearly && crossing.within(0.0, [WHOLE; 2]) && self.all_ends_near(crossing, depth, is_outside)
     }
 
+    /// Whether a place of a line is its end but for round-off, at a rim: what passes there exactly does not meet the faces of the line.
+    pub(super) fn is_at_rim(&self, line: u32, place: f64) -> bool {
+        let is_end = |end: usize| (place - end as f64).abs() < ROUND_OFF && self.onward(line, end) == Onward::Ends;
+        !self.edges[line as usize].is_ridge() && (is_end(0) || is_end(1))
+    }
+
     /// Whether two edges cross in a valley, beyond ends by no more than a depth, a length: where an edge has been bent inwards at a node, what
     /// lies there is beyond the ends of both of its parts, seen along their normals.
     pub(super) fn is_in_valley(&self, pair: [u32; 2], crossing: &Crossing, depth: f64) -> bool {
         crossing.sine > CLEAR_CROSSING
             && crossing.within(-depth, [BEYOND_END; 2])
             && self.all_ends_near(crossing, 0.0, |i, end| self.onward(pair[i], end) == Onward::Upwards)
+    }
+
+    /// Whether two edges cross at an end of one of them, or a little beyond, where it goes on but not across the other: there they pass each other by, as the
+    /// rims of a pin and of the hole into which it goes do, whose sides are a little apart or fit exactly.
+    pub(super) fn pass_by(&self, pair: [u32; 2], crossing: &Crossing, at: impl Fn(u32) -> [f64; 3]) -> bool {
+        // Beside each other are bodies that look at each other across the way on which they come, and not noses that meet tip on tip.
+        let [first, second] = pair.map(|edge| {
+            let outwards = self.outwards(edge);
+            subtract(outwards, scaled(crossing.normal, dot(outwards, crossing.normal)))
+        });
+        let look_at_each_other = || dot(first, second) < -LOOKING * (dot(first, first) * dot(second, second)).sqrt();
+        let passes = |i: usize| {
+            let place = crossing.places[i];
+            let ends = self.edges[pair[i] as usize].ends;
+            let [from, end] = match place {
+                _ if place < ROUND_OFF => [ends[1], ends[0]],
+                _ if place > 1.0 - ROUND_OFF => ends,
+                _ => return false,
+            };
+            let [first, last] = self.edges[pair[1 - i] as usize].ends.map(&at);
+            // Upright on the other edge and on the normal of both.
+            let aside = cross(subtract(last, first), crossing.normal);
+            let length = crossing.lengths[i] * crossing.lengths[1 - i];
+            let side = |point: u32| dot(subtract(at(point), first), aside) / length;
+            let before = side(from);
+            let mut onwards =
+                edges::leading_on(self.faces, self.motion, [from, end], self.outwards(pair[i])).peekable();
+            onwards.peek().is_some() && onwards.all(|next| side(next) * before.signum() > -ROUND_OFF)
+        };
+        (passes(0) || passes(1)) && look_at_each_other()
     }
 
     /// How an edge goes on at its first or second end.

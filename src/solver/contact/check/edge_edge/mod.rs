@@ -368,7 +368,8 @@ impl EdgeCheck<'_> {
             Some(past) => EdgeContact { sense, tolerated: past.tolerated.max(gap).min(tolerated), ..*past },
             None => {
                 let before = self.gap_before((pair, half), &end, sense)?;
-                if gap >= tolerated || before <= -SUNK * scale || self.slides_over_rim((pair, half), &end, -gap) {
+                let slides = || self.slides_over_rim((pair, half), &end, -gap);
+                if gap >= tolerated || before <= -SUNK * scale || self.is_at_rim(pair[1], end.places[1]) || slides() {
                     return None;
                 }
                 EdgeContact { pair, sense, tolerated: before.min(tolerated), carried: Carried::NOTHING }

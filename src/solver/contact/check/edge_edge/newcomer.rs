@@ -17,12 +17,13 @@ impl EdgeCheck<'_> {
         // Pushed along the normal, the first edge goes back into its own body.
         let [first, second] = pair.map(|edge| dot(start.normal, self.outwards(edge)));
         let outwards = |sense: f64| sense * first < 0.0 && sense * second > 0.0;
+        let at = |point| self.motion.start(point);
         let touch = |sense, tolerated| EdgeContact { pair, sense, tolerated, carried: Carried::NOTHING };
         // Where they touch already, as a mesh may have it, the faces say on which side the other one is, and round-off nothing.
         if start.gap.abs() <= TOUCHING * start.shorter() {
             let comes = |sense: &f64| outwards(*sense) && sense * end.gap < 0.0;
             let sense = [1.0, -1.0].into_iter().find(comes)?;
-            if !self.is_between_ends(pair, &start, 0.0, |point| self.motion.start(point)) {
+            if !self.is_between_ends(pair, &start, 0.0, at) || self.pass_by(pair, &start, at) {
                 return None;
             }
             return Some(touch(sense, (sense * start.gap).min(0.0)));
@@ -36,7 +37,8 @@ impl EdgeCheck<'_> {
         let sense = -sense;
         (outwards(sense)
             && depth < KEEP * start.shorter()
-            && self.is_between_ends(pair, &start, depth, |point| self.motion.start(point)))
+            && self.is_between_ends(pair, &start, depth, at)
+            && !self.pass_by(pair, &start, at))
         .then_some(touch(sense, -depth))
     }
 
@@ -52,9 +54,10 @@ impl EdgeCheck<'_> {
         );
         crossing::roots(&volume).any(|t| {
             let at = |path: &crossing::Path| add(path.0, scaled(path.1, t));
+            let place = |point| at(&self.motion.path(point));
             Crossing::of([[at(&a[0]), at(&a[1])], [at(&b[0]), at(&b[1])]]).is_some_and(|crossing| {
-                self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point))
-                    || self.is_in_valley(pair, &crossing, depth)
+                let is_between = || self.is_between_ends(pair, &crossing, 0.0, |point| self.motion.start(point));
+                (is_between() || self.is_in_valley(pair, &crossing, depth)) && !self.pass_by(pair, &crossing, place)
             })
         })
     }

@@ -1,10 +1,11 @@
 //! Joints of flush bodies: sides that another body covers, over which what is on both of them slides, and into which nothing goes.
 
 use super::super::FLUSH;
-use super::newcomer::SEAM;
-use super::{HOLD, NodeFaceCheck, SAME_WAY, faces_of};
+use super::newcomer::{CLEARLY, SEAM};
+use super::{HOLD, NodeFaceCheck, OPPOSED, SAME_WAY, faces_of};
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::geometry::sides::frame;
 use crate::solver::contact::search::locate::Candidate;
 
 /// Where a point meets a face: its place, and the part of the step after which the face is looked at.
@@ -39,7 +40,8 @@ impl NodeFaceCheck<'_> {
         if self.faces.around(point).is_empty() {
             return self.comes_at_joint(face, near, self.meeting(point, time)).then_some(time);
         }
-        let farther = if start.outside > end.outside { start } else { end };
+        let at_end = start.outside <= end.outside;
+        let farther = if at_end { end } else { start };
         if farther.outside <= 0.0 || !self.is_hardly_beyond(face, farther) {
             return None;
         }
@@ -49,7 +51,28 @@ impl NodeFaceCheck<'_> {
             self.is_across(face, &farther.weights, other)
                 && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
         };
-        self.beside(face).any(is_flush).then_some(time)
+        let comes = self.beside(face).any(is_flush) && !self.passes_beside((point, face), f64::from(u8::from(at_end)));
+        comes.then_some(time)
+    }
+
+    /// Whether a point is beside a solid at a part of the step: beyond a border of a face, and the face of the same element across that border is looked at
+    /// by one of the point's own.
+    fn passes_beside(&self, (point, face): (u32, u32), time: f64) -> bool {
+        let (corners, place) = (self.corners_at(face, time), self.place(point, time));
+        let ends = self.faces.corners[face as usize];
+        let is_beyond = |border: &usize| {
+            let across = frame(&corners, *border).map(|[across, _]| across);
+            across.is_some_and(|across| {
+                dot(subtract(place, corners[*border]), across) > CLEARLY * self.faces.size[face as usize]
+            })
+        };
+        (0..4).filter(is_beyond).any(|border| {
+            let of_border = [ends[border], ends[(border + 1) % 4]];
+            let is_across = |other: &u32| of_border.iter().all(|end| self.faces.corners[*other as usize].contains(end));
+            let normal = |other: u32| normalized(projection::area_normal(&self.faces.start(other, self.motion)));
+            let mut sides = self.beside(face).filter(is_across).filter_map(normal);
+            sides.any(|normal| self.has_face_opposed(point, &normal, -OPPOSED))
+        })
     }
 
     /// Whether a point is at the border of a face, or hardly beyond, where a face of another body meets that border: the slit between them is narrow.
@@ -80,8 +103,9 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
-    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. `weights` are the shares of
-    /// the corners in its foot. Where they meet is asked of points without faces only.
+    /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. A tip that slides does so, too, and in
+    /// the inner corner of a body the face beside is that of another element. `weights` are the shares of the corners in its foot. Where they
+    /// meet is asked of points without faces only.
     pub(super) fn slides_over(
         &self,
         (point, face): (u32, u32),
@@ -95,7 +119,7 @@ impl NodeFaceCheck<'_> {
         let at = self.motion.start(point);
         let corners = self.faces.start(face, self.motion);
         let foot = projection::foot(&corners, weights);
-        self.beside(face).any(|other| {
+        let is_in_plane_of = |other: u32| {
             let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
             // The inside of a side is far from the faces beside it, which is cheap to see.
             if [foot, at].iter().any(|&place| projection::is_off_plane(&corners, place, reach)) {
@@ -103,9 +127,24 @@ impl NodeFaceCheck<'_> {
             }
             let near =
                 |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
+            // A tip slides only where it stays in the plane: the corner of what comes on is in several at once.
+            let stays = || {
+                let end = self.projection_at_end(point, other);
+                end.is_some_and(|end| end.gap >= -reach && self.has_face_opposed(point, &end.normal, -OPPOSED))
+            };
             near(foot).is_some()
-                && near(at).is_some_and(|projection| self.has_face_opposed(point, &projection.normal, -FLUSH))
-        })
+                && near(at).is_some_and(|at| self.has_face_opposed(point, &at.normal, -FLUSH) || stays())
+        };
+        // Only sides are beside: what goes on in the plane of the face, or nearly so, is met as well.
+        let normal = projection::area_normal(&corners);
+        let is_side = |other: &u32| {
+            let of_other = projection::area_normal(&self.faces.start(*other, self.motion));
+            let square = dot(normal, normal) * dot(of_other, of_other);
+            !self.faces.is_two_sided(*other)
+                && self.is_across(face, weights, *other)
+                && dot(normal, of_other) < OPPOSED * square.sqrt()
+        };
+        self.beside(face).chain(faces_of(near).filter(is_side)).any(is_in_plane_of)
     }
 
     /// Whether what has no faces of its own meets a side in a flush joint: on the surface beside it, where another body covers the side and has a surface
