@@ -18,6 +18,7 @@ mod sizes;
 pub mod surroundings;
 #[cfg(test)]
 mod tests;
+mod travel;
 
 pub use bvh::Bvh;
 pub use candidates::Candidates;
