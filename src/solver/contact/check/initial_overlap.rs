@@ -41,6 +41,9 @@ const LARGER: f64 = 1e-3;
 /// Nodes of an element that have come as near to each other as this part of their distance before are at the same place.
 const TOGETHER: f64 = 1e-3;
 
+/// A tetrahedron of less than this part of the product of its edges at a corner is flat.
+const FLAT: f64 = 1e-9;
+
 /// Rounds of finding overlaps and moving nodes: what moves may overlap elsewhere.
 const ROUNDS: usize = 10;
 
@@ -290,7 +293,8 @@ pub(super) fn depth(body: &Body, layout: &Layout, faces: impl Iterator<Item = u3
     if nearest.is_finite() { nearest } else { 0.0 }
 }
 
-/// Whether a point is inside a hexahedron: in one of the tetrahedra that join its middle with the four triangles of each side.
+/// Whether a point is inside a hexahedron: in one of the tetrahedra that join its middle with the four triangles of each side. The sides of a wedge
+/// that have no area make none: their volumes are round-off, which may have either sign, and any point is within them.
 pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
     let middle = corners.iter().fold([0.0; 3], |sum, corner| add(sum, scaled(*corner, 0.125)));
     let volume = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| dot(a, cross(b, c));
@@ -300,8 +304,9 @@ pub(super) fn is_inside(corners: &[[f64; 3]; 8], point: [f64; 3]) -> bool {
         (0..4).any(|i| {
             let (a, b) = (side[i], side[(i + 1) % 4]);
             let whole = volume(centre, a, b);
+            let least = FLAT * [centre, a, b].map(|arm| dot(arm, arm)).iter().product::<f64>().sqrt();
             let parts = [volume(r, a, b), volume(centre, r, b), volume(centre, a, r)].map(|part| part / whole);
-            whole > 0.0 && parts.iter().all(|part| *part >= 0.0) && parts.iter().sum::<f64>() <= 1.0
+            whole > least && parts.iter().all(|part| *part >= 0.0) && parts.iter().sum::<f64>() <= 1.0
         })
     })
 }
@@ -362,4 +367,33 @@ fn moved(before: &[[f64; 3]], body: &Body, layout: &Layout) -> Overlap {
         let length = dot(path, path).sqrt();
         Overlap { nodes: sum.nodes + usize::from(length > 0.0), farthest: sum.farthest.max(length), ..sum }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::vector::normalized;
+
+    /// A wedge, turned in steps, whose side of no area is a line: volumes over it are round-off. Points in the plane of that line and the middle are not in
+    /// the wedge; its middle is.
+    #[test]
+    fn what_is_in_the_plane_of_a_side_without_area_is_not_in_a_wedge() {
+        let triangle = [[0.0, 0.0], [0.3, 0.1], [0.2, 0.4], [0.2, 0.4]];
+        let axis = normalized([1.0, 2.0, 3.0]).unwrap_or_default();
+        for turn in 0..200 {
+            let (sine, cosine) = (0.1 * f64::from(turn)).sin_cos();
+            let turned = |x: [f64; 3]| {
+                let (along, upright) = (scaled(axis, dot(axis, x) * (1.0 - cosine)), scaled(cross(axis, x), sine));
+                add(add(scaled(x, cosine), upright), along)
+            };
+            let corner = |i: usize| [triangle[i % 4][0], triangle[i % 4][1], if i < 4 { 0.0 } else { 0.5 }];
+            let wedge: [[f64; 3]; 8] = std::array::from_fn(|i| turned(corner(i)));
+            let middle = centroid(&wedge);
+            let [down, up] = [2, 6].map(|i| subtract(wedge[i], middle));
+            assert!(is_inside(&wedge, middle));
+            for (a, b) in [(3.0, 3.0), (5.0, -3.0), (-2.0, 1.0), (1.5, 0.2)] {
+                assert!(!is_inside(&wedge, add(middle, add(scaled(down, a), scaled(up, b)))), "{turn}: {a}, {b}");
+            }
+        }
+    }
 }

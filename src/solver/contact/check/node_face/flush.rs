@@ -2,7 +2,7 @@
 
 use super::super::FLUSH;
 use super::newcomer::{CLEARLY, SEAM};
-use super::{HOLD, NodeFaceCheck, OPPOSED, SAME_WAY, faces_of};
+use super::{HOLD, IN_SURFACE, NodeFaceCheck, OPPOSED, SAME_WAY, faces_of};
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::geometry::sides::frame;
@@ -45,34 +45,42 @@ impl NodeFaceCheck<'_> {
         if farther.outside <= 0.0 || !self.is_hardly_beyond(face, farther) {
             return None;
         }
+        let at_farther = f64::from(u8::from(at_end));
         let normal = |face: u32| normalized(projection::area_normal(&self.faces.start(face, self.motion)));
         let own: Vec<[f64; 3]> = self.faces.around(point).iter().filter_map(|&own| normal(own)).collect();
-        let is_flush = |other: u32| {
-            self.is_across(face, &farther.weights, other)
-                && normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY))
-        };
-        let comes = self.beside(face).any(is_flush) && !self.passes_beside((point, face), f64::from(u8::from(at_end)));
+        let looks_the_same_way =
+            |other: u32| normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY));
+        let is_flush = |other: u32| self.is_across(face, &farther.weights, other) && looks_the_same_way(other);
+        let comes = self.beside(face).any(is_flush) && !self.passes_beside((point, face), near, at_farther);
         comes.then_some(time)
     }
 
-    /// Whether a point is beside a solid at a part of the step: beyond a border of a face, and the face of the same element across that border is looked at
-    /// by one of the point's own.
-    fn passes_beside(&self, (point, face): (u32, u32), time: f64) -> bool {
-        let (corners, place) = (self.corners_at(face, time), self.place(point, time));
-        let ends = self.faces.corners[face as usize];
-        let is_beyond = |border: &usize| {
-            let across = frame(&corners, *border).map(|[across, _]| across);
-            across.is_some_and(|across| {
-                dot(subtract(place, corners[*border]), across) > CLEARLY * self.faces.size[face as usize]
-            })
-        };
-        (0..4).filter(is_beyond).any(|border| {
-            let of_border = [ends[border], ends[(border + 1) % 4]];
-            let is_across = |other: &u32| of_border.iter().all(|end| self.faces.corners[*other as usize].contains(end));
+    /// Whether a point is beside a solid at a part of the step: beyond a border of a face, and the face across that border is looked at by one of the
+    /// point's own. So is what a ridge of another block comes down on, which the other side of that will meet; noses of a fold stop each other.
+    fn passes_beside(&self, (point, face): (u32, u32), near: &[Candidate], time: f64) -> bool {
+        let is_fold = self.block_of(point) == Some(self.faces.block[face as usize]);
+        let near = if is_fold { &[] } else { near };
+        self.borders_beyond((point, face), time, CLEARLY * self.faces.size[face as usize]).any(|border| {
             let normal = |other: u32| normalized(projection::area_normal(&self.faces.start(other, self.motion)));
-            let mut sides = self.beside(face).filter(is_across).filter_map(normal);
+            let others = self.beside(face).chain(faces_of(near)).filter(|&other| other != face);
+            let mut sides = others.filter(|&other| self.has_border(other, &border)).filter_map(normal);
             sides.any(|normal| self.has_face_opposed(point, &normal, -OPPOSED))
         })
+    }
+
+    /// Borders of a face, by their ends, beyond which a point is at a part of the step by more than a length.
+    fn borders_beyond(&self, (point, face): (u32, u32), time: f64, least: f64) -> impl Iterator<Item = [u32; 2]> {
+        let (corners, place) = (self.corners_at(face, time), self.place(point, time));
+        let ends = self.faces.corners[face as usize];
+        let is_beyond = move |border: &usize| {
+            let across = frame(&corners, *border).map(|[across, _]| across);
+            across.is_some_and(|across| dot(subtract(place, corners[*border]), across) > least)
+        };
+        (0..4).filter(is_beyond).map(move |border| [ends[border], ends[(border + 1) % 4]])
+    }
+
+    fn has_border(&self, face: u32, border: &[u32; 2]) -> bool {
+        border.iter().all(|end| self.faces.corners[face as usize].contains(end))
     }
 
     /// Whether a point is at the border of a face, or hardly beyond, where a face of another body meets that border: the slit between them is narrow.
@@ -104,47 +112,73 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that comes through a face at its border slides in the plane of the face beside it: over the seam
     /// between two bodies whose surfaces are flush, where the sides are buried and nothing is in the way. A tip that slides does so, too, and in
-    /// the inner corner of a body the face beside is that of another element. `weights` are the shares of the corners in its foot. Where they
+    /// the inner corner of a body the face beside is that of another element. `through` is where the point is behind the face. Where they
     /// meet is asked of points without faces only.
     pub(super) fn slides_over(
         &self,
         (point, face): (u32, u32),
         near: &[Candidate],
-        weights: &[f64; 4],
+        through: &Projection,
         meeting: impl FnOnce() -> Meeting,
     ) -> bool {
         if self.faces.around(point).is_empty() {
             return self.is_at_joint(face, near, meeting());
         }
-        let at = self.motion.start(point);
-        let corners = self.faces.start(face, self.motion);
-        let foot = projection::foot(&corners, weights);
-        let is_in_plane_of = |other: u32| {
-            let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
-            // The inside of a side is far from the faces beside it, which is cheap to see.
-            if [foot, at].iter().any(|&place| projection::is_off_plane(&corners, place, reach)) {
-                return false;
-            }
-            let near =
-                |position| projection::project(&corners, position).filter(|projection| projection.gap.abs() <= reach);
-            // A tip slides only where it stays in the plane: the corner of what comes on is in several at once.
-            let stays = || {
-                let end = self.projection_at_end(point, other);
-                end.is_some_and(|end| end.gap >= -reach && self.has_face_opposed(point, &end.normal, -OPPOSED))
-            };
-            near(foot).is_some()
-                && near(at).is_some_and(|at| self.has_face_opposed(point, &at.normal, -FLUSH) || stays())
-        };
-        // Only sides are beside: what goes on in the plane of the face, or nearly so, is met as well.
-        let normal = projection::area_normal(&corners);
-        let is_side = |other: &u32| {
-            let of_other = projection::area_normal(&self.faces.start(*other, self.motion));
+        // Only sides are beside: what goes on in the plane of the face, or nearly so, is met as well, but for what turns away from the plane in which
+        // the point stays.
+        let normal = projection::area_normal(&self.faces.start(face, self.motion));
+        let is_side = |other: u32| {
+            let of_other = projection::area_normal(&self.faces.start(other, self.motion));
             let square = dot(normal, normal) * dot(of_other, of_other);
-            !self.faces.is_two_sided(*other)
-                && self.is_across(face, weights, *other)
-                && dot(normal, of_other) < OPPOSED * square.sqrt()
+            dot(normal, of_other) < OPPOSED * square.sqrt()
+                || self.turns_away(face, other) && self.stays_above(point, other)
         };
-        self.beside(face).chain(faces_of(near).filter(is_side)).any(is_in_plane_of)
+        let is_across =
+            |other: &u32| !self.faces.is_two_sided(*other) && self.is_across(face, &through.weights, *other);
+        let sides = faces_of(near).filter(is_across).filter(|&other| is_side(other));
+        self.beside(face).chain(sides).any(|other| self.slides_along((point, face), through, other))
+    }
+
+    /// Whether the middle of a face is behind the plane of another one.
+    fn turns_away(&self, face: u32, other: u32) -> bool {
+        let [own, other] = [face, other].map(|face| self.faces.start(face, self.motion));
+        let normal = projection::area_normal(&other);
+        let rise = dot(subtract(projection::centre(&own), projection::centre(&other)), normal);
+        rise < -HOLD * self.faces.size[face as usize] * dot(normal, normal).sqrt()
+    }
+
+    /// Whether a point that may be in the plane of a face is not behind that at the end of the step, but for round-off: what is pressed on is not let by.
+    fn stays_above(&self, point: u32, face: u32) -> bool {
+        let reach = IN_SURFACE * self.faces.size[face as usize];
+        self.projection_at_end(point, face).is_some_and(|end| end.gap >= -reach)
+    }
+
+    /// Whether a point that comes through one face slides in the plane of another, in which its foot is on the first: at their border. Where the first
+    /// leans inwards, its foot is below that border by a part of how deep the point is behind it.
+    fn slides_along(&self, (point, face): (u32, u32), through: &Projection, other: u32) -> bool {
+        let at = self.motion.start(point);
+        let foot = projection::foot(&self.faces.start(face, self.motion), &through.weights);
+        let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
+        let normal = projection::area_normal(&corners);
+        let lean = -dot(through.normal, normal) / dot(normal, normal).sqrt();
+        let below = lean.max(0.0) * (-through.gap).max(0.0);
+        // The inside of a side is far from the faces beside it, which is cheap to see.
+        if [(foot, reach + below), (at, reach)]
+            .iter()
+            .any(|&(place, reach)| projection::is_off_plane(&corners, place, reach))
+        {
+            return false;
+        }
+        let near = |place, reach| {
+            projection::project(&corners, place).filter(|projection: &Projection| projection.gap.abs() <= reach)
+        };
+        // A tip slides only where it stays in the plane: the corner of what comes on is in several at once.
+        let stays = || {
+            let end = self.projection_at_end(point, other);
+            end.is_some_and(|end| end.gap >= -reach && self.has_face_opposed(point, &end.normal, -OPPOSED))
+        };
+        near(foot, reach + below).is_some()
+            && near(at, reach).is_some_and(|at| self.has_face_opposed(point, &at.normal, -FLUSH) || stays())
     }
 
     /// Whether what has no faces of its own meets a side in a flush joint: on the surface beside it, where another body covers the side and has a surface
@@ -186,7 +220,8 @@ impl NodeFaceCheck<'_> {
         })
     }
 
-    fn corners_at(&self, face: u32, time: f64) -> [[f64; 3]; 4] {
+    /// Corners of a face at a part of the step, without contact.
+    pub(super) fn corners_at(&self, face: u32, time: f64) -> [[f64; 3]; 4] {
         self.faces.corners[face as usize].map(|corner| self.place(corner, time))
     }
 }

@@ -44,12 +44,21 @@ const HOLLOW: f64 = 0.05;
 /// and round-off would choose one that goes by.
 const AT_ONCE: f64 = 1e-3;
 
+/// What comes through a node by less than this part of a face's size has its foot at that node to well within [`projection::TIE`].
+const BESIDE: f64 = 0.1 * projection::TIE;
+
+/// A corner with less than this share in a foot has none but for round-off.
+const EXACTLY: f64 = 1e-9;
+
 /// Two faces whose normals have a larger cosine between them push the same way; one of them is enough.
 const SAME_WAY: f64 = 0.8;
 
 /// The same of faces that are touched at a distance: in a hollow each of them reaches over the other, and a point held by one alone
 /// would be nearer to the other by as much.
 const SAME_WAY_AT_DISTANCE: f64 = 0.995;
+
+/// The same of faces of a solid that make a hollow, as the facets of a bore: either pushes what is in the corner into the other.
+const SAME_WAY_IN_HOLLOW: f64 = 0.98;
 
 /// Two faces whose normals have a cosine below minus this between them look at each other.
 const OPPOSED: f64 = 0.5;
@@ -155,8 +164,12 @@ impl NodeFaceCheck<'_> {
         if contacts.len() > 1 {
             self.choose(point, contacts);
         }
+        // Where meshes overlap, each flank of a corner lifts what overlaps with itself.
+        let mut fitting = [NONE; MAX_FACES];
+        let overlapping = contacts.iter().filter(|contact| contact.tolerated < 0.0);
+        fitting.iter_mut().zip(overlapping).for_each(|(face, contact)| *face = contact.face);
         for contact in contacts.iter_mut() {
-            self.blend(near, contact);
+            self.blend(point, near, fitting, contact);
             let (corners, start) = (self.faces.start(contact.face, self.motion), self.motion.start(point));
             if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
                 contact.projection.weights = shares;
@@ -173,16 +186,13 @@ impl NodeFaceCheck<'_> {
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so.
-    fn blend(&self, near: &[Candidate], contact: &mut DetectedContact) {
+    /// Faces of a `fitting` corner, those of this contact among them, push for themselves.
+    fn blend(&self, point: u32, near: &[Candidate], fitting: [u32; MAX_FACES], contact: &mut DetectedContact) {
         if contact.projection.rounded {
             return;
         }
-        // Another face that has the foot lacks at least one corner, which then has no weight to speak of.
-        if contact.projection.weights.iter().all(|&weight| weight > 2.0 * projection::TIE) {
-            return;
-        }
+        let Some(weights) = self.weights_on_border(point, contact) else { return };
         let own = self.faces.corners[contact.face as usize];
-        let weights = contact.projection.weights;
         // What the foot has of its weights at the corners of this face that another one shares, or at one of them.
         let shared = |corners: &[u32]| -> f64 {
             own.iter().zip(weights).filter(|(corner, _)| corners.contains(corner)).map(|(_, weight)| weight).sum()
@@ -190,7 +200,8 @@ impl NodeFaceCheck<'_> {
         let mut sum = [0.0; 3];
         for face in faces_of(near) {
             let corners = self.faces.corners[face as usize];
-            if shared(&corners) > 1.0 - projection::TIE {
+            let fits = face != contact.face && fitting.contains(&face) && fitting.contains(&contact.face);
+            if !fits && shared(&corners) > 1.0 - projection::TIE {
                 let weights = corners.map(|corner| shared(&[corner]));
                 let end = self.faces.end(face, self.motion);
                 // Folds of surfaces are pinched sooner along upright normals (docs/decisions.md, "What slides on a solid").
@@ -209,6 +220,23 @@ impl NodeFaceCheck<'_> {
         if length > 1.5 {
             contact.projection.normal = scaled(sum, 1.0 / length);
         }
+    }
+
+    /// Shares of the corners of a face in the foot of a point on its border, which other faces have as well: they lack at least one corner, which then has
+    /// no weight to speak of. `None` where the foot is in the face. What comes through a node deeply in one step has its foot exactly there when they meet,
+    /// and at the end of the step beside it, by less than it is deep.
+    fn weights_on_border(&self, point: u32, contact: &DetectedContact) -> Option<[f64; 4]> {
+        let end = contact.projection;
+        let within = |least: f64| end.weights.iter().any(|&weight| weight <= least);
+        let beside = -end.gap / self.faces.size[contact.face as usize];
+        if beside > BESIDE && contact.time <= 1.0 && within(beside.max(2.0 * projection::TIE)) {
+            let meeting = self.meeting(point, contact.time.max(0.0));
+            let at = projection::project(&self.corners_at(contact.face, meeting.time), meeting.place)?;
+            if at.weights.iter().any(|&weight| weight <= EXACTLY) {
+                return Some(at.weights);
+            }
+        }
+        within(2.0 * projection::TIE).then_some(end.weights)
     }
 
     fn related(&self, past: u32, face: u32) -> bool {
@@ -370,17 +398,16 @@ impl NodeFaceCheck<'_> {
     /// Whether a face holds a point in a way that the one chosen before does not: it pushes another way, and does not
     /// merely lie around the corner of the same body.
     fn apart(&self, first: &DetectedContact, second: &DetectedContact, same_way: f64) -> bool {
-        if dot(first.projection.normal, second.projection.normal) > same_way {
-            return false;
-        }
+        let cosine = dot(first.projection.normal, second.projection.normal);
         if !self.faces.adjacent(first.face, second.face) {
-            return true;
+            return cosine <= same_way;
         }
         let middle = |face| projection::centre(&self.faces.end(face, self.motion));
-        let rise = dot(subtract(middle(second.face), middle(first.face)), first.projection.normal);
+        let rise = || dot(subtract(middle(second.face), middle(first.face)), first.projection.normal);
         // What is flat on both sides of an edge is not round there.
         let round = first.projection.rounded || second.projection.rounded;
-        rise > if round { HOLLOW * self.faces.size[second.face as usize] } else { 0.0 }
+        let least = if round { HOLLOW * self.faces.size[second.face as usize] } else { 0.0 };
+        cosine <= same_way.max(SAME_WAY_IN_HOLLOW) && rise() > least
     }
 }
 

@@ -53,7 +53,7 @@ impl NodeFaceCheck<'_> {
         let contact = |time, tolerated| DetectedContact { face, time, opposition: 0.0, projection: end, tolerated };
         let comes = |time| {
             self.faced(point, &end.normal, rule)
-                && !self.slides_over((point, face), near, &end.weights, || self.meeting(point, time))
+                && !self.slides_over((point, face), near, &end, || self.meeting(point, time))
         };
         if distance == 0.0 && start.gap >= 0.0 {
             if !may_have_come() {
@@ -90,7 +90,7 @@ impl NodeFaceCheck<'_> {
             && self.opposition(point, &end) < FACING
             && !self.in_front_of_another(point, face, start.gap)
             && !self.is_on_another((point, face), near, start.gap)
-            && !self.slides_over((point, face), near, &start.weights, || self.meeting(point, 0.0));
+            && !self.slides_over((point, face), near, &start, || self.meeting(point, 0.0));
         inside.then(|| contact(0.0, start.gap))
     }
 

@@ -2,7 +2,8 @@
 
 use super::super::FLUSH;
 use super::{
-    DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, faces_of, is_near, push_back,
+    DetectedContact, FaceContact, HOLD, MAX_FACES, NONE, NodeFaceCheck, SAME_WAY, SAME_WAY_IN_HOLLOW, faces_of,
+    is_near, push_back,
 };
 use crate::common::vector::{add, dot, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
@@ -68,7 +69,7 @@ impl NodeFaceCheck<'_> {
             self.still_at_joint(point, near, past, contacts);
         }
         // Of the faces around those that hold the point only those that fold towards it can hold it as well.
-        self.folds(point, near, contacts);
+        self.folds(point, near, past, contacts);
     }
 
     /// A point in a hollow that would go beyond the borders of all faces that held it is held by each of them over which it would be if the others
@@ -236,26 +237,32 @@ impl NodeFaceCheck<'_> {
         dot(projection.normal, next.normal) > SAME_WAY || self.rises(old, face, projection.normal)
     }
 
-    /// Whether a face lies in front of another one, of this normal: they make a hollow.
+    /// Whether a face lies in front of another one, of this normal, and that in front of it: they make a hollow. The end of a bore has a part in front of
+    /// a facet that it meets with a corner alone, but no facet is in front of the end.
     fn rises(&self, old: u32, face: u32, normal: [f64; 3]) -> bool {
-        let middle = |face| projection::centre(&self.faces.end(face, self.motion));
-        dot(subtract(middle(face), middle(old)), normal) > 0.0
+        let corners = self.faces.end(face, self.motion);
+        let from_old = subtract(projection::centre(&corners), projection::centre(&self.faces.end(old, self.motion)));
+        dot(from_old, normal) > 0.0 && dot(from_old, projection::area_normal(&corners)) < 0.0
     }
 
     /// Adds faces next to those that hold the point, when they fold towards it and it would be behind them.
-    fn folds(&self, point: u32, near: &[Candidate], contacts: &mut Vec<DetectedContact>) {
+    fn folds(
+        &self,
+        point: u32,
+        near: &[Candidate],
+        past: &[FaceContact; MAX_FACES],
+        contacts: &mut Vec<DetectedContact>,
+    ) {
         let held = contacts.len();
         for i in 0..held {
             let old = contacts[i];
-            let middle = projection::centre(&self.faces.end(old.face, self.motion));
             let beside = |near: &&Candidate| near.face != old.face && self.faces.adjacent(old.face, near.face);
             for &Candidate { face, interface } in near.iter().filter(beside) {
-                let corners = self.faces.end(face, self.motion);
-                let hollow = dot(subtract(projection::centre(&corners), middle), old.projection.normal) > 0.0;
-                if !hollow || self.is_in_front(point, face) || contacts.iter().any(|contact| contact.face == face) {
+                let is_known = || contacts.iter().any(|contact| contact.face == face);
+                if !self.rises(old.face, face, old.projection.normal) || self.is_in_front(point, face) || is_known() {
                     continue;
                 }
-                if self.is_flush(point, old.projection.normal, (face, &corners)) {
+                if self.is_flush(point, old.projection.normal, face) {
                     continue;
                 }
                 if !self.stays_outside(point, old.face, face) {
@@ -266,14 +273,16 @@ impl NodeFaceCheck<'_> {
                     continue;
                 }
                 // In a corner of a solid, what is behind the one is as far beyond the border of the other.
-                let is_corner =
-                    !self.faces.is_two_sided(face) && dot(old.projection.normal, projection.normal) < SAME_WAY;
+                let cosine = dot(old.projection.normal, projection.normal);
+                let is_corner = !self.faces.is_two_sided(face) && cosine < SAME_WAY_IN_HOLLOW;
                 let behind = (-old.projection.gap).max(0.0);
                 let beyond = if is_corner { HOLD * self.faces.size[face as usize] + behind } else { 0.0 };
                 // What overlaps in the mesh does so as well behind faces beside that hardly fold; in a sheet around a shaft, as much as its mesh bends.
                 let flush = if self.faces.is_two_sided(face) { SAME_WAY } else { FLUSH };
-                let goes_on = dot(old.projection.normal, projection.normal) > flush;
-                let tolerated = if goes_on { old.tolerated } else { 0.0 };
+                let goes_on = cosine > flush;
+                // The other flank of a hollow has held it as well, with an overlap of its own.
+                let before = past.iter().find(|past| past.face == face).map(|past| past.tolerated);
+                let tolerated = before.unwrap_or(if goes_on { old.tolerated } else { 0.0 });
                 // At the end of a valley the side of the body there rises over the walls as well; what slides out along them is behind it, and does not look
                 // at it.
                 let looks = || {
@@ -292,8 +301,8 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a face of a solid goes on nearly in the plane of one that holds the point, of this normal: one of the two is enough, and either does.
-    fn is_flush(&self, point: u32, normal: [f64; 3], (face, corners): (u32, &[[f64; 3]; 4])) -> bool {
-        let other = projection::area_normal(corners);
+    fn is_flush(&self, point: u32, normal: [f64; 3], face: u32) -> bool {
+        let other = projection::area_normal(&self.faces.end(face, self.motion));
         let cosine = dot(normal, other);
         self.faces.distance(point, face) == 0.0 && cosine > 0.0 && cosine * cosine > FLUSH * FLUSH * dot(other, other)
     }

@@ -59,7 +59,7 @@ impl NodeFaceCheck<'_> {
             projection.gap += dot(subtract(free, end), projection.normal);
             let Some(tolerated) = self.overlap_at_start(point, face, &projection) else { continue };
             if !self.faced(point, &projection.normal, self.rules[interface as usize])
-                || self.slides_over((point, face), near, &projection.weights, || Meeting { place: end, time: 1.0 })
+                || self.slides_over((point, face), near, &projection, || Meeting { place: end, time: 1.0 })
             {
                 continue;
             }
@@ -69,7 +69,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// The block of the faces around a point, `None` where it has none.
-    fn block_of(&self, point: u32) -> Option<u32> {
+    pub(super) fn block_of(&self, point: u32) -> Option<u32> {
         self.faces.around(point).first().map(|&own| self.faces.block[own as usize])
     }
 
