@@ -79,6 +79,7 @@ impl NodeFaceCheck<'_> {
         (0..4).filter(is_beyond).map(move |border| [ends[border], ends[(border + 1) % 4]])
     }
 
+    /// Whether a face has both ends of a border.
     fn has_border(&self, face: u32, border: &[u32; 2]) -> bool {
         border.iter().all(|end| self.faces.corners[face as usize].contains(end))
     }
@@ -163,10 +164,8 @@ impl NodeFaceCheck<'_> {
         let lean = -dot(through.normal, normal) / dot(normal, normal).sqrt();
         let below = lean.max(0.0) * (-through.gap).max(0.0);
         // The inside of a side is far from the faces beside it, which is cheap to see.
-        if [(foot, reach + below), (at, reach)]
-            .iter()
-            .any(|&(place, reach)| projection::is_off_plane(&corners, place, reach))
-        {
+        let is_off = |place, reach| projection::is_off_plane(&corners, place, reach);
+        if is_off(foot, reach + below) || is_off(at, reach) {
             return false;
         }
         let near = |place, reach| {

@@ -185,8 +185,8 @@ impl NodeFaceCheck<'_> {
     }
 
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
-    /// theirs, so that what is symmetric stays so.
-    /// Faces of a `fitting` corner, those of this contact among them, push for themselves.
+    /// theirs, so that what is symmetric stays so. Faces of a `fitting` corner, that of this contact among them, push for
+    /// themselves.
     fn blend(&self, point: u32, near: &[Candidate], fitting: [u32; MAX_FACES], contact: &mut DetectedContact) {
         if contact.projection.rounded {
             return;
