@@ -261,13 +261,13 @@ impl Contact {
         if self.remote.is_none() {
             return expired;
         }
-        let ranges = self.contact_nodes.motion.ranges();
-        let mut least: Vec<f64> = ranges.iter().flat_map(|range| range.to_array()).collect();
-        least.push(-f64::from(u8::from(expired)));
+        let range = self.contact_nodes.motion.range();
+        let [a, b, c, d, e, f, g] = range.to_array();
+        let mut least = [a, b, c, d, e, f, g, -f64::from(u8::from(expired))];
         comm.all_min(&mut least);
-        let (of_groups, vote) = least.as_chunks();
-        ranges.iter_mut().zip(of_groups).for_each(|(range, least)| *range = PathRange::from_array(*least));
-        vote != [0.0]
+        let [a, b, c, d, e, f, g, vote] = least;
+        *range = PathRange::from_array([a, b, c, d, e, f, g]);
+        vote < 0.0
     }
 
     /// Gives all contact nodes new search boxes. All ranks call it.

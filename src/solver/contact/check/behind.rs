@@ -8,7 +8,6 @@ use crate::common::vector::{add, normalized, scaled};
 use crate::solver::Body;
 use crate::solver::contact::enforcement::constraint::Constraint;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::geometry::paths::PathGroups;
 use crate::solver::contact::nodes::ContactNodes;
 use crate::solver::contact::search::SearchKind;
 use crate::solver::contact::search::locate::{Candidate, Locator, Rule};
@@ -73,9 +72,7 @@ pub fn behind(layout: &Layout, pairings: &Pairings, motion: &NodeMotion) -> Vec<
     let boxes = neighbourhood::face_boxes(layout, &contact_nodes);
     let mut search = SearchKind::Grid.make();
     let found = neighbourhood::find(&mut *search, [&all, &boxes, &Boxes::default()], |_| true, layout);
-    let points: Vec<u32> = (0..motion.len() as u32).collect();
-    let groups = PathGroups::over(points.len());
-    let mut locator = Locator::new(found, 1.0, (&points, groups), &layout.faces, &layout.edges);
+    let mut locator = Locator::new(found, 1.0, motion.len(), &layout.faces, &layout.edges);
     let mut motion = contact_nodes.motion;
     locator.step(&motion, &layout.faces);
     let longest_path = locator.longest_path();

@@ -7,7 +7,7 @@
 //! Most of them sleep, and so cost nothing here. What is awake is asked for many times: its motion is found once in the step
 //! ([`NodeMotion::place`]) and kept; where that has not been done, it is found when it is asked for.
 
-use super::paths::PathRange;
+use super::paths::{PathRange, Paths};
 use super::swept_box::{Outside, SweptBox};
 use crate::lanes::{Force, InstructionSet, Row, prefetch_later};
 use crate::solver::contact::enforcement::mobility::Mobility;
@@ -87,8 +87,7 @@ pub struct NodeMotion {
     drift: f64,
     /// Time for which forces act until velocities are those of the step.
     kick: f64,
-    /// Of each group, see [`PathGroups`](super::paths::PathGroups).
-    ranges: Vec<PathRange>,
+    range: PathRange,
     instructions: InstructionSet,
 }
 
@@ -182,8 +181,7 @@ impl NodeMotion {
     /// Begins a step of length `drift`, a time, in which forces act for `kick` until velocities are those of the step. Points that
     /// are apart stay as they were until something else is heard.
     pub fn begin(&mut self, [drift, kick]: [f64; 2]) {
-        (self.drift, self.kick) = (drift, kick);
-        self.ranges.clear();
+        (self.drift, self.kick, self.range) = (drift, kick, PathRange::default());
         (self.mark, self.found, self.all_found) = (self.mark + 1.0, 0, false);
     }
 
@@ -201,7 +199,7 @@ impl NodeMotion {
     pub fn borrow_from(&mut self, other: &mut NodeMotion) {
         (self.rows, self.forces) = (std::mem::take(&mut other.rows), std::mem::take(&mut other.forces));
         self.begin([other.drift, other.kick]);
-        self.ranges.clone_from(&other.ranges);
+        self.range = other.range;
     }
 
     /// Gives the nodes back.
@@ -266,56 +264,54 @@ impl NodeMotion {
 
     /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
     /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box, and how far these have all
-    /// been carried along; `groups` are where the groups begin whose paths are told apart, and the end. With `ALL` it finds all motions.
+    /// been carried along. With `ALL` it finds all motions.
     #[inline(always)]
     pub fn survey<const ALL: bool>(
         &mut self,
         nodes: &Nodes,
         last_drift: f64,
-        groups: &[u32],
         of_each: (&[u64], &[SweptBox], [f64; 3]),
     ) -> bool {
-        let mut outside = Outside::of_boxes_carried(of_each.2);
+        let (mut range, mut outside) = (PathRange::default(), Outside::of_boxes_carried(of_each.2));
         let soon = self.places.iter().skip(SOON).chain(self.places.last().into_iter().cycle());
         let places = self.places.iter().zip(soon).zip(self.motions.iter_mut().zip(&mut self.swept_boxes));
-        let mut all = places.zip(of_each.0.iter().zip(of_each.1));
-        for group in groups.windows(2) {
-            let mut range = PathRange::default();
-            let members = all.by_ref().take((group[1] - group[0]) as usize);
-            for (((&node, &soon), (own, own_box)), (&counts, search_box)) in members {
-                prefetch_later(&nodes.rows[soon as usize], &nodes.forces[soon as usize]);
-                let row = &nodes.rows[node as usize];
-                let motion = PointMotion::of_node(row, &nodes.forces[node as usize], self.kick, self.mark);
-                let gone = [4, 5, 6, 3].map(|i| row.0[i] * last_drift);
-                range.take([gone, motion.velocity.map(|velocity| velocity * self.drift)], counts);
-                let swept_box = motion.box_to(self.drift, four(self.origin));
-                outside.take(&swept_box, search_box);
-                if ALL {
-                    (*own, *own_box) = (motion, swept_box);
-                }
+        for (((&node, &soon), (own, own_box)), (&counts, search_box)) in places.zip(of_each.0.iter().zip(of_each.1)) {
+            prefetch_later(&nodes.rows[soon as usize], &nodes.forces[soon as usize]);
+            let row = &nodes.rows[node as usize];
+            let motion = PointMotion::of_node(row, &nodes.forces[node as usize], self.kick, self.mark);
+            let gone = [4, 5, 6, 3].map(|i| row.0[i] * last_drift);
+            range.take([gone, motion.velocity.map(|velocity| velocity * self.drift)], counts);
+            let swept_box = motion.box_to(self.drift, four(self.origin));
+            outside.take(&swept_box, search_box);
+            if ALL {
+                (*own, *own_box) = (motion, swept_box);
             }
-            self.ranges.push(range);
         }
+        self.range = range;
         if ALL {
             (self.found, self.all_found) = (self.len(), true);
         }
         outside.any()
     }
 
-    /// Between which paths those are that points of each group which count have gone in the last step or will go in this one, on any rank.
-    pub fn ranges(&mut self) -> &mut [PathRange] {
-        &mut self.ranges
+    /// Between which paths those are that points which count have gone in the last step or will go in this one.
+    pub fn range(&mut self) -> &mut PathRange {
+        &mut self.range
     }
 
-    /// The same of one group.
-    pub fn range(&self, group: usize) -> PathRange {
-        self.ranges.get(group).copied().unwrap_or_default()
+    /// How far points that count have gone in the last step or will go in this one, on any rank.
+    pub fn paths(&self) -> Paths {
+        self.range.paths()
     }
 
-    /// Takes the path that is ahead of a point in this step.
-    pub fn take_ahead(&self, point: u32, range: &mut PathRange) {
-        let ahead = self.of(point, |motion| motion.velocity.map(|velocity| velocity * self.drift));
-        range.take([Four::default(), ahead], u64::MAX);
+    /// How far some points will go in this step.
+    pub fn paths_ahead(&self, points: impl Iterator<Item = u32>) -> Paths {
+        let mut range = PathRange::default();
+        for point in points {
+            let ahead = self.of(point, |motion| motion.velocity.map(|velocity| velocity * self.drift));
+            range.take([Four::default(), ahead], u64::MAX);
+        }
+        range.paths()
     }
 
     /// The same out of line: what is asked for that has not been placed is seldom.

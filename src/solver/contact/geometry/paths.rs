@@ -67,36 +67,6 @@ impl PathRange {
     }
 }
 
-/// So many groups of points are told apart by how far they go, one for each bit of a set.
-pub const GROUPS: usize = 64;
-
-/// Points of a layout in groups of neighbouring numbers, which mostly are neighbours in space.
-#[derive(Debug, Clone, Copy)]
-pub struct PathGroups {
-    /// Points of a group.
-    size: u32,
-}
-
-impl PathGroups {
-    /// Of so many points, which are numbered from zero.
-    pub fn over(points: usize) -> PathGroups {
-        PathGroups { size: points.div_ceil(GROUPS).max(1) as u32 }
-    }
-
-    /// The group of a point, below [`GROUPS`].
-    pub fn of(self, point: u32) -> usize {
-        ((point / self.size) as usize).min(GROUPS - 1)
-    }
-
-    /// Where each group begins among some points, ascending, and where the last one ends.
-    pub fn bounds(self, points: impl Iterator<Item = u32>) -> Vec<u32> {
-        let mut bounds = vec![0; GROUPS + 1];
-        points.for_each(|point| bounds[self.of(point) + 1] += 1);
-        (0..GROUPS).for_each(|group| bounds[group + 1] += bounds[group]);
-        bounds
-    }
-}
-
 /// How far nodes go in a step, along an axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Paths {
@@ -115,6 +85,11 @@ impl Paths {
             .zip(&high)
             .fold([0.0f64; 2], |[longest, range], (low, high)| [longest.max(-low).max(*high), range.max(high - low)]);
         Paths { longest: all[0], half_range: 0.5 * all[1] }
+    }
+
+    /// Of both.
+    pub fn and(self, other: Paths) -> Paths {
+        Paths { longest: self.longest.max(other.longest), half_range: self.half_range.max(other.half_range) }
     }
 }
 

@@ -22,7 +22,6 @@ use super::enforcement::pinned_bodies::{self, Among};
 use super::geometry::edges::Edge;
 use super::geometry::faces::Faces;
 use super::geometry::motion::NodeMotion;
-use super::geometry::paths::PathGroups;
 use super::nodes::result::NodeResult;
 use super::nodes::sparse::Sparse;
 use super::observations::meetings::{Blocks, Meetings};
@@ -152,9 +151,8 @@ impl LocalProblem {
             plane_nodes.iter().map(|plane_node| PlaneNode { point: local(plane_node.point), ..*plane_node }).collect();
         (points as u32..).zip(&numbering.ghosts).for_each(|(place, &ghost)| places[ghost as usize] = place);
         let all = points + numbering.ghosts.len();
-        let groups = PathGroups::over(places.len());
         let mut problem = LocalProblem {
-            locator: Locator::new(found, depth, (&numbering.points, groups), &faces, &edges),
+            locator: Locator::new(found, depth, points, &faces, &edges),
             edges,
             edges_hold: !layout.edges.is_empty(),
             point_block: numbering.points.iter().map(|&point| layout.point_block[point as usize]).collect(),
@@ -191,8 +189,7 @@ impl LocalProblem {
             }
         }
         let before = std::mem::take(&mut self.locator);
-        let groups = PathGroups::over(self.places.len());
-        self.locator = Locator::new(found, depth, (&self.numbering.points, groups), &self.faces, &self.edges);
+        self.locator = Locator::new(found, depth, self.numbering.points.len(), &self.faces, &self.edges);
         self.locator.take_over(&before, [&self.numbering; 2]);
     }
 

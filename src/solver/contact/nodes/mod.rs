@@ -9,7 +9,7 @@ use crate::lanes::Vectors;
 use crate::solver::constraints::StepTimes;
 use crate::solver::contact::enforcement::joints::Joints;
 use crate::solver::contact::geometry::motion::{NodeMotion, larger, smaller};
-use crate::solver::contact::geometry::paths::{PathGroups, PathRange};
+use crate::solver::contact::geometry::paths::PathRange;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::search::Box3;
 use crate::solver::contact::surface::layout::{ABSENT, inverse};
@@ -54,9 +54,8 @@ pub struct ContactNodes {
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub motion: NodeMotion,
-    /// Whether each counts among the paths: all bits or none; and where the groups begin whose paths are told apart, and the end.
+    /// Whether each counts among the paths: all bits or none.
     counts: Vec<u64>,
-    groups: Vec<u32>,
     /// How far from the centre of each rigid body its farthest contact node here is, a length.
     arms: Vec<f64>,
     /// By how much the path of one of them in the last step may differ from its velocity times the step, a length.
@@ -96,7 +95,6 @@ impl ContactNodes {
             places: inverse(list.iter().map(|contact_node| contact_node.point), points),
             motion: NodeMotion::of_nodes(list.iter().map(|contact_node| contact_node.node), origin),
             counts: vec![0; count],
-            groups: PathGroups::over(points).bounds(list.iter().map(|contact_node| contact_node.point)),
             list,
             works: vec![[0.0; 2]; count],
             ..Default::default()
@@ -185,7 +183,7 @@ impl ContactNodes {
             Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, last_drift, all) },
             _ => self.survey_each(nodes, last_drift, all),
         };
-        self.motion.ranges().iter_mut().for_each(|range| range.widen(self.turned));
+        self.motion.range().widen(self.turned);
         self.expired = leaves || !self.searched;
     }
 
@@ -205,9 +203,9 @@ impl ContactNodes {
     fn survey_each(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
         let of_each = (&self.counts[..], &self.search_boxes[..], self.frame.gone());
         if all {
-            self.motion.survey::<true>(nodes, last_drift, &self.groups, of_each)
+            self.motion.survey::<true>(nodes, last_drift, of_each)
         } else {
-            self.motion.survey::<false>(nodes, last_drift, &self.groups, of_each)
+            self.motion.survey::<false>(nodes, last_drift, of_each)
         }
     }
 

@@ -2,13 +2,12 @@
 //! search has found.
 
 use super::neighbourhood::SearchResult;
-use super::travel::Travel;
 use crate::common::vector::{dot, subtract};
 use crate::solver::contact::check::node_face::{FaceContact, MAX_FACES, NONE};
 use crate::solver::contact::geometry::edges::Edge;
 use crate::solver::contact::geometry::faces::Faces;
 use crate::solver::contact::geometry::motion::NodeMotion;
-use crate::solver::contact::geometry::paths::{PathGroups, PathRange, TWICE_ROOT_THREE};
+use crate::solver::contact::geometry::paths::{Paths, TWICE_ROOT_THREE};
 use crate::solver::contact::geometry::projection::area_normal;
 use crate::solver::contact::geometry::swept_box::SweptBox;
 use crate::solver::contact::local_problem::Numbering;
@@ -67,19 +66,18 @@ pub struct Locator {
     /// Pairs of edges that may cross, ascending, and how far things must have gone in all until each may be near.
     edge_pairs: Vec<[u32; 2]>,
     pairs_due: Vec<f64>,
-    /// The group of each slave node and of each pair, of those whose paths are told apart.
-    node_groups: Vec<u8>,
-    pair_groups: Vec<u8>,
     /// Places in that list of the pairs whose edges both stand out, ascending.
     sharp_pairs: Vec<u32>,
     sleep: Vec<SleepState>,
     /// How far things must have gone in all until a slave node may have anything near at all.
     quiet_until: Vec<f64>,
-    /// How far nodes have travelled in all.
-    travel: Travel,
-    /// Slave nodes, corners of candidates or ends of edges, ascending, and where each group of them begins.
+    /// How far nodes have travelled in all, a length: in each step as far as those whose paths differ most, seen from halfway between
+    /// them. What all of them go together brings none nearer to another.
+    travelled: f64,
+    /// How far they go in the present step.
+    paths: Paths,
+    /// Slave nodes, corners of candidates or ends of edges, ascending.
     moving: Vec<u32>,
-    moving_groups: Vec<u32>,
     /// Whether no step has been made yet, and whether what sleeps has been taken over from the search before.
     fresh: bool,
     continues: bool,
@@ -147,43 +145,21 @@ impl CaptureBoxes {
 }
 
 impl Locator {
-    /// Takes over what a search has found, in numbers of the local problem: of its `points`, which have these numbers in the layout and are told
-    /// apart in `groups`.
-    pub fn new(
-        found: SearchResult,
-        depth: f64,
-        (points, groups): (&[u32], PathGroups),
-        faces: &Faces,
-        edges: &[Edge],
-    ) -> Locator {
-        let mut is_moving = vec![false; points.len()];
-        let mut travel = Travel::default();
-        let mut let_count = |own: u32, others: [u32; 4]| {
-            let [a, b, c, d] = others;
-            [own, a, b, c, d].iter().for_each(|&point| is_moving[point as usize] = true);
-            travel.let_count(groups, [own, a, b, c, d].map(|point| points[point as usize]))
-        };
-        let of_pair = |&[a, b]: &[u32; 2]| {
-            let [first, second] = [a, b].map(|edge| &edges[edge as usize]);
-            let_count(first.ends[0], first.points(faces));
-            let_count(first.ends[0], second.points(faces))
-        };
-        let pair_groups = found.pairs.iter().map(of_pair).collect();
-        let of_node = |(&point, bounds): (&u32, &[u32])| {
-            let candidates = &found.candidates[bounds[0] as usize..bounds[1] as usize];
-            candidates.iter().fold(0, |_, near| let_count(point, faces.corners[near.face as usize]))
-        };
-        let node_groups = found.slave_nodes.iter().zip(found.first.windows(2)).map(of_node).collect();
-        let moving: Vec<u32> = (0..points.len() as u32).filter(|&point| is_moving[point as usize]).collect();
+    /// Takes over what a search has found, in numbers of the local problem, which has so many `points`.
+    pub fn new(found: SearchResult, depth: f64, points: usize, faces: &Faces, edges: &[Edge]) -> Locator {
+        let mut is_moving = vec![false; points];
+        for &edge in found.pairs.iter().flatten() {
+            edges[edge as usize].points(faces).iter().for_each(|&point| is_moving[point as usize] = true);
+        }
+        found.slave_nodes.iter().for_each(|&point| is_moving[point as usize] = true);
+        for near in &found.candidates {
+            faces.corners[near.face as usize].iter().for_each(|&corner| is_moving[corner as usize] = true);
+        }
         Locator {
             depth,
             sleep: vec![SleepState::default(); found.slave_nodes.len()],
             quiet_until: vec![0.0; found.slave_nodes.len()],
-            moving_groups: groups.bounds(moving.iter().map(|&point| points[point as usize])),
-            moving,
-            node_groups,
-            pair_groups,
-            travel,
+            moving: (0..points as u32).filter(|&point| is_moving[point as usize]).collect(),
             slave_nodes: found.slave_nodes,
             first: found.first,
             candidates: found.candidates,
@@ -207,6 +183,10 @@ impl Locator {
     /// here on. The numbers are those of `new` and of `old` local problems, in the same order.
     pub fn take_over(&mut self, before: &Locator, [new, old]: [&Numbering; 2]) {
         self.continues = true;
+        let travelled = before.travelled;
+        if !travelled.is_finite() {
+            return;
+        }
         let mut past = 0;
         for i in 0..self.slave_nodes.len() {
             let point = new.points[self.slave_nodes[i] as usize];
@@ -220,9 +200,7 @@ impl Locator {
             let same = |now: &[Candidate], past: &[Candidate]| {
                 now.len() == past.len() && now.iter().zip(past).all(|(now, past)| number(new, now) == number(old, past))
             };
-            // A group of the layout is the same in both. What has gone without end has left nothing at rest.
-            let travelled = before.travel.travelled(self.node_groups[i]);
-            if travelled.is_finite() && old_point(past) == Some(point) && same(self.of(i), before.of(past)) {
+            if old_point(past) == Some(point) && same(self.of(i), before.of(past)) {
                 let SleepState { due, awake, held } = before.sleep[past];
                 self.sleep[i] = SleepState { due: due - travelled, awake, held };
                 self.quiet_until[i] = before.quiet_until[past] - travelled;
@@ -230,11 +208,10 @@ impl Locator {
         }
         let number = |numbering: &Numbering, pair: &[u32; 2]| pair.map(|edge| numbering.edges[edge as usize]);
         let mut past = before.edge_pairs.iter().map(|pair| number(old, pair)).zip(&before.pairs_due).peekable();
-        for ((pair, due), &group) in self.edge_pairs.iter().zip(&mut self.pairs_due).zip(&self.pair_groups) {
+        for (pair, due) in self.edge_pairs.iter().zip(&mut self.pairs_due) {
             let pair = number(new, pair);
             while past.next_if(|(past, _)| *past < pair).is_some() {}
-            let travelled = before.travel.travelled(group);
-            if let Some((_, past_due)) = past.next_if(|(past, _)| *past == pair).filter(|_| travelled.is_finite()) {
+            if let Some((_, past_due)) = past.next_if(|(past, _)| *past == pair) {
                 *due = past_due - travelled;
             }
         }
@@ -267,29 +244,24 @@ impl Locator {
         // What counts in the longest path is chosen after the first step's nodes have been looked at.
         let first = std::mem::replace(&mut self.fresh, false);
         let continues = std::mem::replace(&mut self.continues, false);
-        let ahead = |group: usize| {
-            let mut range = PathRange::default();
-            let members = self.moving_groups[group] as usize..self.moving_groups[group + 1] as usize;
-            self.moving[members].iter().for_each(|&point| motion.take_ahead(point, &mut range));
-            range
-        };
-        let ranges = std::array::from_fn(|group| match (first, continues) {
-            (false, _) => motion.range(group),
-            (true, false) => ahead(group),
+        let ahead = || motion.paths_ahead(self.moving.iter().copied());
+        self.paths = match (first, continues) {
+            (false, _) => motion.paths(),
+            (true, false) => ahead(),
             // Those that counted before have also gone on since the last step.
-            (true, true) => ahead(group).joined(motion.range(group)),
-        });
-        self.travel.step(&ranges);
+            (true, true) => ahead().and(motion.paths()),
+        };
+        self.travelled += self.paths.half_range;
     }
 
     /// The farthest that one of them goes in this step along an axis, a length.
     pub fn longest_path(&self) -> f64 {
-        self.travel.paths().longest
+        self.paths.longest
     }
 
     /// How much nearer two of them come in this step at most, a length.
     pub fn farthest_approach(&self) -> f64 {
-        TWICE_ROOT_THREE * self.travel.paths().half_range
+        TWICE_ROOT_THREE * self.paths.half_range
     }
 
     /// Slave nodes, corners of candidates or ends of edges, ascending: those that count in the longest path.
@@ -329,7 +301,7 @@ impl Locator {
     ) {
         near.clear();
         // Written so that it does not rest where what has gone is not a number.
-        let rests = self.travel.reached(self.node_groups[i]) < self.sleep[i].due;
+        let rests = self.travelled + self.paths.half_range < self.sleep[i].due;
         if !rests {
             self.plan_sleep(i, motion, faces, past);
         }
@@ -363,7 +335,7 @@ impl Locator {
     /// Whether nothing holds the `i`-th slave node, nor comes near it in this step.
     #[inline]
     pub fn is_quiet(&self, i: usize) -> bool {
-        self.travel.reached(self.node_groups[i]) < self.quiet_until[i]
+        self.travelled + self.paths.half_range < self.quiet_until[i]
     }
 
     /// Whether a face holds the `i`-th slave node; in a step known from [`Locator::locate`] on.
@@ -407,12 +379,12 @@ impl Locator {
 
     /// Whether the `i`-th pair of edges may be near in this step.
     pub fn is_pair_due(&self, i: usize) -> bool {
-        self.travel.reached(self.pair_groups[i]) >= self.pairs_due[i]
+        self.travelled + self.paths.half_range >= self.pairs_due[i]
     }
 
     /// Lets a pair wait whose edges are so far apart along an axis in this step, beyond where they would be near.
     pub fn let_pair_wait(&mut self, i: usize, distance: f64) {
-        self.pairs_due[i] = self.travel.travelled(self.pair_groups[i]) + SAFE * distance;
+        self.pairs_due[i] = self.travelled + SAFE * distance;
     }
 
     /// Finds which candidates of the `i`-th slave node may sleep, and for how long.
@@ -422,7 +394,7 @@ impl Locator {
         motion.place(point);
         let own = *motion.swept_box(point);
         let reach = faces.node_reach[point as usize] * ROUNDED_UP;
-        let (sleep, mut rest, mut awake) = (SLEEP * self.travel.half_range(self.node_groups[i]), f64::INFINITY, 0);
+        let (sleep, mut rest, mut awake) = (SLEEP * self.paths.half_range, f64::INFINITY, 0);
         let candidates = &self.candidates[self.first[i] as usize..self.first[i + 1] as usize];
         // Behind a thin face a point may be touching a thick one beside it, and then both normals count. Found where it is asked for:
         // most points are kept apart by boxes alone.
@@ -452,7 +424,7 @@ impl Locator {
             // Those that are awake may sleep some day.
             rest = rest.min(LOOK * sleep);
         }
-        let due = self.travel.travelled(self.node_groups[i]) + rest;
+        let due = self.travelled + rest;
         self.sleep[i] = SleepState { due, awake, held };
         self.quiet_until[i] = if awake == 0 && !held && candidates.len() <= 64 { due } else { 0.0 };
     }

@@ -18,7 +18,6 @@ mod sizes;
 pub mod surroundings;
 #[cfg(test)]
 mod tests;
-mod travel;
 
 pub use bvh::Bvh;
 pub use candidates::Candidates;
