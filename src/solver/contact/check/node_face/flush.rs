@@ -79,11 +79,6 @@ impl NodeFaceCheck<'_> {
         (0..4).filter(is_beyond).map(move |border| [ends[border], ends[(border + 1) % 4]])
     }
 
-    /// Whether a face has both ends of a border.
-    fn has_border(&self, face: u32, border: &[u32; 2]) -> bool {
-        border.iter().all(|end| self.faces.corners[face as usize].contains(end))
-    }
-
     /// Whether a point is at the border of a face, or hardly beyond, where a face of another body meets that border: the slit between them is narrow.
     /// Not so where that body covers the face, which then is a wall of the slit. The faces near the point are asked, which all ranks have that check it.
     pub(super) fn comes_at_joint(&self, face: u32, near: &[Candidate], meeting: Meeting) -> bool {
@@ -127,7 +122,8 @@ impl NodeFaceCheck<'_> {
         }
         // Only sides are beside: what goes on in the plane of the face, or nearly so, is met as well, but for what turns away from the plane in which
         // the point stays.
-        let normal = projection::area_normal(&self.faces.start(face, self.motion));
+        let corners = self.faces.start(face, self.motion);
+        let (normal, foot) = (projection::area_normal(&corners), projection::foot(&corners, &through.weights));
         let is_side = |other: u32| {
             let of_other = projection::area_normal(&self.faces.start(other, self.motion));
             let square = dot(normal, normal) * dot(of_other, of_other);
@@ -137,7 +133,7 @@ impl NodeFaceCheck<'_> {
         let is_across =
             |other: &u32| !self.faces.is_two_sided(*other) && self.is_across(face, &through.weights, *other);
         let sides = faces_of(near).filter(is_across).filter(|&other| is_side(other));
-        self.beside(face).chain(sides).any(|other| self.slides_along((point, face), through, other))
+        self.beside(face).chain(sides).any(|other| self.slides_along(point, (through, foot), other))
     }
 
     /// Whether the middle of a face is behind the plane of another one.
@@ -156,9 +152,8 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that comes through one face slides in the plane of another, in which its foot is on the first: at their border. Where the first
     /// leans inwards, its foot is below that border by a part of how deep the point is behind it.
-    fn slides_along(&self, (point, face): (u32, u32), through: &Projection, other: u32) -> bool {
+    fn slides_along(&self, point: u32, (through, foot): (&Projection, [f64; 3]), other: u32) -> bool {
         let at = self.motion.start(point);
-        let foot = projection::foot(&self.faces.start(face, self.motion), &through.weights);
         let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
         let normal = projection::area_normal(&corners);
         let lean = -dot(through.normal, normal) / dot(normal, normal).sqrt();

@@ -10,6 +10,7 @@ mod flush;
 mod newcomer;
 mod persistent;
 mod ridge;
+mod seam;
 pub mod unforeseen;
 mod way_out;
 
@@ -200,7 +201,7 @@ impl NodeFaceCheck<'_> {
         let mut sum = [0.0; 3];
         for face in faces_of(near) {
             let corners = self.faces.corners[face as usize];
-            let fits = face != contact.face && fitting.contains(&face) && fitting.contains(&contact.face);
+            let fits = contact.tolerated < 0.0 && face != contact.face && fitting.contains(&face);
             if !fits && shared(&corners) > 1.0 - projection::TIE {
                 let weights = corners.map(|corner| shared(&[corner]));
                 let end = self.faces.end(face, self.motion);
@@ -237,6 +238,11 @@ impl NodeFaceCheck<'_> {
             }
         }
         within(2.0 * projection::TIE).then_some(end.weights)
+    }
+
+    /// Whether a face has both ends of a border.
+    fn has_border(&self, face: u32, border: &[u32; 2]) -> bool {
+        border.iter().all(|end| self.faces.corners[face as usize].contains(end))
     }
 
     fn related(&self, past: u32, face: u32) -> bool {

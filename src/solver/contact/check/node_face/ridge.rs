@@ -56,8 +56,7 @@ impl NodeFaceCheck<'_> {
         };
         let is_border = |other: u32| {
             let outwards = add(normal(face), normal(other));
-            self.has(other, a)
-                && self.has(other, b)
+            self.has_border(other, &[a, b])
                 && edges::is_sharp_between(self.faces, self.motion, [face, other])
                 && goes_on(part, [b, a], outwards)
                 && goes_on(1.0 - part, [a, b], outwards)
