@@ -182,6 +182,17 @@ fn pressed_beyond_its_hugoniot() -> Desk {
     )
 }
 
+/// A cube of foam, a tenth of it solid, that is pressed to less than a tenth of its volume.
+fn pressed_beyond_its_solid() -> Desk {
+    desk(
+        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 2.E-3\nOUTPUT TIME, 0.1\nFUNCTION, 1\n0., 0.\n1., -0.92\nEND\nNO DISPLACEMENT, X, 1\n\
+         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 2\n\
+         PRESCRIBED DISPLACEMENT, X, 2, 1, 1.\nMATERIAL, 1, LOW DEN FOAM, 1.E6\nYOUNGS MODULUS = 100.\nA = 1.\nB = 5.\nC = -3.\n\
+         NAIR = 0\nP0 = 1.\nPHI = 0.1\nEND\n",
+        "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n",
+    )
+}
+
 /// A column of water that flies at a wall at its speed of sound, and is stopped within a step.
 fn struck_at_the_speed_of_sound() -> Desk {
     let deck = "TERMINATION TIME, 4.E-6\nOUTPUT TIME, 5.E-7\nNO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\n\
@@ -193,7 +204,7 @@ fn struck_at_the_speed_of_sound() -> Desk {
 }
 
 /// Every warning that a scene of some elements provokes.
-pub fn scenes() -> [Scene; 15] {
+pub fn scenes() -> [Scene; 16] {
     let scene = |desk, label, words| Scene { desk, label, words };
     [
         scene(
@@ -260,6 +271,11 @@ pub fn scenes() -> [Scene; 15] {
             pressed_beyond_its_hugoniot(),
             "compression of block 1 beyond its Hugoniot",
             &["1 element of block 1 has been", "beyond 1 - V/V0 = 0.3800", "element 1 at ("],
+        ),
+        scene(
+            pressed_beyond_its_solid(),
+            "compression of block 1 beyond the data of its law",
+            &["1 element of block 1 has been", "beyond 1 - V/V0 = 0.9000", "element 1 at ("],
         ),
         scene(
             struck_at_the_speed_of_sound(),

@@ -96,6 +96,15 @@ impl Law {
             _ => None,
         }
     }
+
+    /// The compression 1 − V/V₀ beyond which the data of a crushable law tell nothing of how the material stiffens, if there is such.
+    pub fn end_of_data(&self) -> Option<f64> {
+        match self {
+            Law::LowDensityFoam(law) => Some(1.0 - law.solid).filter(|end| *end < 1.0),
+            Law::Soil(law) => law.end_of_data(),
+            _ => None,
+        }
+    }
 }
 
 struct Starting<'a>(&'a Start);

@@ -120,6 +120,11 @@ impl Soil {
         Moduli::from_bulk(self.bulk, self.two_mu)
     }
 
+    /// The compression 1 − V/V₀ at the last point of the function, beyond which the pressure does not grow.
+    pub(in crate::material) fn end_of_data(&self) -> Option<f64> {
+        self.curve.points.last().map(|(compression, _)| -(-compression).exp_m1())
+    }
+
     pub(in crate::material) fn state(&self, stored: &[f64], _: &Matrix3<f64>) -> Vec<f64> {
         let (largest, now) = (stored[0], stored[1]);
         let fracture = largest - (interpolate(&self.curve.points, largest) + self.tension) / self.bulk;

@@ -1,7 +1,7 @@
 //! What a run may suffer from, one file each: a measure, a threshold, words and advice.
 
 mod below_rest;
-mod beyond_hugoniot;
+mod beyond_law;
 mod brief;
 pub mod contact;
 mod corners;
@@ -46,7 +46,7 @@ pub struct Symptom {
 }
 
 /// All symptoms. Of those seen in one look the first counts as the one that came first.
-pub static SYMPTOMS: [Symptom; 23] = [
+pub static SYMPTOMS: [Symptom; 24] = [
     dead_at_start::SYMPTOM,
     overlap_moved::SYMPTOM,
     overlap_deep::SYMPTOM,
@@ -65,7 +65,8 @@ pub static SYMPTOMS: [Symptom; 23] = [
     tied_held::SYMPTOM,
     short_pulse::SYMPTOM,
     jump::SYMPTOM,
-    beyond_hugoniot::SYMPTOM,
+    beyond_law::BEYOND_HUGONIOT,
+    beyond_law::BEYOND_DATA,
     damped_flow::SYMPTOM,
     below_rest::SYMPTOM,
     edges_through::SYMPTOM,
