@@ -432,7 +432,8 @@ pub(in crate::solver::elements) fn lengths<V: Lanes>(
     stiffness_measure: V,
 ) -> [V; 3] {
     let along: [V; 3] = array![a in 3 => x[0][a] * r[0][a] + x[1][a] * r[1][a] + x[2][a] * r[2][a]];
-    let floor = along[0].max(along[1]).max(along[2]) * V::splat(1e-3);
+    // All three are negative in an element that is inside out, which is to have lengths as well.
+    let floor = along[0].abs().max(along[1].abs()).max(along[2].abs()) * V::splat(1e-3);
     let [l1, l2, l3] = array![i in 3 => along[i].max(floor)];
     let share = V::splat(0.125) / stiffness_measure;
     [l1.max(l2 * l3 * share), l2.max(l3 * l1 * share), l3.max(l1 * l2 * share)]
