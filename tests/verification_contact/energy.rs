@@ -341,6 +341,13 @@ fn contact_of_shells_gives_no_energy() {
     try_all(0..120, shell_scene, Allowed { crushed: 0, dipping: 0, deep: usize::MAX, sunk: 0, cut: 0 });
 }
 
+/// In one pass a step, between bodies that are held along two axes and drawn out to three times their length: contacts that their members could follow by a thousandth claimed
+/// nearly all of their masses, and others at the same nodes sank in by motion after motion, 13.8 in one of twelve such runs.
+#[test]
+fn what_members_hardly_follow_leaves_their_masses_to_others() {
+    try_all(2345..2346, scene, Allowed { crushed: 0, dipping: 0, deep: 0, sunk: 0, cut: 0 });
+}
+
 /// Which numbers nodes, faces and edges have must not matter.
 #[test]
 fn contact_gives_no_energy_in_any_order_of_the_parts() {

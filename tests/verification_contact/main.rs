@@ -10,6 +10,7 @@ mod extremes;
 mod flush;
 mod flying;
 mod friction;
+mod grazing;
 mod joints;
 mod matching;
 mod overlaps;

@@ -9,20 +9,20 @@ use urto::mesh::Mesh;
 use urto::solver::Body;
 
 /// A scene of blocks of steel, of which some fly at a velocity, for a time.
-struct Scene<'a> {
-    name: &'a str,
-    recipe: &'a str,
-    blocks: usize,
-    lines: &'a str,
-    duration: f64,
+pub struct Scene<'a> {
+    pub name: &'a str,
+    pub recipe: &'a str,
+    pub blocks: usize,
+    pub lines: &'a str,
+    pub duration: f64,
 }
 
 impl Scene<'_> {
-    fn mesh(&self) -> Mesh {
+    pub fn mesh(&self) -> Mesh {
         recipe(&format!("TITLE\n {}\n{}", self.name, self.recipe))
     }
 
-    fn deck(&self) -> String {
+    pub fn deck(&self) -> String {
         format!(
             "TITLE\n {}\nTERMINATION TIME, {:?}\nOUTPUT TIME, {:?}\nCONTACT MATERIAL\n{}\n{}",
             self.name,
@@ -34,7 +34,7 @@ impl Scene<'_> {
     }
 
     /// Checks that nothing is moved before the run, and that the energy of motion stays to a part of itself, as the work of contact stays at 0.
-    fn keeps_its_energy(&self, tolerance: f64) {
+    pub fn keeps_its_energy(&self, tolerance: f64) {
         let (mesh, deck) = (self.mesh(), self.deck());
         let overlap = Body::new(&mesh, &model(&deck, &mesh)).expect("materials").overlap;
         assert_eq!((overlap.refusal(&mesh), overlap.nodes), (None, 0), "{}: {overlap:?}", self.name);
@@ -47,7 +47,7 @@ impl Scene<'_> {
 }
 
 /// Round-off of places a length from the origin strains steel by 10⁻¹⁰ of such energies of motion.
-const ROUND_OFF: f64 = 1e-9;
+pub const ROUND_OFF: f64 = 1e-9;
 
 /// Plates side by side, a millimetre apart, each flush with the other.
 const PLATES: &str = "BOX, 2, -1., -.9995, -.7, 2., 1., .2, 1, 1, 1\nBOX, 3, -1., .0005, -.7, 2., 1., .2, 1, 1, 1\n";

@@ -142,3 +142,41 @@ fn nodes_in_the_bottom_of_a_valley_are_held_from_the_first_step() {
         }
     }
 }
+
+/// Nodes that lie on the diagonals of a face come at once, however the model is turned: round-off had some of them in front of the face and behind both triangles of it, so
+/// that they were not seen to come, and stayed in by what they went in a step: 6 of 49 where the model is turned by 45 degrees.
+#[test]
+fn nodes_on_the_diagonals_of_a_face_are_met_in_any_attitude() {
+    let work = |axis: &str, degrees: f64| {
+        let mesh = recipe(&format!(
+            "TITLE\n diagonals\nBOX, 1, -.005, -.005, -.004, .01, .01, .004, 1, 1, 3\nBOX, 2, -.003, -.003, 0., .006, .006, .003, 6, 6, 2\n\
+             ROTATE, 1, {axis}, {degrees:?}\nROTATE, 2, {axis}, {degrees:?}\n"
+        ));
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let velocity = match axis {
+            "X" => [0.0, 30.0 * sine, -30.0 * cosine],
+            _ => [-30.0 * sine, 0.0, -30.0 * cosine],
+        };
+        let [x, y, z] = velocity;
+        let law = |block: u32| {
+            format!("MATERIAL, {block}, ELASTIC, 7800.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n")
+        };
+        let deck = format!(
+            "TITLE\n diagonals\nTERMINATION TIME, 2.E-6\nCONTACT MATERIAL\nINITIAL VELOCITY MATERIAL, 2, {x:?}, {y:?}, {z:?}\n{}{}",
+            law(1),
+            law(2)
+        );
+        run(&deck, &mesh).whole().last().totals.contact
+    };
+    let upright = work("X", 0.0);
+    for (axis, degrees) in [("X", 33.3), ("X", 45.0), ("X", 111.0), ("Y", 33.3), ("Y", 45.0), ("Y", 71.0)] {
+        // Passes that settle leave a hundred-thousandth of a face, of motions of a hundredth of it.
+        close(
+            "diagonals",
+            &format!("work of contact, turned about {axis} by {degrees}"),
+            work(axis, degrees) / upright,
+            1.0,
+            2e-3,
+        );
+    }
+}

@@ -48,6 +48,11 @@ const LEAST_SHARE: f64 = 0.25;
 /// a thousandth between a normal and the directions that are held. Round-off would move it.
 pub(super) const HELD: f64 = 1e-6;
 
+/// What a constraint claims of its members' masses grows the less these can follow it, where they are held nearly along its normal, and no more
+/// from this part of how far they can move at all on: others would be left with a hundred thousandth of a common member, and sink in by
+/// motion after motion.
+const LEAST_FREE: f64 = 0.1;
+
 /// What nothing can move out of a face is told once it is deeper than this part of the face's size.
 const DEEP: f64 = 0.05;
 
@@ -309,7 +314,7 @@ impl Enforcer {
             }
             // Where all members are held there is nothing to move.
             if inverse > HELD * isotropic {
-                state.strength = c.share.max(LEAST_SHARE) / inverse;
+                state.strength = c.share.max(LEAST_SHARE) / inverse.max(LEAST_FREE * isotropic);
                 state.closing = drift * (state.free - state.target.with(granted));
                 state.compliance = if c.is_thick { giving_way::compliance(c, &state) } else { 0.0 };
             } else {

@@ -11,7 +11,7 @@ const CLEARLY: f64 = 1e-3;
 
 /// Part of an edge, from and to, in which another may cross it where it goes on at that end: exactly at a node one of the edges there must be
 /// crossed, however round-off has it.
-pub const BEYOND_END: [f64; 2] = [-1e-3, 1.0 + 1e-3];
+pub const BEYOND_END: [f64; 2] = [-1e-6, 1.0 + 1e-6];
 
 /// The same of edges that come into a valley, where what goes through both parts of an edge is beyond the end of either.
 pub const IN_VALLEY: [f64; 2] = [-0.25, 1.25];

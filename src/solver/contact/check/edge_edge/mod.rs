@@ -352,7 +352,8 @@ impl EdgeCheck<'_> {
         }
         let half = self.half(pair);
         let end = Crossing::of(self.ends(pair, half))?;
-        if !end.within(0.0, [WHOLE, self.parts(pair[1], half)]) {
+        // At a node both edges there hold: the node may be the master only.
+        if !end.within(-TOUCHING * end.shorter(), [WHOLE, self.parts(pair[1], half)]) {
             return None;
         }
         let line = self.outwards(pair[1]);

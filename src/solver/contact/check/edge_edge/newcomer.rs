@@ -5,6 +5,10 @@ use super::{EdgeCheck, EdgeContact, KEEP, TOUCHING};
 use crate::common::vector::{add, dot, scaled};
 use crate::solver::contact::enforcement::carried::Carried;
 use crate::solver::contact::geometry::crossing;
+use crate::solver::contact::geometry::projection::area_normal;
+
+/// Largest sine by which the normal of two edges may lean out of what their faces span.
+const ASIDE: f64 = 1e-3;
 
 impl EdgeCheck<'_> {
     /// A pair that has not touched before: it must come together within the step, both edges from outside.
@@ -37,9 +41,21 @@ impl EdgeCheck<'_> {
         let sense = -sense;
         (outwards(sense)
             && depth < KEEP * start.shorter()
+            && self.are_in_each_other(pair, scaled(start.normal, sense))
             && self.is_between_ends(pair, &start, depth, at)
             && !self.pass_by(pair, &start, at))
         .then_some(touch(sense, -depth))
+    }
+
+    /// Whether edges that overlap along a normal, which pushes the first off the second, are each behind both faces of the other: what has passed by beside a face
+    /// is in front of that.
+    fn are_in_each_other(&self, pair: [u32; 2], normal: [f64; 3]) -> bool {
+        [-1.0, 1.0].iter().zip(pair).all(|(side, edge)| {
+            self.edges[edge as usize].faces.iter().all(|&face| {
+                let of_face = area_normal(&self.faces.start(face, self.motion));
+                side * dot(normal, of_face) >= -ASIDE * dot(of_face, of_face).sqrt()
+            })
+        })
     }
 
     /// Whether the edges come into one plane within the step, and there between their ends, or in a valley beyond these by the depth to

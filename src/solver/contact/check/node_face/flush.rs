@@ -51,8 +51,25 @@ impl NodeFaceCheck<'_> {
         let looks_the_same_way =
             |other: u32| normal(other).is_some_and(|normal| own.iter().any(|own| dot(*own, normal) > SAME_WAY));
         let is_flush = |other: u32| self.is_across(face, &farther.weights, other) && looks_the_same_way(other);
-        let comes = self.beside(face).any(is_flush) && !self.passes_beside((point, face), near, at_farther);
+        let comes = self.beside(face).any(is_flush)
+            && self.comes_over((point, face), at_farther)
+            && !self.passes_beside((point, face), near, at_farther);
         comes.then_some(time)
+    }
+
+    /// Whether the body of a point that is beyond the border of a face is over that face at a part of the step: one of its faces that look at the face leads from the
+    /// point onto it. What passes beside a body, or beyond its tip, goes on beside it.
+    fn comes_over(&self, (point, face): (u32, u32), time: f64) -> bool {
+        let (corners, place) = (self.corners_at(face, time), self.place(point, time));
+        let Some(normal) = normalized(projection::area_normal(&corners)) else { return false };
+        let reach = 2.0 * HOLD * self.faces.size[face as usize];
+        self.faces.around(point).iter().map(|&own| self.corners_at(own, time)).any(|own| {
+            let looks = normalized(projection::area_normal(&own)).is_some_and(|own| dot(own, normal) < -OPPOSED);
+            let along = subtract(projection::centre(&own), place);
+            let part = (reach / dot(along, along).sqrt()).min(1.0);
+            let inwards = || projection::project(&corners, add(place, scaled(along, part)));
+            looks && inwards().is_some_and(|there| there.outside <= 0.0)
+        })
     }
 
     /// Whether a point is beside a solid at a part of the step: beyond a border of a face, and the face across that border is looked at by one of the
@@ -169,7 +186,10 @@ impl NodeFaceCheck<'_> {
         // A tip slides only where it stays in the plane: the corner of what comes on is in several at once.
         let stays = || {
             let end = self.projection_at_end(point, other);
-            end.is_some_and(|end| end.gap >= -reach && self.has_face_opposed(point, &end.normal, -OPPOSED))
+            end.is_some_and(|end| {
+                end.gap >= -reach
+                    && (self.has_face_opposed(point, &end.normal, -OPPOSED) || self.is_tip_over(point, end.normal))
+            })
         };
         near(foot, reach + below).is_some()
             && near(at, reach).is_some_and(|at| self.has_face_opposed(point, &at.normal, -FLUSH) || stays())

@@ -2,7 +2,7 @@
 
 use super::super::FLUSH;
 use super::facing::FACING;
-use super::{DetectedContact, HOLD, NodeFaceCheck, SAME_WAY, faces_of};
+use super::{DetectedContact, HOLD, IN_SURFACE, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{cross, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::paths::TWICE_ROOT_THREE;
 use crate::solver::contact::geometry::projection::{self, Projection};
@@ -53,8 +53,11 @@ impl NodeFaceCheck<'_> {
             if !may_have_come() {
                 return None;
             }
-            let time =
-                self.first_touch(point, face).or_else(|| self.comes_flush((point, face), near, [&start, &end]))?;
+            // In the plane but for round-off, which may have it behind already where it is to come through a triangle of the face.
+            let begins_there = start.outside <= 0.0 && start.gap <= IN_SURFACE * self.faces.size[face as usize];
+            let time = (self.first_touch(point, face))
+                .or(begins_there.then_some(0.0))
+                .or_else(|| self.comes_flush((point, face), near, [&start, &end]))?;
             if rule == Rule::Blocks && self.edges_hold && self.is_held_by_edges(point, face, time) {
                 return None;
             }
