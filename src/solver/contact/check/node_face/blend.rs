@@ -1,6 +1,6 @@
 //! The direction in which a face pushes a point whose foot is on its border, where other faces go on.
 
-use super::{BESIDE, DetectedContact, EXACTLY, MAX_FACES, NodeFaceCheck, SAME_WAY, faces_of};
+use super::{BESIDE, DetectedContact, EXACTLY, IN_SURFACE, MAX_FACES, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
 use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::search::locate::Candidate;
@@ -72,9 +72,14 @@ impl NodeFaceCheck<'_> {
         weights: &[f64; 4],
         around: impl Fn() -> I,
     ) -> Option<[f64; 3]> {
-        // Noses of a fold keep to the flanks on which they are.
+        // Noses of a fold keep to the flanks on which they are, and so do nodes of a fit, whose overlap each flank lifts for itself.
         let is_fold = self.block_of(point) == Some(self.faces.block[contact.face as usize]);
-        if self.faces.is_two_sided(contact.face) || is_fold || self.is_tip_over(point, contact.projection.normal) {
+        let fits = contact.tolerated < -IN_SURFACE * self.faces.size[contact.face as usize];
+        if self.faces.is_two_sided(contact.face)
+            || is_fold
+            || fits
+            || self.is_tip_over(point, contact.projection.normal)
+        {
             return None;
         }
         let corners = self.faces.end(contact.face, self.motion);
