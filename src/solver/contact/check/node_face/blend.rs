@@ -31,9 +31,10 @@ impl NodeFaceCheck<'_> {
         let shared = |corners: &[u32]| -> f64 {
             own.iter().zip(weights).filter(|(corner, _)| corners.contains(corner)).map(|(_, weight)| weight).sum()
         };
+        let begins_in_overlap = self.begins_in_overlap(contact);
         let (mut sum, mut is_sharp) = ([0.0; 3], false);
         let goes_on = |face: &u32| {
-            let fits = contact.tolerated < 0.0 && *face != contact.face && fitting.contains(face);
+            let fits = begins_in_overlap && *face != contact.face && fitting.contains(face);
             !fits && shared(&self.faces.corners[*face as usize]) > 1.0 - projection::TIE
         };
         for face in faces_of(near).filter(goes_on) {
@@ -62,6 +63,11 @@ impl NodeFaceCheck<'_> {
         }
     }
 
+    /// Whether the mesh has a point in the face of a contact by more than round-off.
+    pub(super) fn begins_in_overlap(&self, contact: &DetectedContact) -> bool {
+        contact.tolerated < -IN_SURFACE * self.faces.size[contact.face as usize]
+    }
+
     /// Against the normals of those faces of a point on which a ridge or a tip of the other body rests: all that goes on `around` the foot, which has these weights
     /// on the face of the contact, is behind the plane of such a face. `None` where there are none, or several that turn away from each other, where they
     /// lie flat on the face of the contact, and where the point is a tip itself that the face of the contact pushes straight.
@@ -74,10 +80,9 @@ impl NodeFaceCheck<'_> {
     ) -> Option<[f64; 3]> {
         // Noses of a fold keep to the flanks on which they are, and so do nodes of a fit, whose overlap each flank lifts for itself.
         let is_fold = self.block_of(point) == Some(self.faces.block[contact.face as usize]);
-        let fits = contact.tolerated < -IN_SURFACE * self.faces.size[contact.face as usize];
         if self.faces.is_two_sided(contact.face)
             || is_fold
-            || fits
+            || self.begins_in_overlap(contact)
             || self.is_tip_over(point, contact.projection.normal)
         {
             return None;

@@ -168,7 +168,7 @@ impl NodeFaceCheck<'_> {
         }
         // Where meshes overlap, each flank of a corner lifts what overlaps with itself.
         let mut fitting = [NONE; MAX_FACES];
-        let overlapping = contacts.iter().filter(|contact| contact.tolerated < 0.0);
+        let overlapping = contacts.iter().filter(|contact| self.begins_in_overlap(contact));
         fitting.iter_mut().zip(overlapping).for_each(|(face, contact)| *face = contact.face);
         for contact in contacts.iter_mut() {
             self.blend(point, near, fitting, contact);
