@@ -175,6 +175,8 @@ fn diff_tells_same_from_different_from_incomparable() {
     desk.urto(&["diff", "bar.e", "other.e"]).with(1).says(&["DISPLZ", "node"]);
     desk.urto(&["diff", "bar.e", "other.e", "--tolerance", "1e-3", "--floor", "1e-9"]).with(0);
     desk.urto(&["diff", "bar.e", "other.e", "--tolerance", "1e-5", "--floor", "1e-9"]).with(1);
+    desk.urto(&["diff", "bar.e", "other.e", "--floor", "nan"]).with(2).says(&["expected a number of at least 0"]);
+    desk.urto(&["plot", "bar.e", "--reference", "other.e"]).with(2).says(&["other.e", "is no text", "CSV"]);
     let missing = desk.urto(&["diff", "bar.e", "nothing.e"]).with(2);
     missing.says(&["nothing.e"]);
     assert!(!missing.err.contains("error: error:"));

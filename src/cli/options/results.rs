@@ -28,7 +28,7 @@ pub struct View {
     #[arg(short, long, value_name = "SIDE", default_value = "iso", allow_hyphen_values = true)]
     pub from: String,
     /// Factor on displacements
-    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true)]
     pub magnify: f64,
     /// Shows the mirror image of a half or quarter model too: any of x, y, z; or with their places, such as x=5,z=0
     #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
@@ -196,7 +196,7 @@ pub struct Report {
     #[arg(short, long, value_name = "SIDE", default_value = "iso", allow_hyphen_values = true)]
     pub from: String,
     /// Factor on displacements
-    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true)]
     pub magnify: f64,
     /// Planes of symmetry, as for `view`
     #[arg(long, value_name = "PLANES", default_value = "", hide_default_value = true)]
@@ -227,10 +227,10 @@ pub struct Diff {
     /// The other
     pub second: PathBuf,
     /// Relative difference |a - b| / max(|a|, |b|) that counts as none
-    #[arg(short, long, value_name = "T", default_value_t = 0.0)]
+    #[arg(short, long, value_name = "T", default_value_t = 0.0, value_parser = not_negative)]
     pub tolerance: f64,
     /// Values both below this count as equal
-    #[arg(long, value_name = "F", default_value_t = 0.0)]
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = not_negative)]
     pub floor: f64,
 }
 
@@ -246,4 +246,10 @@ pub struct Join {
     /// The file to write; else x.e beside the pieces
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+}
+
+/// A number of at least 0.
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if number >= 0.0 { Ok(number) } else { Err("expected a number of at least 0".to_owned()) }
 }

@@ -1,5 +1,6 @@
 //! Curves from a file of numbers: what was measured, or computed by others.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use super::PlotError;
@@ -14,7 +15,10 @@ use super::curve::Curve;
 /// When the file cannot be read, or a line does not fit the first one.
 pub fn read(path: &Path) -> Result<Vec<Curve>, PlotError> {
     let wrong = |line: Option<usize>, what: String| PlotError::Numbers { path: path.to_owned(), line, what };
-    let text = std::fs::read_to_string(path).map_err(|e| wrong(None, format!("cannot be read: {e}")))?;
+    let text = std::fs::read_to_string(path).map_err(|e| match e.kind() {
+        ErrorKind::InvalidData => wrong(None, "is no text: expected columns of numbers, as in a CSV file".to_owned()),
+        _ => wrong(None, format!("cannot be read: {e}")),
+    })?;
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim().trim_start_matches('\u{feff}')));
     let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).peekable();
     let mut names: Vec<String> = Vec::new();

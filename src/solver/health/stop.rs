@@ -15,7 +15,7 @@ pub enum Stop {
     #[error("an energy is no longer a number, though elements are sound")]
     MotionNotFinite,
     /// A rigid body does not do all that the deck tells it.
-    #[error("the rigid body of block {block} cannot do all that it is told: node {node} is {strayed:.4e} from where {command} wants it", strayed = .strayed.abs())]
+    #[error("the rigid body of block {block} cannot do all that it is told: node {node} is {} where {command} wants it", how_far(*strayed))]
     Astray {
         /// First block of the body.
         block: i64,
@@ -150,4 +150,9 @@ impl Stop {
             }
         }
     }
+}
+
+/// How far a node of a rigid body is from where it is to be, in words.
+fn how_far(length: f64) -> String {
+    if length.is_nan() { "beyond any reach of".to_owned() } else { format!("{:.4e} from", length.abs()) }
 }
