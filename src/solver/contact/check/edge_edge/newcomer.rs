@@ -48,8 +48,12 @@ impl EdgeCheck<'_> {
     }
 
     /// Whether edges that overlap along a normal, which pushes the first off the second, are each behind both faces of the other: what has passed by beside a face
-    /// is in front of that.
+    /// is in front of that. Noses of a fold stop each other all the same.
     fn are_in_each_other(&self, pair: [u32; 2], normal: [f64; 3]) -> bool {
+        let [one, other] = pair.map(|edge| self.faces.block[self.edges[edge as usize].faces[0] as usize]);
+        if one == other {
+            return true;
+        }
         [-1.0, 1.0].iter().zip(pair).all(|(side, edge)| {
             self.edges[edge as usize].faces.iter().all(|&face| {
                 let of_face = area_normal(&self.faces.start(face, self.motion));
