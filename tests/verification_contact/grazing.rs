@@ -90,9 +90,15 @@ fn a_keel_passes_over_a_corner() {
 #[test]
 fn a_ridge_pushes_the_node_of_a_plate_along_the_normal_of_the_plate() {
     let slope = |degrees: f64| 0.3 * degrees.to_radians().tan();
-    for (degrees, height, beyond, layers) in
-        [(60.1, 5e-4, 0.0, 1), (75.0, 5e-4, 0.0, 1), (30.0, 0.0, 0.0, 1), (45.0, 5e-4, 0.01, 2), (70.0, 0.0, 0.01, 2)]
-    {
+    for (degrees, height, beyond, layers) in [
+        (60.1, 5e-4, 0.0, 1),
+        (75.0, 5e-4, 0.0, 1),
+        (30.0, 0.0, 0.0, 1),
+        (45.0, 5e-4, 0.01, 2),
+        (70.0, 0.0, 0.01, 2),
+        (62.0, 1e-5, 0.0, 2),
+        (80.0, 5e-4, 0.0, 2),
+    ] {
         let ridge = keel(1, height, [slope(degrees); 2], [0.0, 0.2], 0.0);
         let plate = format!("BOX, 2, {:?}, -.5, -.1, {:?}, 1., .1, {layers}, 2, 1\n", -beyond, 0.2 + 2.0 * beyond);
         let scene = Scene {

@@ -78,13 +78,9 @@ impl NodeFaceCheck<'_> {
         weights: &[f64; 4],
         around: impl Fn() -> I,
     ) -> Option<[f64; 3]> {
-        // Noses of a fold keep to the flanks on which they are, and so do nodes of a fit, whose overlap each flank lifts for itself.
+        // Noses of a fold keep to the flanks on which they are.
         let is_fold = self.block_of(point) == Some(self.faces.block[contact.face as usize]);
-        if self.faces.is_two_sided(contact.face)
-            || is_fold
-            || self.begins_in_overlap(contact)
-            || self.is_tip_over(point, contact.projection.normal)
-        {
+        if self.faces.is_two_sided(contact.face) || is_fold || self.is_tip_over(point, contact.projection.normal) {
             return None;
         }
         let corners = self.faces.end(contact.face, self.motion);
@@ -103,8 +99,9 @@ impl NodeFaceCheck<'_> {
             let Some(direction) = normalized(scaled(upright, -1.0)).filter(rests_on) else { continue };
             let middle = projection::centre(&corners);
             let (one, middle_of_one) = *first.get_or_insert((direction, middle));
-            // In a hollow all of them rest on what fits into it.
-            if dot(direction, one) <= SAME_WAY && dot(subtract(middle, middle_of_one), one) >= 0.0 {
+            // In a hollow all of them rest on what fits into it; where the mesh has it in overlap each flank lifts its own.
+            let turns_away = || dot(subtract(middle, middle_of_one), one) >= 0.0;
+            if dot(direction, one) <= SAME_WAY && (turns_away() || self.begins_in_overlap(contact)) {
                 return None;
             }
             sum = add(sum, direction);
