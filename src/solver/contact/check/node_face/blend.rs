@@ -2,7 +2,7 @@
 
 use super::{BESIDE, DetectedContact, EXACTLY, IN_SURFACE, MAX_FACES, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
-use crate::solver::contact::geometry::projection::{self, Projection};
+use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::locate::Candidate;
 
 /// Faces whose normals have a larger cosine between them are parallel but for what a ridge that hardly turns changes.
@@ -79,13 +79,15 @@ impl NodeFaceCheck<'_> {
         around: impl Fn() -> I,
     ) -> Option<[f64; 3]> {
         // Noses of a fold keep to the flanks on which they are.
-        let is_fold = self.block_of(point) == Some(self.faces.block[contact.face as usize]);
-        if self.faces.is_two_sided(contact.face) || is_fold || self.is_tip_over(point, contact.projection.normal) {
+        if self.faces.is_two_sided(contact.face)
+            || self.are_of_one_block(point, contact.face)
+            || self.is_tip_over(point, contact.projection.normal)
+        {
             return None;
         }
         let corners = self.faces.end(contact.face, self.motion);
         let foot = projection::foot(&corners, weights);
-        let along = along_border(&corners, weights);
+        let along = border_direction(&corners, weights);
         let least = ON_PLANE * self.faces.size[contact.face as usize];
         let rests_on = |direction: &[f64; 3]| {
             let is_behind = |corner: [f64; 3]| dot(subtract(corner, foot), *direction) <= least;
@@ -122,7 +124,7 @@ impl NodeFaceCheck<'_> {
     /// no weight to speak of. `None` where the foot is in the face. What comes through a node deeply in one step has its foot exactly there when they meet,
     /// and at the end of the step beside it, by less than it is deep.
     fn weights_on_border(&self, point: u32, contact: &DetectedContact) -> Option<[f64; 4]> {
-        let end: Projection = contact.projection;
+        let end = contact.projection;
         let within = |least: f64| end.weights.iter().any(|&weight| weight <= least);
         let beside = -end.gap / self.faces.size[contact.face as usize];
         if beside > BESIDE && contact.time <= 1.0 && within(beside.max(2.0 * projection::TIE)) {
@@ -137,7 +139,7 @@ impl NodeFaceCheck<'_> {
 }
 
 /// The direction of the border on which a foot is, a unit vector; zero where it is on a node.
-fn along_border(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
+fn border_direction(corners: &[[f64; 3]; 4], weights: &[f64; 4]) -> [f64; 3] {
     let mut ends =
         corners.iter().zip(weights).filter(|(_, weight)| **weight > projection::TIE).map(|(corner, _)| *corner);
     match (ends.next(), ends.next()) {

@@ -75,8 +75,7 @@ impl NodeFaceCheck<'_> {
     /// Whether a point is beside a solid at a part of the step: beyond a border of a face, and the face across that border is looked at by one of the
     /// point's own. So is what a ridge of another block comes down on, which the other side of that will meet; noses of a fold stop each other.
     fn passes_beside(&self, (point, face): (u32, u32), near: &[Candidate], time: f64) -> bool {
-        let is_fold = self.block_of(point) == Some(self.faces.block[face as usize]);
-        let near = if is_fold { &[] } else { near };
+        let near = if self.are_of_one_block(point, face) { &[] } else { near };
         self.borders_beyond((point, face), time, CLEARLY * self.faces.size[face as usize]).any(|border| {
             let normal = |other: u32| normalized(projection::area_normal(&self.faces.start(other, self.motion)));
             let others = self.beside(face).chain(faces_of(near)).filter(|&other| other != face);

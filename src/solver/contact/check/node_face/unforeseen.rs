@@ -69,8 +69,13 @@ impl NodeFaceCheck<'_> {
     }
 
     /// The block of the faces around a point, `None` where it has none.
-    pub(super) fn block_of(&self, point: u32) -> Option<u32> {
+    fn block_of(&self, point: u32) -> Option<u32> {
         self.faces.around(point).first().map(|&own| self.faces.block[own as usize])
+    }
+
+    /// Whether the faces around a point are of the block of a face: they may be leaves of one fold.
+    pub(super) fn are_of_one_block(&self, point: u32, face: u32) -> bool {
+        self.block_of(point) == Some(self.faces.block[face as usize])
     }
 
     /// Whether nothing of a face, whose corners are given, rises over a point in its place as a contact pushes it: the side of the next body where
