@@ -171,26 +171,27 @@ fn dust() -> Desk {
     desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 0.1, 3, 3, 1\n")
 }
 
-/// A cube of a solid with a steep Hugoniot that is pressed to half of its volume, beyond 0.95/2.5.
-fn pressed_beyond_its_hugoniot() -> Desk {
-    desk(
-        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 5.E-3\nOUTPUT TIME, 0.1\nFUNCTION, 1\n0., 0.\n1., -0.5\nEND\nNO DISPLACEMENT, X, 1\n\
+/// A cube of a law that is pressed by a part of its height, in steps of this size.
+fn pressed(part: f64, step: &str, law: &str) -> Desk {
+    let deck = format!(
+        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, {step}\nOUTPUT TIME, 0.1\nFUNCTION, 1\n0., 0.\n1., -{part}\nEND\nNO DISPLACEMENT, X, 1\n\
          NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 2\n\
-         PRESCRIBED DISPLACEMENT, X, 2, 1, 1.\nMATERIAL, 1, HYDRODYNAMIC, 1.E6\nPRESSURE CUTOFF = -3.\nEND\n\
-         EQUATION OF STATE, 1, MG US-UP\nC0 = 0.014\nS = 2.5\nGAMMA = 0.\nEND\n",
-        "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n",
-    )
+         PRESCRIBED DISPLACEMENT, X, 2, 1, 1.\n{law}"
+    );
+    desk(&deck, "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n")
 }
 
-/// A cube of foam, a tenth of it solid, that is pressed to less than a tenth of its volume.
+/// A solid with a steep Hugoniot that is pressed to half of its volume, beyond 0.95/2.5.
+fn pressed_beyond_its_hugoniot() -> Desk {
+    let law = "MATERIAL, 1, HYDRODYNAMIC, 1.E6\nPRESSURE CUTOFF = -3.\nEND\n\
+               EQUATION OF STATE, 1, MG US-UP\nC0 = 0.014\nS = 2.5\nGAMMA = 0.\nEND\n";
+    pressed(0.5, "5.E-3", law)
+}
+
+/// A foam, a tenth of it solid, that is pressed to less than a tenth of its volume.
 fn pressed_beyond_its_solid() -> Desk {
-    desk(
-        "TERMINATION TIME, 1.\nTIME STEP MAXIMUM, 2.E-3\nOUTPUT TIME, 0.1\nFUNCTION, 1\n0., 0.\n1., -0.92\nEND\nNO DISPLACEMENT, X, 1\n\
-         NO DISPLACEMENT, Y, 1\nNO DISPLACEMENT, Z, 1\nNO DISPLACEMENT, Y, 2\nNO DISPLACEMENT, Z, 2\n\
-         PRESCRIBED DISPLACEMENT, X, 2, 1, 1.\nMATERIAL, 1, LOW DEN FOAM, 1.E6\nYOUNGS MODULUS = 100.\nA = 1.\nB = 5.\nC = -3.\n\
-         NAIR = 0\nP0 = 1.\nPHI = 0.1\nEND\n",
-        "BOX, 1, 0., 0., 0., 1., 1., 1., 1, 1, 1\nNODE SET PLANE, 1, X, 0.\nNODE SET PLANE, 2, X, 1.\n",
-    )
+    let law = "MATERIAL, 1, LOW DEN FOAM, 1.E6\nYOUNGS MODULUS = 100.\nA = 1.\nB = 5.\nC = -3.\nNAIR = 0\nP0 = 1.\nPHI = 0.1\nEND\n";
+    pressed(0.92, "2.E-3", law)
 }
 
 /// A column of water that flies at a wall at its speed of sound, and is stopped within a step.

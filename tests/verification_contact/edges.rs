@@ -91,7 +91,7 @@ fn when_an_edge_comes_does_not_matter() {
 fn tent() -> Mesh {
     let mut mesh = recipe(
         "TITLE\n tent\nBOX, 1, -0.01, 0., 0., 0.02, 0.02, 0.001, 4, 2, 1\n\
-         BOX, 2, -0.01, -0.002, 0.0055, 0.02, 0.024, 0.008, 5, 8, 3\n",
+         BOX, 2, -0.01, -0.002, 0.0055, 0.02, 0.024, 0.008, 4, 8, 3\n",
     );
     add_node_set(&mut mesh, 1, |p| p[2] < 0.002 && p[0].abs() < 1e-9);
     add_node_set(&mut mesh, 2, |p| p[2] < 0.002 && (p[0].abs() - 0.005).abs() < 1e-9);

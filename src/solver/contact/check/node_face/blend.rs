@@ -1,12 +1,9 @@
 //! The direction in which a face pushes a point whose foot is on its border, where other faces go on.
 
 use super::{BESIDE, DetectedContact, EXACTLY, IN_SURFACE, MAX_FACES, NodeFaceCheck, SAME_WAY, faces_of};
-use crate::common::vector::{add, dot, normalized, scaled, subtract};
+use crate::common::vector::{add, dot, normalized, scaled};
 use crate::solver::contact::geometry::projection;
 use crate::solver::contact::search::locate::Candidate;
-
-/// Corners that are behind a plane by less than this part of a face's size are not behind it.
-const ON_PLANE: f64 = 1e-3;
 
 impl NodeFaceCheck<'_> {
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
@@ -57,15 +54,6 @@ impl NodeFaceCheck<'_> {
     /// Whether the mesh has a point in the face of a contact by more than round-off.
     pub(super) fn begins_in_overlap(&self, contact: &DetectedContact) -> bool {
         contact.tolerated < -IN_SURFACE * self.faces.size[contact.face as usize]
-    }
-
-    /// Whether all faces of a point are before a plane through it, whose normal is given.
-    pub(super) fn is_tip_over(&self, point: u32, normal: [f64; 3]) -> bool {
-        let at = self.motion.end(point);
-        self.faces.around(point).iter().all(|&own| {
-            let least = -ON_PLANE * self.faces.size[own as usize];
-            self.faces.end(own, self.motion).into_iter().all(|corner| dot(subtract(corner, at), normal) >= least)
-        })
     }
 
     /// Shares of the corners of a face in the foot of a point on its border, which other faces have as well: they lack at least one corner, which then has

@@ -8,6 +8,9 @@ use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::geometry::sides::frame;
 use crate::solver::contact::search::locate::Candidate;
 
+/// Corners that are behind a plane by less than this part of a face's size are not behind it.
+const ON_PLANE: f64 = 1e-3;
+
 /// Where a point meets a face: its place, and the part of the step after which the face is looked at.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
@@ -192,6 +195,15 @@ impl NodeFaceCheck<'_> {
         };
         near(foot, reach + below).is_some()
             && near(at, reach).is_some_and(|at| self.has_face_opposed(point, &at.normal, -FLUSH) || stays())
+    }
+
+    /// Whether all faces of a point are before a plane through it, whose normal is given.
+    fn is_tip_over(&self, point: u32, normal: [f64; 3]) -> bool {
+        let at = self.motion.end(point);
+        self.faces.around(point).iter().all(|&own| {
+            let least = -ON_PLANE * self.faces.size[own as usize];
+            self.faces.end(own, self.motion).into_iter().all(|corner| dot(subtract(corner, at), normal) >= least)
+        })
     }
 
     /// Whether what has no faces of its own meets a side in a flush joint: on the surface beside it, where another body covers the side and has a surface
