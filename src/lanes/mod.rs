@@ -150,17 +150,17 @@ impl Numbers for SingleRow {
     }
 }
 
-/// Asks the memory for the lines of values that will be needed later, into the second cache: many more may be on their way
-/// to that than to the first.
+/// Asks the memory for the lines of two values that will be needed later, into the first cache: asked for into the second one, they cost two blocks whose nodes
+/// lie scattered up to a sixth more contact on Zen 5, in some runs and not in others.
 #[inline(always)]
 pub fn prefetch_later<A, B>(one: &A, other: &B) {
     #[cfg(target_arch = "x86_64")]
     {
-        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         // SAFETY: a prefetch reads nothing that the program sees, and every x86-64 processor has the instruction.
         unsafe {
-            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(one).cast());
-            _mm_prefetch::<_MM_HINT_T1>(std::ptr::from_ref(other).cast());
+            _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(one).cast());
+            _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(other).cast());
         }
     }
     #[cfg(not(target_arch = "x86_64"))]

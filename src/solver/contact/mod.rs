@@ -273,6 +273,7 @@ impl Contact {
     /// Gives all contact nodes new search boxes. All ranks call it.
     fn renew_boxes(&mut self, comm: &mut dyn Communicator) {
         let Contact { layout, contact_nodes, remote, reach, .. } = self;
+        contact_nodes.motion.find_all();
         contact_nodes.fly_along(reach.steps, reach.least, comm);
         contact_nodes.renew(reach.steps, reach.least);
         // Without a least reach there is no speed that counts as fast.

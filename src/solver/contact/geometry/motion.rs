@@ -262,6 +262,22 @@ impl NodeMotion {
         self.found = 0;
     }
 
+    /// Finds the motions of all points for the rest of the step: a search asks for each of them several times, in an order of its own.
+    pub fn find_all(&mut self) {
+        if self.all_found {
+            return;
+        }
+        for point in 0..self.len() {
+            if let Some(&soon) = self.places.get(point + SOON)
+                && let (Some(row), Some(force)) = (self.rows.get(soon as usize), self.forces.get(soon as usize))
+            {
+                prefetch_later(row, force);
+            }
+            self.keep(point, self.find(point as u32));
+        }
+        self.all_found = true;
+    }
+
     /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
     /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box, and how far these have all
     /// been carried along. With `ALL` it finds all motions.
