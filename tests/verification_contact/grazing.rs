@@ -1,4 +1,4 @@
-//! Bodies that pass each other by a hair, and bends that cross rims at their nodes.
+//! Bodies that pass each other by a hair, and flat ones that meet ridges and tips at their nodes.
 
 use super::passing::{ROUND_OFF, Scene};
 use crate::support::bodies::{mean_velocity, nodes_of};
@@ -66,6 +66,38 @@ fn a_keel_passes_over_a_corner() {
             duration: 1.25e-2,
         };
         scene.keeps_its_energy(ROUND_OFF);
+    }
+}
+
+/// Ridges come down on nodes of a flat plate, at its rim or in its middle. Such a node was pushed along the normal of one of the flanks, and the plate went aside by up to 1.2 of its
+/// velocity downwards; the normal of the plate's own surface pushes both.
+#[test]
+fn a_ridge_pushes_the_node_of_a_plate_along_the_normal_of_the_plate() {
+    let slope = |degrees: f64| 0.3 * degrees.to_radians().tan();
+    for (degrees, height, beyond, layers) in [
+        (60.1, 5e-4, 0.0, 1),
+        (75.0, 5e-4, 0.0, 1),
+        (30.0, 0.0, 0.0, 1),
+        (45.0, 5e-4, 0.01, 2),
+        (70.0, 0.0, 0.01, 2),
+        (62.0, 1e-5, 0.0, 2),
+        (80.0, 5e-4, 0.0, 2),
+    ] {
+        let ridge = keel(1, height, [slope(degrees); 2], [0.0, 0.2], 0.0);
+        let plate = format!("BOX, 2, {:?}, -.5, -.1, {:?}, 1., .1, {layers}, 2, 1\n", -beyond, 0.2 + 2.0 * beyond);
+        let scene = Scene {
+            name: "a ridge on a node of a plate",
+            recipe: &format!("{ridge}{plate}"),
+            blocks: 2,
+            lines: "PLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nINITIAL VELOCITY MATERIAL, 1, 0., -6., -7.",
+            duration: 3e-4,
+        };
+        let mesh = scene.mesh();
+        let run = run(&scene.deck(), &mesh).whole();
+        let [x, y, z] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
+        println!("ridge of {degrees} degrees: {:.1e} of its velocity to the side", y / z);
+        // The plate bends while it is pushed, as in `a_ridge_with_flush_ends_pushes_a_plate_along_its_normal`.
+        assert!(z < -1.0 && (y / z).abs() < 5e-3 && (x / z).abs() < 5e-3, "{degrees}: {x}, {y}, {z}");
     }
 }
 

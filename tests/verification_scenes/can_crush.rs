@@ -43,7 +43,14 @@ fn v29_coarse_can_is_crushed() {
     let text = with(RECIPE, "3,       40,     40,    HALF", "2,       24,     24,    HALF");
     let mesh = recipe(&with(&text, "28, 28, 3", "14, 14, 2"));
     let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    check("V-29 coarse", &run, &mesh, 0.05);
+    // 13 of its 1,875 nodes in each of twelve runs with the plate faster by some parts in a million, and 19 while a node of the rim stumbled over the plate.
+    check("V-29 coarse", &run, &mesh, [0.006, 0.05]);
+    at_least(
+        "V-29 coarse",
+        "way aside of a node of the rim, over that of its neighbours",
+        least_way_aside(&run, &mesh),
+        0.3,
+    );
 }
 
 #[test]
@@ -51,7 +58,7 @@ fn v29_coarse_can_is_crushed() {
 fn v29_can_is_crushed() {
     let mesh = recipe(RECIPE);
     let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    check("V-29", &run, &mesh, 0.05);
+    check("V-29", &run, &mesh, [0.0075, 0.05]);
 }
 
 #[test]
@@ -60,11 +67,11 @@ fn v29_can_of_the_paper_is_crushed() {
     let mesh = recipe(PAPER_RECIPE);
     let run = run_on(2, &with(PAPER_DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
     // Lines bent by up to 30 degrees pass each other.
-    check("V-29 paper", &run, &mesh, 0.06);
+    check("V-29 paper", &run, &mesh, [0.0075, 0.06]);
 }
 
-/// Energy, folds that touch, no node inside anything, and no edge deeper than this part of a face.
-fn check(case: &str, run: &Run, mesh: &Mesh, deepest_edge: f64) {
+/// Energy, at least this part of the nodes in folds that touch, no node inside anything, and no edge deeper than this part of a face.
+fn check(case: &str, run: &Run, mesh: &Mesh, [least_folded, deepest_edge]: [f64; 2]) {
     between(case, "worst energy balance", run.worst_balance(), 0.0, 0.02);
     // What contact takes is booked apart, but must be as small: an elastic impact takes nothing.
     let taken = -run.last().totals.contact / run.initial_energy;
@@ -72,8 +79,8 @@ fn check(case: &str, run: &Run, mesh: &Mesh, deepest_edge: f64) {
     // Every can is crushed in earnest: it takes up at least half of what the smaller plate brings.
     let lost = run.initial_energy - run.last().totals.kinetic;
     at_least(case, "energy that the can has taken up", lost, 0.5 * 2.9296e6);
-    // A part, since which nodes meet hangs on digits, and how many on the mesh: 17 to 20 of the coarse can in three builds.
-    at_least(case, "part of the can's nodes that have touched the can in a state", folded(run, mesh), 0.0075);
+    // A part, since which nodes meet hangs on digits, and how many on the mesh.
+    at_least(case, "part of the can's nodes that have touched the can in a state", folded(run, mesh), least_folded);
     nothing_deeper(case, run, (mesh, &Skin::with_symmetry(mesh, 1)), [0.05, deepest_edge]);
 }
 
@@ -86,4 +93,32 @@ fn folded(run: &Run, mesh: &Mesh) -> f64 {
     nodes.dedup();
     let meets = |n: u32| run.states.iter().any(|state| of_can(state.nodal("CONTFACE")[n as usize]));
     nodes.iter().filter(|&&n| meets(n)).count() as f64 / nodes.len() as f64
+}
+
+/// While the plate pushes the outer rim aside: how far a node of it goes along x between two states, over what the two beside it go on average; the least
+/// of all. What goes along with its neighbours has about 1, what is stopped or thrown back 0 and less.
+fn least_way_aside(run: &Run, mesh: &Mesh) -> f64 {
+    let angle = |n: usize| mesh.coordinates[n][1].atan2(mesh.coordinates[n][0]);
+    let is_rim = |n: &usize| {
+        let [x, y, z] = mesh.coordinates[*n];
+        z.abs() < 1e-9 && x.hypot(y) > 5.24
+    };
+    let of_can = mesh.blocks[0].nodes.iter().map(|&n| n as usize).collect::<std::collections::BTreeSet<usize>>();
+    let mut rim: Vec<usize> = of_can.into_iter().filter(is_rim).collect();
+    rim.sort_by(|a, b| angle(*a).total_cmp(&angle(*b)));
+    let pushed = run.states.iter().filter(|state| (2.9e-4..=6.01e-4).contains(&state.time));
+    let places = pushed.map(|state| state.positions(mesh));
+    let x: Vec<Vec<f64>> = places.map(|places| rim.iter().map(|&n| places[n][0]).collect()).collect();
+    let mut least = f64::INFINITY;
+    for states in x.windows(2) {
+        let ways: Vec<f64> = states[0].iter().zip(&states[1]).map(|(before, after)| after - before).collect();
+        for three in ways.windows(3) {
+            let beside = 0.5 * (three[0] + three[2]);
+            // What hardly moves is not pushed.
+            if beside.abs() > 0.02 {
+                least = least.min(three[1] / beside);
+            }
+        }
+    }
+    least
 }

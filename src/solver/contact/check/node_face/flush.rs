@@ -8,8 +8,8 @@ use crate::solver::contact::geometry::projection::{self, Projection};
 use crate::solver::contact::geometry::sides::frame;
 use crate::solver::contact::search::locate::Candidate;
 
-/// Corners that are behind a plane by less than this part of a face's size are not behind it.
-const ON_PLANE: f64 = 1e-3;
+/// Corners that are behind a plane, or before one, by less than this part of a face's size are not behind it, or before it.
+pub(super) const ON_PLANE: f64 = 1e-3;
 
 /// Where a point meets a face: its place, and the part of the step after which the face is looked at.
 #[derive(Clone, Copy)]
@@ -198,7 +198,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether all faces of a point are before a plane through it, whose normal is given.
-    fn is_tip_over(&self, point: u32, normal: [f64; 3]) -> bool {
+    pub(super) fn is_tip_over(&self, point: u32, normal: [f64; 3]) -> bool {
         let at = self.motion.end(point);
         self.faces.around(point).iter().all(|&own| {
             let least = -ON_PLANE * self.faces.size[own as usize];
