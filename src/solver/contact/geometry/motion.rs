@@ -251,15 +251,20 @@ impl NodeMotion {
         }
     }
 
-    /// Whether so many motions were found one by one in the last step that it costs less to find all of them together; then they
+    /// Whether so many motions were found one by one in the last step that it costs less to find those of so many points together; then they
     /// are until [`NodeMotion::count_anew`].
-    pub fn is_crowded(&self) -> bool {
-        2 * self.found > self.len()
+    pub fn is_crowded(&self, points: usize) -> bool {
+        2 * self.found > points
     }
 
     /// Lets motions be found one by one in the next step, and counts them.
     pub fn count_anew(&mut self) {
         self.found = 0;
+    }
+
+    /// Hears that the motions of so many points have been found together.
+    pub fn count_found(&mut self, points: usize) {
+        self.found += points;
     }
 
     /// Finds the motions of all points for the rest of the step: a search asks for each of them several times, in an order of its own.
@@ -280,9 +285,9 @@ impl NodeMotion {
 
     /// Looks at all points, nodes of this rank, at the beginning of a step: how far those go that count, and whether one of them
     /// leaves its search box. Of each it is told whether it counts, all bits or none, and its search box, and how far these have all
-    /// been carried along. With `ALL` it finds all motions.
+    /// been carried along. With `ALL` it finds all motions, with `COUNTED` those of points that count.
     #[inline(always)]
-    pub fn survey<const ALL: bool>(
+    pub fn survey<const ALL: bool, const COUNTED: bool>(
         &mut self,
         nodes: &Nodes,
         last_drift: f64,
@@ -299,14 +304,12 @@ impl NodeMotion {
             range.take([gone, motion.velocity.map(|velocity| velocity * self.drift)], counts);
             let swept_box = motion.box_to(self.drift, four(self.origin));
             outside.take(&swept_box, search_box);
-            if ALL {
+            if ALL || COUNTED && counts != 0 {
                 (*own, *own_box) = (motion, swept_box);
             }
         }
         self.range = range;
-        if ALL {
-            (self.found, self.all_found) = (self.len(), true);
-        }
+        self.all_found = ALL;
         outside.any()
     }
 

@@ -54,8 +54,9 @@ pub struct ContactNodes {
     holders: Vec<[u32; 3]>,
     /// Where they are, would go, and how heavy they are.
     pub motion: NodeMotion,
-    /// Whether each counts among the paths: all bits or none.
+    /// Whether each counts among the paths, all bits or none, and how many do.
     counts: Vec<u64>,
+    counted: usize,
     /// How far from the centre of each rigid body its farthest contact node here is, a length.
     arms: Vec<f64>,
     /// By how much the path of one of them in the last step may differ from its velocity times the step, a length.
@@ -73,6 +74,14 @@ pub struct ContactNodes {
     pub owner_ranks: Vec<u32>,
     /// Work of normal and of friction forces so far, energies.
     pub works: Vec<[f64; 2]>,
+}
+
+/// Whose motions a survey finds for the rest of the step.
+#[derive(Clone, Copy)]
+enum Finds {
+    All,
+    Counted,
+    Nothing,
 }
 
 impl ContactNodes {
@@ -173,15 +182,20 @@ impl ContactNodes {
     /// leaves the box that the last search gave it.
     pub fn survey(&mut self, nodes: &Nodes, step: &StepTimes) {
         self.search_boxes.resize(self.list.len(), SweptBox::EVERYTHING);
-        let all = self.motion.is_crowded();
+        let is_crowded = |points: usize| self.motion.is_crowded(points);
+        let how = match (is_crowded(self.list.len()), is_crowded(self.counted)) {
+            (true, _) => Finds::All,
+            (_, true) => Finds::Counted,
+            _ => Finds::Nothing,
+        };
         let last_drift = self.motion.drift();
         self.frame.advance(last_drift);
         self.motion.begin([step.drift, step.kick]);
         let leaves = match self.motion.instructions().vectors() {
             // SAFETY: an instruction set is one that this processor has, and AVX-512 includes AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, last_drift, all) },
-            _ => self.survey_each(nodes, last_drift, all),
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.survey_avx2(nodes, last_drift, how) },
+            _ => self.survey_each(nodes, last_drift, how),
         };
         self.motion.range().widen(self.turned);
         self.expired = leaves || !self.searched;
@@ -194,18 +208,23 @@ impl ContactNodes {
     /// The processor must have AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    unsafe fn survey_avx2(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
-        self.survey_each(nodes, last_drift, all)
+    unsafe fn survey_avx2(&mut self, nodes: &Nodes, last_drift: f64, how: Finds) -> bool {
+        self.survey_each(nodes, last_drift, how)
     }
 
     // Inlined, so that it is compiled for the instructions of its caller.
     #[inline(always)]
-    fn survey_each(&mut self, nodes: &Nodes, last_drift: f64, all: bool) -> bool {
+    fn survey_each(&mut self, nodes: &Nodes, last_drift: f64, how: Finds) -> bool {
         let of_each = (&self.counts[..], &self.search_boxes[..], self.frame.gone());
-        if all {
-            self.motion.survey::<true>(nodes, last_drift, of_each)
-        } else {
-            self.motion.survey::<false>(nodes, last_drift, of_each)
+        self.motion.count_found(match how {
+            Finds::All => self.list.len(),
+            Finds::Counted => self.counted,
+            Finds::Nothing => 0,
+        });
+        match how {
+            Finds::All => self.motion.survey::<true, false>(nodes, last_drift, of_each),
+            Finds::Counted => self.motion.survey::<false, true>(nodes, last_drift, of_each),
+            Finds::Nothing => self.motion.survey::<false, false>(nodes, last_drift, of_each),
         }
     }
 
@@ -213,6 +232,7 @@ impl ContactNodes {
     pub fn count(&mut self, chosen: impl Iterator<Item = usize>) {
         self.counts.fill(0);
         chosen.for_each(|contact_node| self.counts[contact_node] = u64::MAX);
+        self.counted = self.counts.iter().filter(|counts| **counts != 0).count();
     }
 
     /// Lets the next search boxes, which are for so many steps and have at least that room, be carried along with what most of all
