@@ -53,6 +53,9 @@ pub(super) const HELD: f64 = 1e-6;
 /// motion after motion.
 const LEAST_FREE: f64 = 0.1;
 
+/// Constraints ahead whose members' velocities before the step are asked of the memory: their nodes are scattered among all.
+const SOON: usize = 4;
+
 /// What nothing can move out of a face is told once it is deeper than this part of the face's size.
 const DEEP: f64 = 0.05;
 
@@ -294,7 +297,11 @@ impl Enforcer {
         self.lone.clear();
         self.held = (0.0, 0);
         let granted = ledger.granted();
-        for c in constraints.iter_mut() {
+        for i in 0..constraints.len() {
+            if let Some(soon) = constraints.get(i + SOON) {
+                motion.ask_for_rows(&soon.members);
+            }
+            let c = &mut constraints[i];
             let Carried { normal_force, tangential_force, .. } = c.carried;
             (c.carried.normal_force, c.carried.tangential_force) =
                 (BEGINNING * normal_force, scaled(tangential_force, BEGINNING));

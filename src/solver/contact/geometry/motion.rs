@@ -9,7 +9,7 @@
 
 use super::paths::{PathRange, Paths};
 use super::swept_box::{Outside, SweptBox};
-use crate::lanes::{Force, InstructionSet, Row, prefetch_later};
+use crate::lanes::{Force, InstructionSet, Row, prefetch_later, prefetch_named};
 use crate::solver::contact::enforcement::mobility::Mobility;
 use crate::solver::nodes::Nodes;
 
@@ -394,6 +394,14 @@ impl NodeMotion {
     #[inline(always)]
     pub fn velocity(&self, point: u32) -> [f64; 3] {
         self.of(point, |motion| three(motion.velocity))
+    }
+
+    /// Asks the memory for what [`NodeMotion::velocity_before`] will say of points.
+    #[inline(always)]
+    pub fn ask_for_rows(&self, points: &[u32]) {
+        for &point in points {
+            prefetch_named(&self.rows, &self.places[point as usize..=point as usize]);
+        }
     }
 
     /// Velocity over the step before.
