@@ -53,7 +53,7 @@ fn distance(shape: Shape, corners: &[[f64; 3]], point: [f64; 3]) -> f64 {
     }
 }
 
-/// Part of its size by which a surface may lie beside a point that is in it: the mesh does not know how thick it is, and of what is
+/// Part of its size by which a surface or a bar may lie beside a point that is in it: the mesh does not know how thick it is, and of what is
 /// curved it has flat pieces.
 const THICK: f64 = 0.05;
 
@@ -86,11 +86,17 @@ fn outside_of_faces(shape: Shape, corners: &[[f64; 3]], centre: [f64; 3], point:
     })
 }
 
-/// Distance from the centre of a surface or a bar over that of its farthest corner, less one: it has no inside but itself.
+/// How far a point is beyond the ends of a bar or away from it, as fractions of half its length and of its length; not above 0 on it. What has no length
+/// holds nothing.
 fn beyond(corners: &[[f64; 3]], centre: [f64; 3], point: [f64; 3]) -> f64 {
-    let square = |a: [f64; 3]| dot(subtract(a, centre), subtract(a, centre));
-    let reach = corners.iter().map(|corner| square(*corner)).fold(0.0, f64::max);
-    if reach > 0.0 { (square(point) / reach).sqrt().max(ROUND_OFF * 2.0) } else { f64::INFINITY }
+    let [first, second] = *corners else { return f64::INFINITY };
+    let (axis, offset) = (subtract(second, first), subtract(point, centre));
+    let square = dot(axis, axis);
+    let along = dot(offset, axis) / square;
+    let aside = subtract(offset, axis.map(|x| along * x));
+    let away = (dot(aside, aside) / square).sqrt() - THICK;
+    let outside = away.max(2.0 * along.abs() - 1.0);
+    if outside.is_nan() { f64::INFINITY } else { outside }
 }
 
 #[cfg(test)]
@@ -132,5 +138,18 @@ mod tests {
         }
         let nearest = locate(&mesh, [0.1, 0.1, 0.3]).expect("the nearest");
         assert!(nearest.element == 0 && nearest.outside > 0.1, "{nearest:?}");
+    }
+    #[test]
+    fn points_are_found_on_bars() {
+        let mesh = mesher::make("LINE, 1, 0., 0., 0., 4., 0., 3., 2\n", "t", 1).expect("a mesh");
+        // Two bars of 2.5 from the origin to (4, 0, 3): on the second, a fiftieth of it aside, and where both meet.
+        for (place, aside, element) in [(0.7, 0.0, 1), (0.7, 0.05, 1), (1.0, 0.0, 1), (0.5, 0.0, 0), (0.1, -0.05, 0)] {
+            let located = locate(&mesh, [4.0 * place, aside, 3.0 * place]);
+            assert_eq!(located, Some(Located { element, outside: 0.0 }), "{place}, {aside}");
+        }
+        // A bar's length aside, and as far beyond the end.
+        let outside = |point: [f64; 3]| locate(&mesh, point).map_or(f64::NAN, |located| located.outside);
+        assert!((outside([1.0, 2.5, 0.75]) - 0.95).abs() < 1e-12);
+        assert!((outside([6.0, 0.0, 4.5]) - 2.0).abs() < 1e-12);
     }
 }
