@@ -101,6 +101,26 @@ fn a_ridge_pushes_the_node_of_a_plate_along_the_normal_of_the_plate() {
     }
 }
 
+/// A ridge comes down on a rim from 5 mm in 2 mm, or passes over it by 1.5 mm: there is nothing to push yet. Along the normal of a flank the face below the rim goes on
+/// upwards, and a force took 2 % of the energy of what never touched.
+#[test]
+fn a_ridge_over_a_rim_is_not_met_before_it_touches() {
+    let slopes = [0.3 * 60_f64.to_radians().tan(); 2];
+    let falls = keel(1, 5e-3, slopes, [0.0, 0.2], 0.0) + "BOX, 2, -.1, 0., -.2, .4, 1., .2, 1, 1, 1\n";
+    let flies = keel(1, 3e-3, slopes, [-0.15, 0.15], 0.0)
+        + "TRANSLATE, 1, 0., -.002, 0.\nBOX, 2, -.4, 0., -.2, 1., 1., .2, 2, 2, 1\n";
+    for (recipe, velocity, duration) in [(falls, "0., 0., -10.", 2e-4), (flies, "0., 10., -5.", 3e-4)] {
+        let scene = Scene {
+            name: "a ridge over a rim",
+            recipe: &recipe,
+            blocks: 2,
+            lines: &format!("INITIAL VELOCITY MATERIAL, 1, {velocity}"),
+            duration,
+        };
+        scene.keeps_its_energy(ROUND_OFF);
+    }
+}
+
 /// What lies askew on rims where their nodes are, of which no node is in the other: with a partition that leaves the nodes of the rims out it went through without any force.
 #[test]
 fn a_bend_that_crosses_rims_at_their_nodes_does_not_go_through() {

@@ -1,5 +1,6 @@
 //! The direction in which a face pushes a point whose foot is on its border, where other faces go on.
 
+use super::super::FLUSH;
 use super::flush::ON_PLANE;
 use super::{BESIDE, DetectedContact, EXACTLY, IN_SURFACE, MAX_FACES, NodeFaceCheck, SAME_WAY, faces_of};
 use crate::common::vector::{add, dot, normalized, scaled, subtract};
@@ -9,21 +10,24 @@ use crate::solver::contact::search::locate::Candidate;
 /// Faces whose normals have a larger cosine between them are parallel but for what a ridge that hardly turns changes.
 const PARALLEL: f64 = 0.999;
 
+/// A face that makes a smaller sine than this with the direction across a ridge is at the end of what the ridge lies on.
+const ACROSS: f64 = 0.1;
+
 impl NodeFaceCheck<'_> {
     /// On a node or an edge that several faces share, which of them is met is nobody's choice: the normal is the mean of
     /// theirs, so that what is symmetric stays so; or on a sharp ridge that of the point's own surface, on which it lies. Faces of a `fitting`
-    /// corner, that of this contact among them, push for themselves.
+    /// corner, that of this contact among them, push for themselves. The shares of the corners in a place on such a ridge, `None` elsewhere.
     pub(super) fn blend(
         &self,
         point: u32,
         near: &[Candidate],
         fitting: [u32; MAX_FACES],
         contact: &mut DetectedContact,
-    ) {
+    ) -> Option<[f64; 4]> {
         if contact.projection.rounded {
-            return;
+            return None;
         }
-        let Some(weights) = self.weights_on_border(point, contact) else { return };
+        let weights = self.weights_on_border(point, contact)?;
         let own = self.faces.corners[contact.face as usize];
         // What the foot has of its weights at the corners of this face that another one shares, or at one of them.
         let shared = |corners: &[u32]| -> f64 {
@@ -52,13 +56,14 @@ impl NodeFaceCheck<'_> {
         let around = || faces_of(near).filter(goes_on);
         if is_sharp && let Some(normal) = self.normal_on_ridge(point, contact, &weights, around) {
             contact.projection.normal = normal;
-            return;
+            return Some(weights);
         }
         let length = dot(sum, sum).sqrt();
         // The face itself is one of them.
         if length > 1.5 {
             contact.projection.normal = scaled(sum, 1.0 / length);
         }
+        None
     }
 
     /// Whether the mesh has a point in the face of a contact by more than round-off.
@@ -67,8 +72,8 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Against the normals of those faces of a point on which a ridge or a tip of the other body rests: all that goes on `around` the foot, which has these weights
-    /// on the face of the contact, is behind the plane of such a face. `None` where there are none, or several that turn away from each other, where they
-    /// lie flat on the face of the contact, and where the point is a tip itself that the face of the contact pushes straight.
+    /// on the face of the contact, is behind the plane of such a face. `None` where the place is not flat across the ridge but has faces that turn away from each other, as at
+    /// a rim along it, where all lie flat on the face of the contact, and where the point is a tip itself that the face of the contact pushes straight.
     fn normal_on_ridge<I: Iterator<Item = u32>>(
         &self,
         point: u32,
@@ -91,11 +96,11 @@ impl NodeFaceCheck<'_> {
         };
         let (mut first, mut sum) = (None, [0.0; 3]);
         for &own in self.faces.around(point) {
-            let corners = self.faces.end(own, self.motion);
-            let Some(normal) = normalized(projection::area_normal(&corners)) else { continue };
-            let upright = subtract(normal, scaled(along, dot(normal, along)));
-            let Some(direction) = normalized(scaled(upright, -1.0)).filter(rests_on) else { continue };
-            let middle = projection::centre(&corners);
+            let Some(direction) = self.support(own, along, around()) else { continue };
+            if !rests_on(&direction) {
+                return None;
+            }
+            let middle = projection::centre(&self.faces.end(own, self.motion));
             let (one, middle_of_one) = *first.get_or_insert((direction, middle));
             // In a hollow all of them rest on what fits into it; where the mesh has it in overlap each flank lifts its own.
             let turns_away = || dot(subtract(middle, middle_of_one), one) >= 0.0;
@@ -110,6 +115,19 @@ impl NodeFaceCheck<'_> {
         along_it.normal = normal;
         projection::shares_along(&self.faces.start(contact.face, self.motion), self.motion.start(point), &along_it)?;
         Some(normal)
+    }
+
+    /// Against the normal of a face of a point, across a ridge that runs along a direction and lies on it. `None` of a face at the end of what the ridge lies on, and of
+    /// one that is flush with a face `around` the foot: what ends where the ridge does.
+    fn support(&self, own: u32, along: [f64; 3], mut around: impl Iterator<Item = u32>) -> Option<[f64; 3]> {
+        let normal_of = |face: u32| normalized(projection::area_normal(&self.faces.end(face, self.motion)));
+        let normal = normal_of(own)?;
+        let upright = subtract(normal, scaled(along, dot(normal, along)));
+        let is_flush = |face: u32| normal_of(face).is_some_and(|other| dot(other, normal) > FLUSH);
+        if dot(upright, upright) <= ACROSS * ACROSS || around.any(is_flush) {
+            return None;
+        }
+        normalized(scaled(upright, -1.0))
     }
 
     /// Shares of the corners of a face in the foot of a point on its border, which other faces have as well: they lack at least one corner, which then has

@@ -171,7 +171,7 @@ impl NodeFaceCheck<'_> {
         let overlapping = contacts.iter().filter(|contact| self.begins_in_overlap(contact));
         fitting.iter_mut().zip(overlapping).for_each(|(face, contact)| *face = contact.face);
         for contact in contacts.iter_mut() {
-            self.blend(point, near, fitting, contact);
+            let on_ridge = self.blend(point, near, fitting, contact);
             let (corners, start) = (self.faces.start(contact.face, self.motion), self.motion.start(point));
             if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
                 contact.projection.weights = shares;
@@ -181,6 +181,13 @@ impl NodeFaceCheck<'_> {
                     let foot = projection::foot(&self.faces.end(contact.face, self.motion), &shares);
                     let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
                     contact.projection.gap = apart - self.faces.distance(point, contact.face);
+                }
+                // The face goes no farther than its ridge, which is what the point meets.
+                if let Some(weights) = on_ridge {
+                    let foot = projection::foot(&self.faces.end(contact.face, self.motion), &weights);
+                    let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
+                    contact.projection.gap =
+                        contact.projection.gap.max(apart - self.faces.distance(point, contact.face));
                 }
             }
         }
