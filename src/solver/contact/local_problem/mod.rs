@@ -378,6 +378,7 @@ impl LocalProblem {
             // The history of the many that nothing holds need not be fetched.
             let before = if locator.is_held(i) { history[point as usize] } else { NO_CONTACT };
             let check = NodeFaceCheck { motion, faces, rules, longest_path, edges_hold, have_friction };
+            check.leave_out_symmetry_planes(point, near);
             check.point(point, near, &before, contacts);
             if contacts.is_empty() && !locator.is_held(i) {
                 continue;

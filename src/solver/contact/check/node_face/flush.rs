@@ -172,6 +172,9 @@ impl NodeFaceCheck<'_> {
     /// Whether a point that comes through one face slides in the plane of another, in which its foot is on the first: at their border. Where the first
     /// leans inwards, its foot is below that border by a part of how deep the point is behind it.
     fn slides_along(&self, point: u32, (through, foot): (&Projection, [f64; 3]), other: u32) -> bool {
+        if self.are_in_symmetry_plane(point, other) {
+            return false;
+        }
         let at = self.motion.start(point);
         let (corners, reach) = (self.faces.start(other, self.motion), SEAM * self.faces.size[other as usize]);
         let normal = projection::area_normal(&corners);

@@ -12,6 +12,7 @@ mod newcomer;
 mod persistent;
 mod ridge;
 mod seam;
+mod symmetry;
 pub mod unforeseen;
 mod way_out;
 

@@ -40,7 +40,8 @@ impl NodeFaceCheck<'_> {
         past: &[FaceContact; MAX_FACES],
         contacts: &mut Vec<DetectedContact>,
     ) {
-        let mut departure: Option<Departure> = None;
+        let mut departures: [Option<Departure>; MAX_FACES] = [const { None }; MAX_FACES];
+        let mut left = departures.iter_mut();
         for &FaceContact { face: old, tolerated, .. } in
             past.iter().filter(|past| past.face != NONE && is_near(near, past.face))
         {
@@ -51,17 +52,24 @@ impl NodeFaceCheck<'_> {
                 }
             } else if self.is_beside(point, old, &projection) {
                 contacts.extend(self.held_around(point, old, tolerated));
-            } else if departure.is_none() {
-                departure = Some(Departure { near, past, old, tolerated, left: projection });
+            } else if let Some(departure) = left.next() {
+                *departure = Some(Departure { near, past, old, tolerated, left: projection });
             }
         }
-        if let Some(departure) = departure.filter(|_| contacts.is_empty()) {
+        let [first, others @ ..] = &departures;
+        if let Some(departure) = first.as_ref().filter(|_| contacts.is_empty()) {
             self.in_hollow(point, near, past, false, contacts);
             if contacts.is_empty() {
-                contacts.extend(self.moved_on(point, &departure));
+                contacts.extend(self.moved_on(point, departure));
             }
             if contacts.is_empty() {
                 self.in_hollow(point, near, past, true, contacts);
+            }
+            // Hardly beyond the border of another one, as in a plane of symmetry to which faces lean, a point is not on any other face yet.
+            for departure in others.iter().flatten() {
+                if contacts.is_empty() {
+                    contacts.extend(self.moved_on(point, departure));
+                }
             }
         }
         self.still_around(point, near, past, contacts);

@@ -112,7 +112,7 @@ impl NodeFaceCheck<'_> {
     }
 
     /// Whether a point goes with others of a rigid body or a joint.
-    fn is_carried(&self, point: u32) -> bool {
+    pub(super) fn is_carried(&self, point: u32) -> bool {
         let (point, mobility) = (point as usize, &self.motion.mobility);
         mobility.of(point).is_some() || mobility.joint(point).is_some()
     }
