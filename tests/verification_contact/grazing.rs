@@ -2,7 +2,8 @@
 
 use super::passing::{ROUND_OFF, Scene};
 use crate::support::bodies::{mean_velocity, nodes_of};
-use crate::support::run::run;
+use crate::support::meshes::recipe;
+use crate::support::run::{State, run};
 
 /// A hexahedron by its corners, those of the lower side first.
 fn hexahedron(block: u32, corners: [[f64; 3]; 8]) -> String {
@@ -138,4 +139,48 @@ fn a_bend_that_crosses_rims_at_their_nodes_does_not_go_through() {
     let [_, _, z] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
     // Two free bodies of 447 and 236 kg: in a plastic impact both would go down at 6.5 m/s, in an elastic one this by twice as much.
     assert!(z < -4.0, "{z}");
+}
+
+/// A ridge of 60 degrees is pressed on a soft plate and slides along it; as the whole, and as one half with NO DISPLACEMENT in the plane of symmetry. There its flank looks at
+/// the side of the plate, which lies in that plane, and its nodes were taken for tips that slide over that side: they sank in by half as much again.
+#[test]
+fn a_ridge_in_a_plane_of_symmetry_sinks_in_as_the_whole_one() {
+    let rise = 0.1 * 60_f64.to_radians().tan();
+    let flank = |ends: [f64; 2]| {
+        let [from, to] = ends;
+        let corners = |z: [f64; 2]| [[0.0, from, z[0]], [0.1, from, z[0]], [0.1, to, z[1]], [0.0, to, z[1]]];
+        let low = if from < 0.0 { [1e-3 + rise, 1e-3] } else { [1e-3, 1e-3 + rise] };
+        let [[a, b, c, d], [e, f, g, h]] = [corners(low), corners([0.2 + rise; 2])];
+        hexahedron(1, [a, b, c, d, e, f, g, h]).replace("1, 1, 1, 1", "1, 1, 1, 2")
+    };
+    let lowest = |whole: bool| {
+        let (others, plate, held) = match whole {
+            true => (flank([-0.1, 0.0]) + "MERGE, 1\n", "BOX, 2, -.05, -.3, -.1, .6, .6, .1, 6, 6, 1\n", ""),
+            false => (String::new(), "BOX, 2, -.05, 0., -.1, .6, .3, .1, 6, 3, 1\n", "NO DISPLACEMENT, Y, 1\n"),
+        };
+        let sets = "NODE SET PLANE, 1, Y, 0.\nNODE SET PLANE, 2, Z, -.1\n";
+        let mesh = recipe(&format!("TITLE\n ridge\n{}{others}{plate}{sets}", flank([0.0, 0.1])));
+        let law = |block: u32| {
+            format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 2.E9\nPOISSONS RATIO = 0.3\nEND\n")
+        };
+        let deck = format!(
+            "TITLE\n ridge\nTERMINATION TIME, 3.E-3\nPLOT TIME, 1.E-4\nPLOT NODAL, DISPLACEMENT\nCONTACT MATERIAL\n\
+             NO DISPLACEMENT, Z, 2\nNO DISPLACEMENT, X, 2\nINITIAL VELOCITY MATERIAL, 1, 40., 0., -3.\nGRAVITY, 0., 0., -3000.\n{held}{}{}",
+            law(1),
+            law(2)
+        );
+        let run = run(&deck, &mesh).whole();
+        let ridge: Vec<usize> = (0..mesh.coordinates.len())
+            .filter(|&node| mesh.coordinates[node][1] == 0.0 && (mesh.coordinates[node][2] - 1e-3).abs() < 1e-9)
+            .collect();
+        let of_state = |state: &State| {
+            let places = state.positions(&mesh);
+            ridge.iter().fold(f64::INFINITY, |least, &node| least.min(places[node][2]))
+        };
+        run.states.iter().map(of_state).fold(f64::INFINITY, f64::min)
+    };
+    let [half, whole] = [false, true].map(lowest);
+    println!("lowest place of the ridge: {half:.5} as a half, {whole:.5} as a whole");
+    // Of the half, feet are at the border of faces that lean to the plane, by which it is stiffer by a hundredth.
+    assert!(whole < -1e-3 && (half / whole - 1.0).abs() < 0.03, "{half}, {whole}");
 }
