@@ -1,7 +1,6 @@
 //! Bodies that pass each other by a hair, and flat ones that meet ridges and tips at their nodes.
 
 use super::passing::{ROUND_OFF, Scene};
-use crate::support::bodies::{mean_velocity, nodes_of};
 use crate::support::meshes::recipe;
 use crate::support::run::{State, run};
 
@@ -93,9 +92,7 @@ fn a_ridge_pushes_the_node_of_a_plate_along_the_normal_of_the_plate() {
             lines: "PLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nINITIAL VELOCITY MATERIAL, 1, 0., -6., -7.",
             duration: 3e-4,
         };
-        let mesh = scene.mesh();
-        let run = run(&scene.deck(), &mesh).whole();
-        let [x, y, z] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
+        let [x, y, z] = scene.velocity_of_second();
         println!("ridge of {degrees} degrees: {:.1e} of its velocity to the side", y / z);
         // The plate bends while it is pushed, as in `a_ridge_with_flush_ends_pushes_a_plate_along_its_normal`.
         assert!(z < -1.0 && (y / z).abs() < 5e-3 && (x / z).abs() < 5e-3, "{degrees}: {x}, {y}, {z}");
@@ -134,9 +131,7 @@ fn a_bend_that_crosses_rims_at_their_nodes_does_not_go_through() {
         lines: "CONTACT DATA, 1, 2, 0., 0.\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nINITIAL VELOCITY MATERIAL, 1, 0., 0., -10.",
         duration: 2e-3,
     };
-    let mesh = scene.mesh();
-    let run = run(&scene.deck(), &mesh).whole();
-    let [_, _, z] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
+    let [_, _, z] = scene.velocity_of_second();
     // Two free bodies of 447 and 236 kg: in a plastic impact both would go down at 6.5 m/s, in an elastic one this by twice as much.
     assert!(z < -4.0, "{z}");
 }

@@ -18,6 +18,13 @@ pub struct Scene<'a> {
 }
 
 impl Scene<'_> {
+    /// Mean velocity of the second block at the end.
+    pub fn velocity_of_second(&self) -> [f64; 3] {
+        let mesh = self.mesh();
+        let run = run(&self.deck(), &mesh).whole();
+        mean_velocity(run.end(), &nodes_of(&mesh, 2))
+    }
+
     pub fn mesh(&self) -> Mesh {
         recipe(&format!("TITLE\n {}\n{}", self.name, self.recipe))
     }
@@ -194,9 +201,7 @@ fn a_ridge_with_flush_ends_pushes_a_plate_along_its_normal() {
             lines: "PLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nINITIAL VELOCITY MATERIAL, 1, -6., -7., 0.",
             duration: 3e-4,
         };
-        let mesh = scene.mesh();
-        let run = run(&scene.deck(), &mesh).whole();
-        let [x, y, _] = mean_velocity(run.end(), &nodes_of(&mesh, 2));
+        let [x, y, _] = scene.velocity_of_second();
         println!("ridge on a plate, ends {beyond:?} beyond: {:.1e} of its velocity to the side", x / y);
         // The plate bends by this much while it is pushed: 6e-4 with longer ends. As fast as downwards before.
         assert!(y < -1.0 && (x / y).abs() < 2e-3, "{x}, {y}");

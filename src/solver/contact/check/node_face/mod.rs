@@ -176,19 +176,19 @@ impl NodeFaceCheck<'_> {
             let (corners, start) = (self.faces.start(contact.face, self.motion), self.motion.start(point));
             if let Some(shares) = projection::shares_along(&corners, start, &contact.projection) {
                 contact.projection.weights = shares;
+                let normal = contact.projection.normal;
+                let gap_to = |shares: &[f64; 4]| {
+                    let foot = projection::foot(&self.faces.end(contact.face, self.motion), shares);
+                    dot(subtract(self.motion.end(point), foot), normal) - self.faces.distance(point, contact.face)
+                };
                 // Around a border only the nearest point of it is so far away: another one would let the point sink in a little
                 // in every step in which it goes around.
                 if !contact.projection.rounded {
-                    let foot = projection::foot(&self.faces.end(contact.face, self.motion), &shares);
-                    let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
-                    contact.projection.gap = apart - self.faces.distance(point, contact.face);
+                    contact.projection.gap = gap_to(&shares);
                 }
                 // The face goes no farther than its ridge, which is what the point meets.
-                if let Some(weights) = on_ridge {
-                    let foot = projection::foot(&self.faces.end(contact.face, self.motion), &weights);
-                    let apart = dot(subtract(self.motion.end(point), foot), contact.projection.normal);
-                    contact.projection.gap =
-                        contact.projection.gap.max(apart - self.faces.distance(point, contact.face));
+                if let Some(on_ridge) = on_ridge {
+                    contact.projection.gap = contact.projection.gap.max(gap_to(&on_ridge));
                 }
             }
         }
