@@ -19,8 +19,8 @@ use crate::solver::{Body, state_names};
 /// Version of the meaning of what a restart file holds. Since 2 it holds what the run has found out about itself, and what
 /// contact has made; since 3 the energy at the last look, and heights of elements since the step of the mesh was estimated;
 /// since 4 for how many steps contact has not settled; since 6 its identity tells of equations of state, layers, sections
-/// and exclusions.
-const FORMAT: &str = "7";
+/// and exclusions; since 8 edges may be bent lines.
+const FORMAT: &str = "8";
 
 /// How names of lines begin that tell what only a start asks for.
 const START: &str = "START ";

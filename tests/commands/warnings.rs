@@ -410,7 +410,7 @@ fn a_state_without_findings_is_refused() {
     left.says(&[
         "error: old.rsout is of another version",
         "form 1",
-        "needs form 7",
+        "needs form 8",
         "what contact has made",
         "help: run from the start",
     ]);

@@ -1,8 +1,8 @@
-//! Edges of the surface: which stand out, and which are lines of the mesh in faces that are flat or nearly so.
+//! Edges of the surface: which stand out, and which are lines of the mesh in faces that are bent a little, flat or nearly so.
 //!
 //! Edges stand out between faces that turn away from each other by more than a third of a right angle, and where faces are much longer
 //! along the edge than across by less: a chord of length L between two nodes of another body sinks in by ½ L tan β/2 at a bend of β, where
-//! no node needs to come near a face. The bulge of a warped face has lines as well, its ridges: from two corners across from each other
+//! no node needs to come near a face. Between bent lines the smaller of their bends says so, and from ten degrees on they meet each other, too. The bulge of a warped face has lines as well, its ridges: from two corners across from each other
 //! to the middle of the face, which is the mean of all four.
 
 use super::faces::Faces;
@@ -15,6 +15,12 @@ const SHARP: f64 = 0.866;
 
 /// The same at an edge that has stood out before: 20 degrees.
 const BLUNT: f64 = 0.94;
+
+/// Largest cosine between the normals at a line that is bent: 10 degrees. What flatter lines let through in between their nodes is less than 4.4 % of a face.
+const BENT: f64 = 0.9848;
+
+/// The same at a line that has been bent before: 7 degrees.
+const FLAT: f64 = 0.9925;
 
 /// So many times longer along an edge than across faces are to count as long.
 const LONG: f64 = 4.0;
@@ -41,6 +47,8 @@ const STRAIGHT: f64 = 0.8;
 pub enum Shape {
     /// They turn away from each other: the edge stands out.
     StandsOut,
+    /// They turn away from each other, but little: a line of the mesh, which meets other bent lines and edges that stand out.
+    Bent,
     /// They go on with little or no bend: a line of the mesh, which meets only edges that stand out.
     Line,
     /// They fold towards each other, and are met before their edge, which takes no part.
@@ -76,6 +84,7 @@ impl Shape {
             Shape::StandsOut => 0,
             Shape::Line => 1,
             Shape::Hollow => 2,
+            Shape::Bent => 3,
         }
     }
 
@@ -84,25 +93,28 @@ impl Shape {
         match code {
             0 => Shape::StandsOut,
             1 => Shape::Line,
+            3 => Shape::Bent,
             _ => Shape::Hollow,
         }
     }
 
-    /// The shape of an edge between two faces. One that `stood_out` before does so a little longer, lest it come and go.
-    pub fn of(first: Side, second: Side, stood_out: bool) -> Shape {
+    /// The shape of an edge between two faces. One that stood out `before`, or was bent, does so a little longer, lest it come and go.
+    pub fn of(first: Side, second: Side, before: Shape) -> Shape {
         let (n, m) = (first.normal, second.normal);
-        let least = if stood_out { BLUNT } else { SHARP };
         let areas = (dot(n, n) * dot(m, m)).sqrt();
         // Over the distance between their middles the area is the length of the edge: tan² β/2 grows with the square of the ratio.
         let across = subtract(second.middle, first.middle);
         let longer = (areas.sqrt() / dot(across, across)).min(LONGEST);
         let longer = if longer < LONG { 1.0 } else { longer };
-        if (areas - dot(n, m)) * (1.0 + least) * longer <= (areas + dot(n, m)) * (1.0 - least) {
-            Shape::Line
-        } else if dot(subtract(second.middle, first.middle), n) < 0.0 {
-            Shape::StandsOut
-        } else {
-            Shape::Hollow
+        let is_flatter =
+            |cosine: f64| (areas - dot(n, m)) * (1.0 + cosine) * longer <= (areas + dot(n, m)) * (1.0 - cosine);
+        let is_sharp = !is_flatter(if before == Shape::StandsOut { BLUNT } else { SHARP });
+        let was_bent = matches!(before, Shape::StandsOut | Shape::Bent);
+        match dot(across, n) < 0.0 {
+            true if is_sharp => Shape::StandsOut,
+            false if is_sharp => Shape::Hollow,
+            true if !is_flatter(if was_bent { FLAT } else { BENT }) => Shape::Bent,
+            _ => Shape::Line,
         }
     }
 }
@@ -144,7 +156,7 @@ impl Edge {
         if self.is_ridge() {
             return if self.bulges(first.warp, faces) { Shape::Line } else { Shape::Hollow };
         }
-        if self.is_of_surface(faces) { Shape::StandsOut } else { Shape::of(first, second, self.stands_out()) }
+        if self.is_of_surface(faces) { Shape::StandsOut } else { Shape::of(first, second, self.shape) }
     }
 
     /// Whether the face of ridges bulges outwards along them.
@@ -306,7 +318,7 @@ fn beside(corners: [u32; 4], point: u32) -> impl Iterator<Item = u32> {
 /// Whether two faces turn away from each other at the edge that they share, at the beginning of the step.
 pub fn is_sharp_between(faces: &Faces, motion: &NodeMotion, both: [u32; 2]) -> bool {
     let [first, second] = both.map(|face| side(&faces.start(face, motion)));
-    Shape::of(first, second, false) == Shape::StandsOut
+    Shape::of(first, second, Shape::Line) == Shape::StandsOut
 }
 
 /// A face by its corners.

@@ -13,7 +13,7 @@ pub struct Regional {
     pub points: Boxes,
     pub faces: Boxes,
     pub edges: Boxes,
-    /// Edges that stand out whose first ends are here, ascending.
+    /// Edges that look around whose first ends are here, ascending.
     pub own_edges: Vec<u32>,
     /// Owner ranks of the corners of each face.
     pub face_owners: Vec<[u32; 4]>,
@@ -23,7 +23,7 @@ pub struct Regional {
 
 impl Regional {
     /// Sends points to their owner ranks, faces to every rank whose points they may meet, and edges to every rank that has the first
-    /// ends of edges that stand out and which they may cross. `faces` and `edges` are those of elements that are here. All ranks
+    /// ends of edges that look around and which they may cross. `faces` and `edges` are those of elements that are here. All ranks
     /// call it.
     pub fn gather(
         (faces, edges): (&[u32], &[u32]),
@@ -37,9 +37,9 @@ impl Regional {
         // a step does.
         let points = sent(neighbourhood::point_boxes(layout, contact_nodes), owner_rank, comm);
         let here = edges.iter().copied();
-        let standing_out = neighbourhood::standing_out(here.clone(), layout, contact_nodes);
+        let looking_around = neighbourhood::looking_around(here.clone(), layout, contact_nodes);
         let first_owner = |edge: u32| owner_rank(layout.edges[edge as usize].ends[0]);
-        let own_edges = sent(standing_out, first_owner, comm);
+        let own_edges = sent(looking_around, first_owner, comm);
         let occupied = occupied_by_all(&own_edges.boxes, comm);
         let own_edges = own_edges.ids;
         let cells: Vec<Box3> = occupied.iter().flat_map(Occupancy::boxes).collect();
@@ -55,7 +55,7 @@ impl Regional {
     }
 }
 
-/// Cells along each axis of the space in which a rank has points, or edges that stand out: every other rank learns
+/// Cells along each axis of the space in which a rank has points, or edges that look around: every other rank learns
 /// the 64 bytes of it, and the 48 of the box around.
 const CELLS: usize = 8;
 

@@ -40,7 +40,7 @@ pub struct SearchResult {
     pub first: Vec<u32>,
     /// Candidates, faces ascending.
     pub candidates: Vec<Candidate>,
-    /// Pairs of edges that may cross, ascending; the first stands out, and has the lower number where both do.
+    /// Pairs of edges that may cross, ascending; the first looks around, and has the lower number where both stand out or both are bent.
     pub pairs: Vec<[u32; 2]>,
 }
 
@@ -72,10 +72,10 @@ fn edge_box(edge: u32, layout: &Layout, contact_nodes: &ContactNodes) -> Box3 {
     contact_nodes.reach(edge.points(&layout.faces)).grown(reach)
 }
 
-/// Boxes of those of some edges that stand out, which all others that cross must meet.
-pub fn standing_out(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
+/// Boxes of those of some edges that look around: whatever they do not meet crosses nothing.
+pub fn looking_around(edges: impl Iterator<Item = u32>, layout: &Layout, contact_nodes: &ContactNodes) -> Boxes {
     let mut all = Boxes::default();
-    for edge in edges.filter(|&edge| layout.edges[edge as usize].stands_out()) {
+    for edge in edges.filter(|&edge| layout.looks_around(edge)) {
         all.push(edge, edge_box(edge, layout, contact_nodes));
     }
     all
@@ -108,13 +108,13 @@ pub fn edges_near(
     all
 }
 
-/// Cells along each axis of the space in which edges stand out.
+/// Cells along each axis of the space in which edges look around.
 pub const CELLS: usize = 64;
 
 /// Finds what there is to find on one rank: edges first, whose boxes are gone when those of points and faces come.
 pub fn find_alone(search: &mut dyn Search, layout: &Layout, contact_nodes: &ContactNodes) -> SearchResult {
     let all = 0..layout.edges.len() as u32;
-    let occupied = Occupancy::of(&standing_out(all.clone(), layout, contact_nodes).boxes, CELLS);
+    let occupied = Occupancy::of(&looking_around(all.clone(), layout, contact_nodes).boxes, CELLS);
     let edges = edges_near(all, &occupied, layout, contact_nodes);
     let pairs = crossings(search, &edges, |_| true, layout);
     drop(edges);
@@ -229,7 +229,7 @@ const TOGETHER: usize = 1 << 15;
 
 /// Crossings that `mine` among these edges can have with all of them, ascending.
 fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool, layout: &Layout) -> Vec<[u32; 2]> {
-    let asks = |edge: u32| mine(edge) && layout.edges[edge as usize].stands_out();
+    let asks = |edge: u32| mine(edge) && layout.looks_around(edge);
     let own: Vec<(u32, &Box3)> = edges.ids.iter().copied().zip(&edges.boxes).filter(|(edge, _)| asks(*edge)).collect();
     let mut pairs = Vec::new();
     for (ids, boxes) in edges.ids.chunks(TOGETHER).zip(edges.boxes.chunks(TOGETHER)) {
@@ -247,12 +247,10 @@ fn crossings(search: &mut dyn Search, edges: &Boxes, mine: impl Fn(u32) -> bool,
     pairs
 }
 
-/// Whether an edge that stands out may cross another: of two that stand out the one with the lower number asks, and none
-/// crosses itself.
+/// Whether an edge that looks around may cross another, as the first of both.
 fn may_cross(first: u32, other: u32, layout: &Layout) -> bool {
     let (one, another) = (&layout.edges[first as usize], &layout.edges[other as usize]);
     layout.meets(first, other)
-        && (other > first || !another.stands_out())
         && !one.ends.iter().any(|&end| layout.are_joined(end, &another.points(&layout.faces)))
         && !layout.exclusions.keep_edges_apart(one.faces, another.faces, &layout.faces)
         && edges::unrelated(one, another, &layout.faces)

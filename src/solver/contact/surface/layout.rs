@@ -55,15 +55,29 @@ impl Layout {
     pub fn takes_part(&self, edge: u32) -> bool {
         match self.edges[edge as usize].shape {
             Shape::StandsOut => true,
-            Shape::Line => self.lines || self.surfaces,
+            Shape::Bent | Shape::Line => self.lines || self.surfaces,
             Shape::Hollow => false,
         }
     }
 
-    /// Whether an edge that stands out meets another.
+    /// Whether an edge looks for others: what it does not find finds it, or does not meet it.
+    pub fn looks_around(&self, edge: u32) -> bool {
+        match self.edges[edge as usize].shape {
+            Shape::StandsOut => true,
+            Shape::Bent => self.lines,
+            Shape::Line | Shape::Hollow => false,
+        }
+    }
+
+    /// Whether an edge that looks around is the first of it and another: of two that stand out, or two bent ones, that with the lower number.
     pub fn meets(&self, edge: u32, other: u32) -> bool {
-        let of_surface = |edge: u32| self.edges[edge as usize].is_of_surface(&self.faces);
-        self.edges[other as usize].stands_out() || self.lines || of_surface(edge)
+        let [first, second] = [edge, other].map(|edge| &self.edges[edge as usize]);
+        match (first.shape, second.shape) {
+            (Shape::StandsOut, Shape::StandsOut) => other > edge,
+            (Shape::StandsOut, _) => self.lines || first.is_of_surface(&self.faces),
+            (Shape::Bent, Shape::Bent) => self.lines && other > edge,
+            _ => false,
+        }
     }
 
     /// Whether TIED CONTACT joins a point with any of some others.

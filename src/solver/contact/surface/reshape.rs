@@ -19,7 +19,7 @@ use std::sync::Arc;
 const EVERY: u64 = 100;
 
 /// Number of shapes.
-const SHAPES: u32 = 3;
+const SHAPES: u32 = 4;
 
 /// Number of thinnings.
 const THINNINGS: u32 = THINNEST as u32 + 1;

@@ -1,7 +1,7 @@
 //! Edges against edges: two edges that cross meet where no node meets a face, as when a corner hits an edge.
 //!
 //! Edges that stand out meet each other, and the lines of the mesh in faces that are flat or nearly so, into which they would
-//! sink between the nodes. The check of the former is that of nodes and faces: by motion for a pair that comes anew, where it
+//! sink between the nodes; of these those that are bent meet each other. The check of the former is that of nodes and faces: by motion for a pair that comes anew, where it
 //! would be at the end of the step for one that has touched before.
 
 mod constraint;
@@ -68,7 +68,7 @@ const SEAM: f64 = 2e-4;
 /// along the product of their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeContact {
-    /// The edges: ascending where both stand out, else the line second.
+    /// The edges: ascending where both stand out or both are bent, else the line second.
     pub pair: [u32; 2],
     /// +1 or −1.
     pub sense: f64,
@@ -82,9 +82,9 @@ pub struct EdgeContact {
 pub fn in_order(past: EdgeContact, edges: &[Edge]) -> Option<EdgeContact> {
     let [a, b] = past.pair;
     let swaps = match [a, b].map(|edge| edges[edge as usize].shape) {
-        [Shape::StandsOut, Shape::StandsOut] => a > b,
-        [Shape::StandsOut, Shape::Line] => false,
-        [Shape::Line, Shape::StandsOut] => true,
+        [Shape::StandsOut, Shape::StandsOut] | [Shape::Bent, Shape::Bent] => a > b,
+        [Shape::StandsOut, Shape::Bent | Shape::Line] => false,
+        [Shape::Bent | Shape::Line, Shape::StandsOut] => true,
         _ => return None,
     };
     // The product of their directions changes sign, and so does the way from one to the other: the sense stays.
