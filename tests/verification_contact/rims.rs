@@ -3,10 +3,11 @@
 //! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact. Both scenes were found among
 //! random ones (`energy`).
 
-use crate::support::between;
+use crate::support::bodies::{mean_velocity, nodes_of};
 use crate::support::meshes::recipe;
 use crate::support::penetration::{Skin, nothing_deeper};
 use crate::support::run::run;
+use crate::support::{between, close};
 
 /// The jaws of a clamp, of the thickness `jaw`, whose rim is flush with the plate between them.
 fn clamp(jaw: f64, cells: u32, opening: f64, plate: &str) -> String {
@@ -108,5 +109,44 @@ fn borders_of_shells_are_stopped_by_rims_of_solids_in_any_order() {
             let least = least_height_over_the_rim(tilt, shells_first);
             between(&format!("tilt {tilt}, shells first: {shells_first}"), "height over the rim", least, 0.594, 0.65);
         }
+    }
+}
+
+/// Velocity downwards, of 20, of a steel cube that has come down with a corner on a steel block, so far inside its rim.
+fn velocity_after_a_corner_at_the_rim(inside: f64) -> f64 {
+    let mut mesh = recipe(
+        "TITLE\n corner\nBOX, 1, 0., -0.4, -0.2, 1., 1., 0.2, 1, 1, 1\nBOX, 2, 0., 0., 0., 0.2, 0.2, 0.2, 1, 1, 1\n",
+    );
+    // The corner at the origin downwards: its diagonal is upright, and one of its faces looks at the side of the block.
+    let half = 0.5f64.sqrt();
+    let [x, y, z] =
+        [[half, -half, 0.0], [1.0, 1.0, -2.0].map(|c: f64| c / 6f64.sqrt()), [1.0; 3].map(|c: f64| c / 3f64.sqrt())];
+    for node in nodes_of(&mesh, 2) {
+        let at = mesh.coordinates[node];
+        let along = |axis: [f64; 3]| (0..3).map(|i| axis[i] * at[i]).sum::<f64>();
+        mesh.coordinates[node] = [along(y) + inside, -along(x), along(z) + 1e-3];
+    }
+    let material =
+        |block| format!("MATERIAL, {block}, ELASTIC, 7850.\nYOUNGS MODULUS = 200.E9\nPOISSONS RATIO = 0.3\nEND\n");
+    let deck = format!(
+        "TITLE\n corner\nTERMINATION TIME, 3.E-4\nPLOT TIME, 1.E-4\nPLOT NODAL, DISPLACEMENT, VELOCITY, MASS\nCONTACT MATERIAL\n\
+         INITIAL VELOCITY MATERIAL, 2, 0., 0., -20.\n{}{}",
+        material(1),
+        material(2)
+    );
+    let run = run(&deck, &mesh);
+    -mean_velocity(run.end(), &nodes_of(&mesh, 2))[2]
+}
+
+/// A corner that comes down on a block within a micrometre of its rim is over the block, however near: it was taken for one that slides down the side, and
+/// went in without a force.
+#[test]
+fn a_corner_is_stopped_at_any_distance_from_a_rim() {
+    let far = velocity_after_a_corner_at_the_rim(1e-3);
+    between("corner a millimetre inside a rim", "velocity after, of 20", far, -20.0, 18.0);
+    for inside in [1e-5, 1e-6, 1e-7, 0.0] {
+        let near = velocity_after_a_corner_at_the_rim(inside);
+        // The rim gives way with two of the corners of its face: a millimetre in a metre makes as little difference.
+        close(&format!("corner {inside} inside a rim"), "velocity after", near, far, 0.02);
     }
 }

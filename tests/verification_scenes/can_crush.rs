@@ -42,8 +42,10 @@ fn v29_energy_of_the_plates() {
 fn v29_coarse_can_is_crushed() {
     let text = with(RECIPE, "3,       40,     40,    HALF", "2,       24,     24,    HALF");
     let mesh = recipe(&with(&text, "28, 28, 3", "14, 14, 2"));
-    let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 2.E-5"), &mesh).whole();
-    // 13 of its 1,875 nodes in each of twelve runs with the plate faster by some parts in a million, and 19 while a node of the rim stumbled over the plate.
+    // In as many states as show touches that last for microseconds.
+    let run = run_on(2, &with(DECK, "PLOT TIME, 1.E-4", "PLOT TIME, 5.E-6"), &mesh).whole();
+    // 12 to 14 of its 1,875 nodes in twelve runs with the plate faster by parts of a thousandth; 13 to 15 while bent lines did not hold each other, and nodes
+    // did instead.
     check("V-29 coarse", &run, &mesh, [0.006, 0.05]);
     at_least(
         "V-29 coarse",
@@ -105,7 +107,8 @@ fn least_way_aside(run: &Run, mesh: &Mesh) -> f64 {
     let of_can = mesh.blocks[0].nodes.iter().map(|&n| n as usize).collect::<std::collections::BTreeSet<usize>>();
     let mut rim: Vec<usize> = of_can.into_iter().filter(is_rim).collect();
     rim.sort_by(|a, b| angle(*a).total_cmp(&angle(*b)));
-    let pushed = run.states.iter().filter(|state| (2.9e-4..=6.01e-4).contains(&state.time));
+    // Every fourth state: in 20 microseconds what is pushed goes some way.
+    let pushed = run.states.iter().step_by(4).filter(|state| (2.9e-4..=6.01e-4).contains(&state.time));
     let places = pushed.map(|state| state.positions(mesh));
     let x: Vec<Vec<f64>> = places.map(|places| rim.iter().map(|&n| places[n][0]).collect()).collect();
     let mut least = f64::INFINITY;

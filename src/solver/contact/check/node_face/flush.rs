@@ -152,7 +152,7 @@ impl NodeFaceCheck<'_> {
         let is_across =
             |other: &u32| !self.faces.is_two_sided(*other) && self.is_across(face, &through.weights, *other);
         let sides = faces_of(near).filter(is_across).filter(|&other| is_side(other));
-        self.beside(face).chain(sides).any(|other| self.slides_along(point, (through, foot), other))
+        self.beside(face).chain(sides).any(|other| self.slides_along((point, face), (through, foot), other))
     }
 
     /// Whether the middle of a face is behind the plane of another one.
@@ -171,7 +171,7 @@ impl NodeFaceCheck<'_> {
 
     /// Whether a point that comes through one face slides in the plane of another, in which its foot is on the first: at their border. Where the first
     /// leans inwards, its foot is below that border by a part of how deep the point is behind it.
-    fn slides_along(&self, point: u32, (through, foot): (&Projection, [f64; 3]), other: u32) -> bool {
+    fn slides_along(&self, (point, face): (u32, u32), (through, foot): (&Projection, [f64; 3]), other: u32) -> bool {
         if self.are_in_symmetry_plane(point, other) {
             return false;
         }
@@ -188,12 +188,14 @@ impl NodeFaceCheck<'_> {
         let near = |place, reach| {
             projection::project(&corners, place).filter(|projection: &Projection| projection.gap.abs() <= reach)
         };
-        // A tip slides only where it stays in the plane: the corner of what comes on is in several at once.
+        // A tip slides only where it stays in the plane: the corner of what comes on is in several at once. What comes down on a rim is in the plane
+        // beside it, too, but its body leads onto the face.
         let stays = || {
             let end = self.projection_at_end(point, other);
             end.is_some_and(|end| {
                 end.gap >= -reach
-                    && (self.has_face_opposed(point, &end.normal, -OPPOSED) || self.is_tip_over(point, end.normal))
+                    && (self.has_face_opposed(point, &end.normal, -OPPOSED) && !self.comes_over((point, face), 0.0)
+                        || self.is_tip_over(point, end.normal))
             })
         };
         near(foot, reach + below).is_some()
