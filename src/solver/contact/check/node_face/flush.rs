@@ -189,12 +189,13 @@ impl NodeFaceCheck<'_> {
             projection::project(&corners, place).filter(|projection: &Projection| projection.gap.abs() <= reach)
         };
         // A tip slides only where it stays in the plane: the corner of what comes on is in several at once. What comes down on a rim is in the plane
-        // beside it, too, but its body leads onto the face.
+        // beside it, too, but its body leads onto the face; so does what slides over a bend, into which it does not go.
+        let is_over_face = || lean > -OPPOSED && self.comes_over((point, face), 0.0);
         let stays = || {
             let end = self.projection_at_end(point, other);
             end.is_some_and(|end| {
                 end.gap >= -reach
-                    && (self.has_face_opposed(point, &end.normal, -OPPOSED) && !self.comes_over((point, face), 0.0)
+                    && (self.has_face_opposed(point, &end.normal, -OPPOSED) && !is_over_face()
                         || self.is_tip_over(point, end.normal))
             })
         };
