@@ -1,7 +1,7 @@
-//! Bodies with flush sides and hollow corners: a little beyond a border, nodes and edges are still held.
+//! Bodies with flush sides, hollow corners and rims: a little beyond a border, or exactly at it, nodes and edges are still held.
 //!
-//! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact. Both scenes were found among
-//! random ones (`energy`).
+//! Depths are measured by `crate::support::penetration`, which knows nothing of the solver's contact. The scenes were found among
+//! random ones.
 
 use crate::support::bodies::{mean_velocity, nodes_of};
 use crate::support::meshes::recipe;
